@@ -25,24 +25,41 @@ fn higher<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
-/// Box along the axes, in single precision and never smaller than what it encloses.
+/// Number of directions of a box.
+const DIRECTIONS: usize = 9;
+
+/// Factor of a margin along the diagonals, whose length is `$\sqrt 2$`; more than that by the rounding
+/// of a height that is a few margins.
+const DIAGONAL: f64 = std::f64::consts::SQRT_2 * (1.0 + 1e-12);
+
+/// Returns the heights of a point along the directions of a box, in m: the axes, and the diagonals
+/// between every two of them, not normalised.
+fn heights([x, y, z]: Vector) -> [f64; DIRECTIONS] {
+    [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x]
+}
+
+/// Box along nine directions (an 18-DOP \[Klo98\]), in single precision and never smaller than what it
+/// encloses.
+///
+/// Sheets that lie on each other at a slope have boxes along the axes that overlap those of many
+/// layers; the diagonals part these.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds {
-    pub(crate) low: [f32; 3],
-    pub(crate) high: [f32; 3],
+    low: [f32; DIRECTIONS],
+    high: [f32; DIRECTIONS],
 }
 
 impl Bounds {
     /// Box that overlaps nothing.
     pub(crate) const EMPTY: Bounds =
-        Bounds { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+        Bounds { low: [f32::INFINITY; DIRECTIONS], high: [f32::NEG_INFINITY; DIRECTIONS] };
 
     /// Returns the box around several.
     pub(crate) fn union(list: impl IntoIterator<Item = impl Borrow<Bounds>>) -> Bounds {
         let mut all = Bounds::EMPTY;
         for bounds in list {
             let bounds = bounds.borrow();
-            for k in 0..3 {
+            for k in 0..DIRECTIONS {
                 all.low[k] = lower(all.low[k], bounds.low[k]);
                 all.high[k] = higher(all.high[k], bounds.high[k]);
             }
@@ -52,22 +69,23 @@ impl Bounds {
 
     /// Returns whether two boxes overlap.
     pub(crate) fn overlaps(&self, other: &Bounds) -> bool {
-        (0..3).all(|k| self.low[k] <= other.high[k] && self.high[k] >= other.low[k])
+        (0..DIRECTIONS).all(|k| self.low[k] <= other.high[k] && self.high[k] >= other.low[k])
     }
 
     /// Returns the box of some points, widened by a margin, in m.
     pub(crate) fn around(points: impl IntoIterator<Item = Vector>, margin: f64) -> Bounds {
-        let (mut lows, mut highs) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let (mut lows, mut highs) = ([f64::INFINITY; DIRECTIONS], [f64::NEG_INFINITY; DIRECTIONS]);
         for point in points {
-            for k in 0..3 {
-                lows[k] = lower(lows[k], point[k]);
-                highs[k] = higher(highs[k], point[k]);
+            for (k, height) in heights(point).into_iter().enumerate() {
+                lows[k] = lower(lows[k], height);
+                highs[k] = higher(highs[k], height);
             }
         }
+        let margin = |k| if k < 3 { margin } else { DIAGONAL * margin };
         // One step outward exceeds the rounding to single precision and that of the sum.
         Bounds {
-            low: lows.map(|low| ((low - margin) as f32).next_down()),
-            high: highs.map(|high| ((high + margin) as f32).next_up()),
+            low: std::array::from_fn(|k| ((lows[k] - margin(k)) as f32).next_down()),
+            high: std::array::from_fn(|k| ((highs[k] + margin(k)) as f32).next_up()),
         }
     }
 }
@@ -75,20 +93,20 @@ impl Bounds {
 /// Four boxes side by side.
 #[derive(Debug, Clone, Copy)]
 struct Quad {
-    low: [f32x4; 3],
-    high: [f32x4; 3],
+    low: [f32x4; DIRECTIONS],
+    high: [f32x4; DIRECTIONS],
 }
 
 impl Quad {
     /// Boxes that overlap nothing.
     const EMPTY: Quad = Quad {
-        low: [f32x4::new([f32::INFINITY; WIDTH]); 3],
-        high: [f32x4::new([f32::NEG_INFINITY; WIDTH]); 3],
+        low: [f32x4::new([f32::INFINITY; WIDTH]); DIRECTIONS],
+        high: [f32x4::new([f32::NEG_INFINITY; WIDTH]); DIRECTIONS],
     };
 
     /// Sets the box of a lane.
     fn set(&mut self, lane: usize, bounds: &Bounds) {
-        for k in 0..3 {
+        for k in 0..DIRECTIONS {
             self.low[k].as_mut_array()[lane] = bounds.low[k];
             self.high[k].as_mut_array()[lane] = bounds.high[k];
         }
@@ -111,7 +129,12 @@ impl Quad {
     fn overlaps(&self, other: &Quad) -> u8 {
         let meet =
             |k: usize| self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k]);
-        (meet(0) & meet(1) & meet(2)).to_bitmask() as u8
+        // The axes alone part most.
+        let along_axes = meet(0) & meet(1) & meet(2);
+        if along_axes.to_bitmask() == 0 {
+            return 0;
+        }
+        (3..DIRECTIONS).fold(along_axes, |all, k| all & meet(k)).to_bitmask() as u8
     }
 }
 
@@ -230,4 +253,49 @@ impl Tree {
 /// Returns the values of an item function for the first `count` lanes, and `rest` for the others.
 pub(crate) fn array<T: Copy>(count: usize, rest: T, item: impl Fn(usize) -> T) -> [T; WIDTH] {
     std::array::from_fn(|k| if k < count { item(k) } else { rest })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vector::{add, cross, norm, scale};
+
+    #[test]
+    fn boxes_overlap_where_points_are_as_near_as_their_margins() {
+        // Along the axes and the diagonals a box is tight.
+        let signs = [-1.0, 0.0, 1.0];
+        let directions = signs.iter().flat_map(|x| signs.iter().map(move |y| [*x, *y]));
+        let directions = directions.flat_map(|[x, y]| signs.iter().map(move |z| [x, y, *z]));
+        for direction in directions.filter(|direction| norm(*direction) > 0.0) {
+            for margin in [1e-9, 7e-4, 0.3] {
+                for place in [[0.0; 3], [0.3, -0.1, 1e-3], [1e4, 3e5 + 0.1, -7e2]] {
+                    let apart = scale(direction, (1.0 - 1e-13) * 2.0 * margin / norm(direction));
+                    let [one, other] =
+                        [place, add(place, apart)].map(|point| Bounds::around([point], margin));
+                    assert!(one.overlaps(&other), "{direction:?} {margin} {place:?}");
+                    assert_eq!(Quad::splat(&one).overlaps(&Quad::splat(&other)), 0xf);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_of_layers_on_a_slope_part_where_those_along_the_axes_overlap() {
+        // Cells of 10 mm on a slope of 45°, one 3 mm off the other, with margins of 1 mm.
+        for tilt in [[1.0, 1.0, 0.0], [0.0, 1.0, -1.0], [-1.0, 0.0, 1.0]] {
+            let normal = scale(tilt, 0.5_f64.sqrt());
+            let level = cross(normal, [0.36, 0.48, 0.8]);
+            let level = scale(level, 1.0 / norm(level));
+            let steep = cross(normal, level);
+            let layer = |height: f64| {
+                let corner = |[u, v]: [f64; 2]| add(scale(level, u), scale(steep, v));
+                let corners = [[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]].map(corner);
+                Bounds::around(corners.map(|own| add(own, scale(normal, height))), 1e-3)
+            };
+            let [low, high] = [0.0, 3e-3].map(layer);
+            let along_axes =
+                (0..3).all(|k| low.low[k] <= high.high[k] && low.high[k] >= high.low[k]);
+            assert!(along_axes && !low.overlaps(&high), "{tilt:?}");
+        }
+    }
 }
