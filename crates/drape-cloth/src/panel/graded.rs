@@ -255,8 +255,8 @@ impl Levels {
         }
     }
 
-    /// Divides blocks until none touches a cell of less than half its side, and each has a corner that
-    /// no smaller block has.
+    /// Divides blocks until the sides of two that touch differ by a factor of two at most, and each block
+    /// has a corner that belongs to no smaller block.
     fn balance(&mut self) {
         loop {
             let divided: Vec<Block> = self

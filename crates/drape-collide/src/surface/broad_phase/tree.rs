@@ -28,8 +28,8 @@ fn higher<T: PartialOrd>(a: T, b: T) -> T {
 /// Number of directions of a box.
 const DIRECTIONS: usize = 9;
 
-/// Factor of a margin along the diagonals, whose length is `$\sqrt 2$`; more than that by the rounding
-/// of a height that is a few margins.
+/// Factor of a margin along the diagonals: their length `$\sqrt 2$`, and a little more for the rounding
+/// of the sum or difference of two coordinates.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2 * (1.0 + 1e-12);
 
 /// Returns the heights of a point along the directions of a box, in m: the axes, and the diagonals
