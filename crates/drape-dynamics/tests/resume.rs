@@ -246,7 +246,7 @@ traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_
 bending = { rigidity = 0.8e-5, friction = [{ plateau = 1e-4, length = 4.0 }] }
 "#;
 
-/// A tube of two halves that is sewn round a post and comes to rest on a plate.
+/// A tube of two halves that is sewn round a post, becomes heavy and comes to rest on a plate.
 fn tube() -> Scene {
     let half = |name: &str, z: &str, turn: &str| {
         format!(
@@ -265,7 +265,7 @@ fn tube() -> Scene {
          [[garment]]\nname = \"tube\"\npattern = \"tube.toml\"\nfabric = \"plain\"\n\
          [[collider.cylinder]]\nname = \"post\"\nradius = 0.03\nheight = 0.2\nfriction = 0.3\n\
          [[collider.cylinder]]\nname = \"plate\"\nradius = 0.15\nheight = 0.02\ncenter = [0, -0.12, 0]\nfriction = 0.3\n\
-         [time]\nstep = 0.005\nend = 20\n[settle]\nspeed = 0.01\nresidual = 0.01\n";
+         [time]\nstep = 0.005\nend = 20\nramp = 0.3\n[settle]\nspeed = 0.01\nresidual = 0.01\n";
     let documents = [Document::new("plain.toml", FABRIC), Document::new("tube.toml", pattern)];
     Scene::from_documents(&Document::new("scene.toml", text), &documents).unwrap()
 }

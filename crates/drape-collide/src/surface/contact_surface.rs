@@ -43,6 +43,14 @@ impl Surface {
         self.primitives.free
     }
 
+    /// Smallest of the vertices that a closed seam lets move only together with a vertex.
+    pub(crate) fn moving_class(&self, vertex: u32) -> u32 {
+        match self.separations.seam_gaps.is_empty() {
+            true => self.primitives.seams.moving_class(vertex),
+            false => vertex,
+        }
+    }
+
     /// Vertices of each triangle, as given.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {

@@ -6,7 +6,7 @@
 //! detection (CCD) with all rounding bounded:
 //!
 //! - one fraction `$t$` for all vertices, by conservative advancement \[Mir96\],
-//! - a fraction for each vertex, by two planes that divide the room of each pair \[Che26\].
+//! - a fraction for each vertex, by a plane between each pair \[Che26\] that moves with it.
 //!
 //! [`contact`](super::contact) passes trial steps of the solver here. This chapter uses
 //! [`tracked_pairs`](super::tracked_pairs) and [`distance`](super::distance).

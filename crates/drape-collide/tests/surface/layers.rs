@@ -3,7 +3,8 @@
 use crate::sheets::{sheets, surface};
 use crate::support::Dice;
 use drape_collide::{
-    CcdFilter, ContactDistances, Detector, PairKind, Surface, SurfaceParts, Sweep, intersections,
+    CcdFilter, ContactDistances, Detector, PairKind, PinchPolicy, Surface, SurfaceContact,
+    SurfaceParts, SurfaceSettings, SurfaceStep, Sweep, intersections,
 };
 
 const SPACING: f64 = 5e-3;
@@ -164,4 +165,100 @@ fn a_body_goes_on_as_one_piece() {
     }
     positions.iter_mut().zip(&displacement).for_each(|(x, w)| *x += w);
     assert!(smallest(&mut detector, &surface, &positions) >= 1.0);
+}
+
+/// Height of each layer of a stack after all but the lowest were told to go down by so much.
+fn fall(layers: usize, side: usize, drop: f64, rests: bool) -> Vec<f64> {
+    let (parts, mut positions) = stack(layers, side);
+    let surface = surface(&parts);
+    let moves = |k: usize| k % 3 == 2 && !(rests && parts.groups[k / 3] == 0);
+    let mut displacement: Vec<f64> =
+        (0..positions.len()).map(|k| if moves(k) { -drop } else { 0.0 }).collect();
+    let mut detector = Detector::default();
+    detector.detect_swept(&surface, &positions, Sweep::Individual(&displacement), 1e-4).unwrap();
+    CcdFilter::default().truncate(detector.pairs(), &positions, &mut displacement).unwrap();
+    positions.iter_mut().zip(&displacement).for_each(|(x, w)| *x += w);
+    assert!(intersections(&surface, &positions).unwrap().is_empty());
+    let heights = positions.chunks(3 * side * side).map(|layer| {
+        assert!(layer.chunks(3).all(|place| (place[2] - layer[2]).abs() < 1e-9));
+        layer[2]
+    });
+    heights.collect()
+}
+
+#[test]
+fn layers_that_move_together_keep_their_step() {
+    let drop = 12.0 * LAYER_GAP;
+    for (layer, height) in fall(6, 6, drop, false).into_iter().enumerate() {
+        assert!((height - (LAYER_GAP * layer as f64 - drop)).abs() < 1e-12, "{layer}: {height}");
+    }
+}
+
+#[test]
+fn a_layer_falls_as_far_as_the_one_below_it_and_the_room_between_them() {
+    let kept = 2.0 * DISTANCES.min_separation;
+    let left = kept + 0.1 * (LAYER_GAP - kept);
+    for (layer, height) in fall(6, 6, 12.0 * LAYER_GAP, true).into_iter().enumerate() {
+        assert!((height - left * layer as f64).abs() < 1e-9, "{layer}: {height}");
+    }
+}
+
+/// Displacements that are left where one corner of the upper of two sheets is told to go through the
+/// lower one and the rest of it sinks a little, with seams and held vertices.
+fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f64) {
+    let settings = SurfaceSettings {
+        stiffness: 1e8,
+        sticking_displacement: 1e-5,
+        friction_coefficients: vec![0.0; 4],
+        pinch: PinchPolicy::Error,
+    };
+    let mut contact = SurfaceContact::new(Surface::new(parts).unwrap(), settings, vec![]).unwrap();
+    contact.begin(positions, &[]);
+    let vertices = positions.len() / 3;
+    let mut displacements: Vec<f64> = (0..positions.len())
+        .map(|k| match k / 3 {
+            vertex if k % 3 < 2 || vertex < vertices / 2 => 0.0,
+            vertex if vertex == vertices / 2 => -100.0 * LAYER_GAP,
+            _ => -0.1 * LAYER_GAP,
+        })
+        .collect();
+    let mut obstacle_advance = 1.0;
+    let whole = contact.limit_step(SurfaceStep {
+        start: positions,
+        displacements: &mut displacements,
+        held,
+        obstacle_time: 0.0,
+        obstacle_advance: &mut obstacle_advance,
+    });
+    assert!(!whole);
+    (displacements.chunks(3).map(|displacement| displacement[2]).collect(), obstacle_advance)
+}
+
+#[test]
+fn vertices_that_seams_join_or_tie_and_held_ones_keep_a_common_fraction() {
+    let side = 5;
+    let corner = side * side;
+    let others = [corner + 12, corner + 18, corner + 24];
+    let [a, b, c] = others.map(|vertex| vertex as u32);
+    let (parts, positions) = stack(2, side);
+    let small = -0.1 * LAYER_GAP;
+    let (free, advance) = sink(parts.clone(), &positions, &[]);
+    let fraction = free[corner] / (-100.0 * LAYER_GAP);
+    assert!(fraction > 0.0 && fraction < 0.01 && advance == 1.0, "{fraction} {advance}");
+    assert!(others.iter().all(|&vertex| free[vertex] == small), "{free:?}");
+    let seams = SurfaceParts {
+        seam_pairs: vec![[corner as u32, a]],
+        ties: vec![[a, b, c]],
+        ..parts.clone()
+    };
+    let (sewn, _) = sink(seams, &positions, &[]);
+    let (held, advance) = sink(parts, &positions, &[corner, others[0], others[1], others[2]]);
+    assert!((advance / fraction - 1.0).abs() < 1e-9, "{advance} {fraction}");
+    for left in [sewn, held] {
+        assert!((left[corner] / free[corner] - 1.0).abs() < 1e-9);
+        for vertex in others {
+            assert!((left[vertex] / (fraction * small) - 1.0).abs() < 1e-9, "{}", left[vertex]);
+        }
+        assert_eq!(left[corner + 6], small);
+    }
 }

@@ -156,8 +156,8 @@ impl StepFilter for ReducedSystem<'_> {
         let limit = self.at(step.start, |world, positions| {
             world.limit_step(TrialStep { start: positions, displacements: &mut all, ..step })
         });
-        // Any fraction of a step that is free of intersections is so too: the shortest counts for
-        // all merged particles.
+        // Contact keeps a common fraction of what merged and tied particles do together, to rounding
+        // of its own, for which it leaves room.
         if !limit.is_whole() {
             self.reduction.shorten(&all, step.displacements);
         }

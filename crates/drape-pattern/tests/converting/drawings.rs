@@ -183,6 +183,9 @@ fn transforms_shapes_and_lines_drawn_apart_make_outlines() {
         &["outline \"f\" is open: 3.0 mm", "join the ends"],
     );
     read("d.svg", &svg("<path id=\"f\" d=\"M0 0H100V100H0V0\"/>"));
+    // A mark that is almost closed is no outline, for it is small.
+    let mark = "<rect width=\"100\" height=\"90\"/><path d=\"M40 40H50V50H40V40.5\"/>";
+    assert_eq!(read("d.svg", &svg(mark)).panels().len(), 1);
     refused(
         "d.svg",
         &svg("<path id=\"f\" d=\"M0 0L100 100H0L100 0Z\"/>"),

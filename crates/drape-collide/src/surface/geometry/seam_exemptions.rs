@@ -14,6 +14,8 @@ struct Tie {
 pub(crate) struct SeamExemptions {
     /// Class of each vertex: the smallest of the vertices that seams join with it.
     class: Vec<u32>,
+    /// The same, with vertices and those between which they are tied in one class.
+    moving_class: Vec<u32>,
     /// Tied vertices, sorted.
     ties: Vec<Tie>,
 }
@@ -26,18 +28,26 @@ impl SeamExemptions {
         ties: &[[u32; 3]],
     ) -> SeamExemptions {
         let class = equivalence_classes(vertices, seam_pairs);
+        let tied = ties.iter().flat_map(|&[own, a, b]| [[own, a], [own, b]]);
+        let moving: Vec<[u32; 2]> = seam_pairs.iter().copied().chain(tied).collect();
+        let moving_class = equivalence_classes(vertices, &moving);
         let tie = |tie: &[u32; 3]| {
             let [own, a, b] = tie.map(|vertex| class[vertex as usize]);
             Tie { own, ends: [a, b] }
         };
         let mut ties: Vec<Tie> = ties.iter().map(tie).collect();
         ties.sort_unstable();
-        SeamExemptions { class, ties }
+        SeamExemptions { class, moving_class, ties }
     }
 
     /// Class of a vertex.
     pub(crate) fn class(&self, vertex: u32) -> u32 {
         self.class[vertex as usize]
+    }
+
+    /// Smallest of the vertices that can only move together with a vertex.
+    pub(crate) fn moving_class(&self, vertex: u32) -> u32 {
+        self.moving_class[vertex as usize]
     }
 
     /// Returns whether two primitives, given by the classes of their vertices, are joined: they

@@ -3,7 +3,7 @@
 use super::common_fraction::{StepFraction, common_fraction};
 use super::safeguards::Safeguards;
 use super::trial::{Drift, Trial};
-use super::truncation::{Truncation, Truncator};
+use super::truncation::{Truncation, Truncator, WholeStep};
 use crate::error::Error;
 use crate::surface::broad_phase::CandidatePairs;
 use crate::surface::placement::StepStart;
@@ -11,8 +11,8 @@ use crate::surface::placement::StepStart;
 /// Filter that limits steps such that no two primitives come below their minimum separation.
 ///
 /// Positions are flat, for all vertices of the surface, bodies included, and so are displacements;
-/// where bodies rest, those of the free vertices will do. Its
-/// results are proofs for the straight trajectory of each vertex from `x` to `x + dx` as rounded:
+/// where bodies rest, those of the free vertices will do. Its results are proofs for vertices that
+/// all move at the same time, straight from `x` to `x + dx` as rounded:
 /// every listed pair keeps a twentieth of its clearance, and every other pair stays beyond its
 /// activation distance as long as no vertex drifts farther than 0.45 margins from the reference
 /// positions of the pairs or from the trajectories along which they were detected. The filter
@@ -23,6 +23,8 @@ use crate::surface::placement::StepStart;
 pub struct CcdFilter {
     drift: Drift,
     truncator: Truncator,
+    /// Displacements before a truncation, in m.
+    whole: Vec<f64>,
     pub(crate) safeguards: Safeguards,
 }
 
@@ -67,11 +69,11 @@ impl CcdFilter {
 
     /// Truncates the displacement of each vertex by as much as its own pairs need, in place.
     ///
-    /// Divide and truncate \[Che26\]: two parallel planes between the closest points of a pair, as
-    /// far apart as the minimum separation, divide the room between them by the speeds at which the
-    /// two approach. Each vertex stays on its side of all its planes, so one pair does not void the
-    /// proof of another, and the step loses its direction only where something is near. The
-    /// vertices of bodies move by a common fraction.
+    /// As in \[Che26\], two primitives that approach each other divide their room by the speeds at
+    /// which they do. Here the plane between them moves: one that follows another gains the way that
+    /// this one goes, so that layers keep what they do together. A limit of one vertex may ask for
+    /// others; limits are repeated until no pair takes more than its room. The step loses its
+    /// direction only where something is near. The vertices of bodies move by a common fraction.
     ///
     /// # Errors
     ///
@@ -82,20 +84,24 @@ impl CcdFilter {
         positions: &[f64],
         displacements: &mut [f64],
     ) -> Result<Truncation, Error> {
-        self.truncate_from(pairs, StepStart::new(positions), displacements)
+        self.truncate_from(pairs, StepStart::new(positions), displacements, &[])
     }
 
     /// Truncates the same displacements from a start at which only some vertices may have moved.
+    /// Vertices of a group move by a common fraction; see [`WholeStep::groups`].
     pub(crate) fn truncate_from(
         &mut self,
         pairs: &CandidatePairs,
         start: StepStart<'_>,
         displacements: &mut [f64],
+        groups: &[u32],
     ) -> Result<Truncation, Error> {
         let smallest = self.drift.measure(pairs, (start, displacements), false, self.safeguards)?;
-        let positions = start.positions;
-        let step = Trial { positions, displacements, smallest };
-        let at_drift_budget = self.truncator.divide(pairs, &step, &self.drift, self.safeguards);
-        Ok(self.truncator.truncate(pairs, positions, displacements, at_drift_budget))
+        let Self { drift, truncator, whole, safeguards } = self;
+        whole.clear();
+        whole.extend_from_slice(displacements);
+        let trial = Trial { positions: start.positions, displacements: whole, smallest };
+        let step = WholeStep { pairs, trial, drift, groups, safeguards: *safeguards };
+        Ok(truncator.truncate(step, displacements))
     }
 }

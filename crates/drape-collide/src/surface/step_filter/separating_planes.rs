@@ -59,50 +59,20 @@ impl SeparatingPlane {
         (low - high) * (1.0 - UNIT - f64::EPSILON) > min_separation * (1.0 + f64::EPSILON)
     }
 
+    /// Returns by how much each vertex is farther from the other primitive than the nearest, in m.
+    pub(crate) fn offsets(&self, pair: &Pair) -> [f64; 4] {
+        let first = pair.first_vertices();
+        std::array::from_fn(|k| {
+            if k < first { self.heights[k] - self.low } else { self.high - self.heights[k] }
+        })
+    }
+
     /// Returns by how much each vertex approaches the other primitive for displacements, in m.
     pub(crate) fn approaches(&self, pair: &Pair, displacements: [Vector; 4]) -> [f64; 4] {
         let first = pair.first_vertices();
         std::array::from_fn(|k| {
             let speed = dot(self.normal, displacements[k]);
             if k < first { -speed } else { speed }
-        })
-    }
-}
-
-/// Two parallel planes that divide the room of a pair: each primitive stays on its side of one.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct DividingPlanes {
-    /// Unit normal.
-    pub(crate) normal: Vector,
-    /// Origin of heights, in m.
-    pub(crate) origin: Vector,
-    /// Least height of the first primitive's vertices, in m.
-    pub(crate) low: f64,
-    /// Largest height of the second's vertices, in m.
-    pub(crate) high: f64,
-}
-
-impl DividingPlanes {
-    /// Planes of a pair that needs none: every height is allowed.
-    pub(crate) const NONE: DividingPlanes = DividingPlanes {
-        normal: [0.0; 3],
-        origin: [0.0; 3],
-        low: f64::NEG_INFINITY,
-        high: f64::INFINITY,
-    };
-
-    /// Returns whether every height is allowed.
-    pub(crate) fn is_none(&self) -> bool {
-        self.low == f64::NEG_INFINITY
-    }
-
-    /// Returns which of the pair's vertices are surely on their side.
-    pub(crate) fn on_side(&self, pair: &Pair, points: [Vector; 4]) -> [bool; 4] {
-        let first = pair.first_vertices();
-        std::array::from_fn(|k| {
-            let Height { value, error } = height(self.normal, points[k], self.origin);
-            // NaN fails.
-            if k < first { value - error >= self.low } else { value + error <= self.high }
         })
     }
 }

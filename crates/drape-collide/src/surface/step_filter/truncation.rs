@@ -1,26 +1,40 @@
-//! Truncation of a step vertex by vertex, by planes that divide the room of each pair.
+//! Truncation of a step vertex by vertex, by the room that each pair has to approach.
+//!
+//! All vertices move at the same time. Over the plane between the closest points of a pair the lowest
+//! height of the first primitive is then concave in time, and the highest of the second convex: a
+//! pair that keeps a tenth of its clearance at the end of the step has kept as much all along.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
 use super::safeguards::Safeguards;
-use super::separating_planes::{DividingPlanes, SeparatingPlane};
+use super::separating_planes::SeparatingPlane;
 use super::trial::{CHUNK, CLOSED, Drift, Trial};
 use crate::surface::broad_phase::CandidatePairs;
+use crate::surface::distance::{Height, height};
 use crate::surface::pair::Pair;
-use crate::vector::{add, at, at_or_zero};
+use crate::vector::{Vector, add, at, at_or_zero};
 
-/// Smallest part of the room between two primitives that either of them has.
-const LEAST_PART: f64 = 0.05;
-
-/// Part of the room up to which rounding may take a vertex; above [`CLOSED`].
+/// Part of the clearance by which rounding may let a pair approach; above [`CLOSED`].
 const ROUNDED: f64 = 0.95;
+
+/// Fraction of its room by which a pair may approach without a test of the end.
+const SAFE: f64 = 0.9;
+
+/// Excess of an approach over its room, relative to it, that is rounding.
+const EXCESS: f64 = 1e-9;
+
+/// Most rounds of limits; a layer that stops stops the one above it in the next round.
+const ROUNDS: usize = 200;
+
+/// Most ends of a step that are tested before it is given up.
+const ENDS: usize = 20;
 
 /// Result of a step that was truncated vertex by vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truncation {
-    /// Common fraction of the displacements of bodies.
+    /// Common fraction of the displacements of all that moves by prescription.
     pub body_fraction: f64,
     /// Smallest fraction of a vertex.
     pub least_fraction: f64,
@@ -32,188 +46,280 @@ pub struct Truncation {
     pub frozen: usize,
 }
 
-/// Counts of a division of the room.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Division {
-    at_drift_budget: usize,
-    frozen: usize,
+/// Step before its truncation, with the pairs that may meet on it.
+#[derive(Clone, Copy)]
+pub(super) struct WholeStep<'a> {
+    pub(super) pairs: &'a CandidatePairs,
+    pub(super) trial: Trial<'a>,
+    pub(super) drift: &'a Drift,
+    /// Group of each free vertex; each vertex is a group if there are none.
+    pub(super) groups: &'a [u32],
+    pub(super) safeguards: Safeguards,
 }
 
-/// Fractions of vertices and planes of pairs of a truncation.
+impl WholeStep<'_> {
+    /// Group of a vertex. All bodies are one, with the number of free vertices.
+    fn group(&self, vertex: usize) -> usize {
+        match self.groups.get(vertex) {
+            Some(&group) => group as usize,
+            None => vertex.min(self.pairs.free),
+        }
+    }
+}
+
+/// Approach of a pair in a whole step, and its room.
+#[derive(Debug, Clone, Copy)]
+struct Approach {
+    vertices: [u32; 4],
+    groups: [u32; 4],
+    /// Number of vertices of the first primitive.
+    first: usize,
+    /// By how much each vertex approaches the other primitive, in m.
+    approaches: [f64; 4],
+    /// By how much each vertex is farther from the other primitive than the nearest, in m.
+    offsets: [f64; 4],
+    /// By how much the two may approach, in m.
+    room: f64,
+    normal: Vector,
+    /// Least difference between the heights of the two at the end, in m.
+    kept: f64,
+}
+
+/// Fractions of the groups of vertices and approaches of the pairs of a truncation.
 #[derive(Debug, Default)]
 pub(super) struct Truncator {
-    /// Fraction of each vertex as bits: those of positive numbers are in order.
+    /// Fraction of each group as bits: those of positive numbers are in order.
     fractions: Vec<AtomicU64>,
-    planes: Vec<DividingPlanes>,
+    /// Fractions before the round in hand.
+    before: Vec<f64>,
+    /// Pairs of each chunk of the candidates that may come too near; lists beyond these are empty.
+    chunks: Vec<Vec<Approach>>,
 }
 
 impl Truncator {
-    /// Divides the room of all pairs, and limits the fraction of each vertex by it.
-    pub(super) fn divide(
-        &mut self,
-        pairs: &CandidatePairs,
-        step: &Trial<'_>,
-        drift: &Drift,
-        safeguards: Safeguards,
-    ) -> Division {
-        let vertices = step.positions.len() / 3;
-        self.fractions.resize_with(vertices, AtomicU64::default);
-        self.planes.resize(pairs.as_slice().len(), DividingPlanes::NONE);
-        let mut planes = std::mem::take(&mut self.planes);
+    /// Writes the displacements that are left of a step. The vertices of a group move by a common
+    /// fraction of theirs.
+    pub(super) fn truncate(&mut self, step: WholeStep<'_>, left: &mut [f64]) -> Truncation {
+        let WholeStep { pairs, trial, drift, safeguards, .. } = step;
+        let vertices = trial.positions.len() / 3;
+        self.fractions.resize_with(vertices + 1, AtomicU64::default);
+        self.fractions.iter_mut().for_each(|fraction| *fraction.get_mut() = 1f64.to_bits());
         let mut at_drift_budget = 0;
-        for vertex in 0..vertices {
-            let limited = safeguards.drift_budget && vertex < drift.vertices();
-            let fraction = match limited {
-                true => drift.budget_fraction(pairs, step, vertex),
-                false => 1.0,
-            };
-            at_drift_budget += usize::from(fraction < 1.0);
-            self.fractions[vertex].store(fraction.to_bits(), Ordering::Relaxed);
+        if safeguards.drift_budget {
+            for vertex in 0..drift.vertices() {
+                let fraction = drift.budget_fraction(pairs, &trial, vertex);
+                at_drift_budget += usize::from(fraction < 1.0);
+                self.limit(step.group(vertex), fraction);
+            }
         }
-        let chunks = pairs.as_slice().par_chunks(CHUNK).zip(planes.par_chunks_mut(CHUNK));
-        let frozen = chunks.map(|(chunk, planes)| {
+        let frozen = self.find_approaches(&step);
+        for end in 0..=ENDS {
+            self.settle();
+            if end == ENDS {
+                self.fractions.iter_mut().for_each(|fraction| *fraction.get_mut() = 0);
+            }
+            let all = left.as_chunks_mut::<3>().0.iter_mut().enumerate();
+            for ((vertex, left), whole) in all.zip(trial.displacements.as_chunks::<3>().0) {
+                let fraction = self.fraction(step.group(vertex));
+                *left = whole.map(|component| fraction * component);
+            }
+            if self.stop_unproved(trial.positions, left) {
+                break;
+            }
+        }
+        let fractions = || (0..vertices).map(|vertex| self.fraction(step.group(vertex)));
+        Truncation {
+            body_fraction: self.fraction(pairs.free),
+            least_fraction: fractions().fold(1.0, f64::min),
+            shortened: fractions().filter(|fraction| *fraction < 1.0).count(),
+            at_drift_budget,
+            frozen,
+        }
+    }
+
+    /// Fraction of a group.
+    fn fraction(&self, group: usize) -> f64 {
+        f64::from_bits(self.fractions[group].load(Ordering::Relaxed))
+    }
+
+    /// Limits the fraction of a group. The least of all limits does not depend on their order.
+    fn limit(&self, group: usize, fraction: f64) {
+        let fraction = if fraction > 0.0 { fraction } else { 0.0 };
+        self.fractions[group].fetch_min(fraction.to_bits(), Ordering::Relaxed);
+    }
+
+    /// Finds the pairs that may come too near. Stops what approaches where there is no room, and
+    /// returns the number of these pairs.
+    fn find_approaches(&mut self, step: &WholeStep<'_>) -> usize {
+        let candidates = step.pairs.as_slice().par_chunks(CHUNK);
+        let mut chunks = std::mem::take(&mut self.chunks);
+        if chunks.len() < candidates.len() {
+            chunks.resize_with(candidates.len(), Vec::new);
+        }
+        chunks.iter_mut().for_each(Vec::clear);
+        let frozen = candidates.zip(&mut chunks).map(|(candidates, chunk)| {
             let mut frozen = 0;
-            for (pair, planes) in chunk.iter().zip(planes) {
-                *planes = DividingPlanes::NONE;
-                if !drift.stays_apart(pair, step) {
-                    frozen += usize::from(self.divide_pair(pair, step, planes, safeguards));
+            for pair in candidates.iter().filter(|pair| !step.drift.stays_apart(pair, &step.trial))
+            {
+                let plane = SeparatingPlane::new(pair, pair.points(step.trial.positions));
+                let approach = Approach::new(pair, &plane, step);
+                if approach.room > 0.0 {
+                    chunk.extend((!approach.is_safe()).then_some(approach));
+                    continue;
+                }
+                frozen += 1;
+                if step.safeguards.freeze {
+                    self.freeze(&approach, plane.low > plane.high);
+                    chunk.push(approach);
                 }
             }
             frozen
         });
         let frozen = frozen.sum();
-        self.planes = planes;
-        Division { at_drift_budget, frozen }
-    }
-
-    /// Truncates the displacements, after the division of the room.
-    pub(super) fn truncate(
-        &self,
-        pairs: &CandidatePairs,
-        positions: &[f64],
-        displacements: &mut [f64],
-        division: Division,
-    ) -> Truncation {
-        let vertices = positions.len() / 3;
-        let bodies = self.least_fraction(pairs.free..vertices);
-        for (vertex, displacement) in displacements.chunks_exact_mut(3).enumerate() {
-            let fraction = if vertex < pairs.free { self.fraction(vertex) } else { bodies };
-            displacement.iter_mut().for_each(|component| *component *= fraction);
-            self.fractions[vertex].store(fraction.to_bits(), Ordering::Relaxed);
-        }
-        self.take_back(pairs, positions, displacements);
-        let fractions = (0..vertices).map(|vertex| self.fraction(vertex));
-        Truncation {
-            body_fraction: self.least_fraction(pairs.free..vertices),
-            least_fraction: self.least_fraction(0..vertices),
-            shortened: fractions.filter(|fraction| *fraction < 1.0).count(),
-            at_drift_budget: division.at_drift_budget,
-            frozen: division.frozen,
-        }
-    }
-
-    /// Fraction of a vertex.
-    fn fraction(&self, vertex: usize) -> f64 {
-        f64::from_bits(self.fractions[vertex].load(Ordering::Relaxed))
-    }
-
-    /// Least fraction of some vertices.
-    fn least_fraction(&self, vertices: std::ops::Range<usize>) -> f64 {
-        vertices.map(|vertex| self.fraction(vertex)).fold(1.0, f64::min)
-    }
-
-    /// Limits the fraction of a vertex. The least of all limits does not depend on their order.
-    fn limit(&self, vertex: u32, fraction: f64) {
-        let fraction = if fraction > 0.0 { fraction } else { 0.0 };
-        self.fractions[vertex as usize].fetch_min(fraction.to_bits(), Ordering::Relaxed);
-    }
-
-    /// Divides the room of a pair, and returns whether it is frozen for lack of room.
-    fn divide_pair(
-        &self,
-        pair: &Pair,
-        step: &Trial<'_>,
-        planes: &mut DividingPlanes,
-        safeguards: Safeguards,
-    ) -> bool {
-        let points = pair.points(step.positions);
-        let plane = SeparatingPlane::new(pair, points);
-        let clearance = plane.clearance(pair.min_separation);
-        let approaches = plane.approaches(pair, step.displacements(pair));
-        let first = pair.first_vertices();
-        let fastest = |list: &[f64]| list.iter().fold(0.0, |a: f64, b| a.max(*b));
-        let [above, below] = [fastest(&approaches[..first]), fastest(&approaches[first..])];
-        // The faster one has more.
-        let both = above + below;
-        let part = if both > 0.0 { below / both } else { 0.5 };
-        let part = part.clamp(LEAST_PART, 1.0 - LEAST_PART);
-        let room = [clearance * (1.0 - part), clearance * part];
-        *planes = DividingPlanes {
-            normal: plane.normal,
-            origin: points[0],
-            low: plane.low - ROUNDED * room[0],
-            high: plane.high + ROUNDED * room[1],
-        };
-        // NaN freezes the pair.
-        let open = clearance > step.smallest
-            && SeparatingPlane::holds(planes.low, planes.high, pair.min_separation);
-        if !open {
-            if safeguards.freeze {
-                (planes.low, planes.high) = (plane.low, plane.high);
-                self.freeze(pair, plane.low > plane.high, approaches);
-            } else {
-                *planes = DividingPlanes::NONE;
-            }
-            return true;
-        }
-        for (k, approach) in approaches.into_iter().enumerate() {
-            let slack = if k < first {
-                plane.heights[k] - plane.low + CLOSED * room[0]
-            } else {
-                plane.high - plane.heights[k] + CLOSED * room[1]
-            };
-            if slack < approach {
-                self.limit(pair.vertices[k], slack / approach);
-            }
-        }
-        false
+        self.chunks = chunks;
+        frozen
     }
 
     /// Lets no vertex of a pair approach, and none move if the two are not parted.
-    fn freeze(&self, pair: &Pair, parted: bool, approaches: [f64; 4]) {
-        for (vertex, approach) in pair.vertices.into_iter().zip(approaches) {
+    fn freeze(&self, pair: &Approach, parted: bool) {
+        for (group, approach) in pair.groups.into_iter().zip(pair.approaches) {
             if !(parted && approach <= 0.0) {
-                self.limit(vertex, 0.0);
+                self.limit(group as usize, 0.0);
             }
         }
     }
 
-    /// Takes vertices back to their start that are not surely on their side of a plane at their
-    /// end.
-    ///
-    /// The planes hold at the start, so going back voids the proof of no other pair.
-    fn take_back(&self, pairs: &CandidatePairs, positions: &[f64], displacements: &mut [f64]) {
-        let chunks = pairs.as_slice().par_chunks(CHUNK).zip(self.planes.par_chunks(CHUNK));
-        chunks.for_each(|(pairs, planes)| {
-            for (pair, planes) in pairs.iter().zip(planes).filter(|(_, planes)| !planes.is_none()) {
-                let ends = pair.vertices.map(|vertex| {
+    /// Limits the fractions until no pair approaches by more than its room.
+    fn settle(&mut self) {
+        for _ in 0..ROUNDS {
+            let now = self
+                .fractions
+                .iter()
+                .map(|fraction| f64::from_bits(fraction.load(Ordering::Relaxed)));
+            self.before.clear();
+            self.before.extend(now);
+            let changed = self.chunks.par_iter().map(|chunk| {
+                let mut changed = false;
+                for approach in chunk {
+                    let Some(limits) = approach.limits(&self.before) else { continue };
+                    changed = true;
+                    for (group, limit) in approach.groups.into_iter().zip(limits) {
+                        self.limit(group as usize, limit);
+                    }
+                }
+                changed
+            });
+            if !changed.reduce(|| false, |one, other| one | other) {
+                return;
+            }
+        }
+        // A smaller part of all that moves takes less of the room of each pair.
+        let part = self.chunks.iter().flatten().map(|approach| {
+            let [above, below] =
+                approach.at_fractions(approach.groups.map(|group| self.fraction(group as usize)));
+            if above + below > approach.room { approach.room / (above + below) } else { 1.0 }
+        });
+        let part = part.fold(1.0, f64::min);
+        for group in 0..self.fractions.len() {
+            self.limit(group, part * self.fraction(group));
+        }
+    }
+
+    /// Stops the vertices of the pairs that are not proved apart at the end of a step. Returns
+    /// whether there are none.
+    fn stop_unproved(&self, positions: &[f64], displacements: &[f64]) -> bool {
+        let proved = self.chunks.par_iter().map(|chunk| {
+            let mut proved = true;
+            for approach in chunk {
+                let start = approach.vertices.map(|vertex| at(positions, vertex as usize));
+                let end = approach.vertices.map(|vertex| {
                     let vertex = vertex as usize;
                     add(at(positions, vertex), at_or_zero(displacements, vertex))
                 });
-                for (vertex, on_side) in pair.vertices.into_iter().zip(planes.on_side(pair, ends)) {
-                    if !on_side {
-                        self.limit(vertex, 0.0);
-                    }
+                if !(start == end || approach.is_proved(end, start[0])) {
+                    proved = false;
+                    approach.groups.iter().for_each(|&group| self.limit(group as usize, 0.0));
                 }
             }
+            proved
         });
-        let bodies = self.least_fraction(pairs.free..positions.len() / 3);
-        for (vertex, displacement) in displacements.chunks_exact_mut(3).enumerate() {
-            let stays = self.fraction(vertex) == 0.0 || (vertex >= pairs.free && bodies == 0.0);
-            if stays {
-                displacement.fill(0.0);
-                self.limit(vertex as u32, 0.0);
+        proved.reduce(|| true, |one, other| one & other)
+    }
+}
+
+impl Approach {
+    /// Approach of a pair at a plane that separates its primitives; without room if it must not
+    /// approach.
+    fn new(pair: &Pair, plane: &SeparatingPlane, step: &WholeStep<'_>) -> Approach {
+        let clearance = plane.clearance(pair.min_separation);
+        let apart = plane.low - plane.high;
+        let kept = apart - ROUNDED * clearance;
+        // NaN leaves no room.
+        let open = clearance > step.trial.smallest
+            && SeparatingPlane::holds(kept, 0.0, pair.min_separation);
+        Approach {
+            vertices: pair.vertices,
+            groups: pair.vertices.map(|vertex| step.group(vertex as usize) as u32),
+            first: pair.first_vertices(),
+            approaches: plane.approaches(pair, step.trial.displacements(pair)),
+            offsets: plane.offsets(pair),
+            room: if open { CLOSED * clearance } else { 0.0 },
+            normal: plane.normal,
+            kept: if open { kept } else { apart },
+        }
+    }
+
+    /// Returns whether the room is enough with all rounding, whatever fractions are taken.
+    fn is_safe(&self) -> bool {
+        let [above, below] = self.at_fractions([1.0; 4]);
+        above.max(0.0) + below.max(0.0) < SAFE * self.room
+    }
+
+    /// Approach of each primitive at fractions of the whole step, in m: of the vertex that then is
+    /// nearest to the other primitive. It is negative where the primitive moves away.
+    fn at_fractions(&self, fractions: [f64; 4]) -> [f64; 2] {
+        let mut nearest = [f64::NEG_INFINITY; 2];
+        for (k, fraction) in fractions.into_iter().enumerate() {
+            let own = &mut nearest[usize::from(k >= self.first)];
+            *own = own.max(fraction * self.approaches[k] - self.offsets[k]);
+        }
+        nearest
+    }
+
+    /// Returns limits of the fractions of the vertices where the two would approach by more than the
+    /// room: two that approach each other share it by their speeds, one that follows another gains
+    /// what that one moves away.
+    fn limits(&self, fractions: &[f64]) -> Option<[f64; 4]> {
+        let own = self.groups.map(|group| fractions[group as usize]);
+        let [above, below] = self.at_fractions(own);
+        if above + below <= self.room * (1.0 + EXCESS) {
+            return None;
+        }
+        let shares = if below <= 0.0 {
+            [self.room - below, f64::INFINITY]
+        } else if above <= 0.0 {
+            [f64::INFINITY, self.room - above]
+        } else {
+            [above, below].map(|own| self.room * own / (above + below))
+        };
+        Some(std::array::from_fn(|k| {
+            let allowed = shares[usize::from(k >= self.first)] + self.offsets[k];
+            let wanted = own[k] * self.approaches[k];
+            if wanted > allowed { allowed / self.approaches[k] } else { 1.0 }
+        }))
+    }
+
+    /// Returns whether the primitives are surely far enough apart at the end of a step.
+    fn is_proved(&self, end: [Vector; 4], origin: Vector) -> bool {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (k, point) in end.into_iter().enumerate() {
+            let Height { value, error } = height(self.normal, point, origin);
+            if k < self.first {
+                low = low.min(value - error)
+            } else {
+                high = high.max(value + error)
             }
         }
+        low - high >= self.kept
     }
 }
