@@ -25,7 +25,7 @@ const SAFE: f64 = 0.9;
 /// Excess of an approach over its room, relative to it, that is rounding.
 const EXCESS: f64 = 1e-9;
 
-/// Most rounds of limits; a layer that stops stops the one above it in the next round.
+/// Most rounds of limits; a layer that is stopped stops the one above it in the next.
 const ROUNDS: usize = 200;
 
 /// Most ends of a step that are tested before it is given up.
@@ -287,8 +287,8 @@ impl Approach {
     }
 
     /// Returns limits of the fractions of the vertices where the two would approach by more than the
-    /// room: two that approach each other share it by their speeds, one that follows another gains
-    /// what that one moves away.
+    /// room: two that approach each other share it by their speeds, one that follows the other may
+    /// also go as far as that one.
     fn limits(&self, fractions: &[f64]) -> Option<[f64; 4]> {
         let own = self.groups.map(|group| fractions[group as usize]);
         let [above, below] = self.at_fractions(own);
