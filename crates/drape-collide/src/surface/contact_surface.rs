@@ -43,7 +43,7 @@ impl Surface {
         self.primitives.free
     }
 
-    /// Smallest of the vertices that a closed seam lets move only together with a vertex.
+    /// Class of the vertices that closed seams make move together with a vertex: the smallest of them.
     pub(crate) fn moving_class(&self, vertex: u32) -> u32 {
         match self.separations.seam_gaps.is_empty() {
             true => self.primitives.seams.moving_class(vertex),

@@ -14,7 +14,7 @@ struct Tie {
 pub(crate) struct SeamExemptions {
     /// Class of each vertex: the smallest of the vertices that seams join with it.
     class: Vec<u32>,
-    /// The same, with vertices and those between which they are tied in one class.
+    /// Class of each vertex with tied vertices too: they share it with those that they lie between.
     moving_class: Vec<u32>,
     /// Tied vertices, sorted.
     ties: Vec<Tie>,
@@ -45,7 +45,7 @@ impl SeamExemptions {
         self.class[vertex as usize]
     }
 
-    /// Smallest of the vertices that can only move together with a vertex.
+    /// Class of a vertex, with tied vertices: all of it move together where seams are closed.
     pub(crate) fn moving_class(&self, vertex: u32) -> u32 {
         self.moving_class[vertex as usize]
     }

@@ -70,11 +70,10 @@ impl CcdFilter {
     /// Truncates the displacement of each vertex by as much as its own pairs need, in place.
     ///
     /// As in \[Che26\], two primitives that approach each other divide their room by the speeds at
-    /// which they do. Here the plane between them moves: a primitive that follows another may go by
-    /// their room and as far as that one, so that layers keep what they do together. A limit of one
-    /// vertex may need others; they are repeated until no pair takes more than its room. The step
-    /// loses its direction only where something is near. The vertices of bodies move by a common
-    /// fraction.
+    /// which they do. Here the plane between them moves: a primitive that follows another may go as far as
+    /// that one and their room, so that layers that fall together keep their displacements. Fractions
+    /// are limited again until no pair takes more than its room. The direction of the step changes
+    /// only where something is near. The vertices of bodies move by a common fraction.
     ///
     /// # Errors
     ///

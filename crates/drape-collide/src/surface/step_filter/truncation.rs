@@ -25,10 +25,10 @@ const SAFE: f64 = 0.9;
 /// Excess of an approach over its room, relative to it, that is rounding.
 const EXCESS: f64 = 1e-9;
 
-/// Most rounds of limits; a layer that is stopped stops the one above it in the next.
+/// Most rounds in which fractions are limited. A layer that stops limits the one above in the next round.
 const ROUNDS: usize = 200;
 
-/// Most ends of a step that are tested before it is given up.
+/// Most tests of the end of a step. After the last one no vertex moves.
 const ENDS: usize = 20;
 
 /// Result of a step that was truncated vertex by vertex.
