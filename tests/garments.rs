@@ -114,8 +114,49 @@ fn a_sewn_strip_carried_from_a_coarser_grid_hangs_like_one_sewn_on_its_own_and_a
 }
 
 #[test]
-fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
+fn a_strip_graded_by_an_earlier_run_hangs_like_one_that_is_fine_everywhere() {
     let folder = tempfile::tempdir().expect("a folder");
+    let clamp = ("radius = 0.0165", "radius = 0.0245");
+    run(&changed("seam-strip", &[clamp], folder.path()), 1);
+    // Friction of bending keeps part of what the way to rest was: both come from the same coarser grid.
+    let fine = ("spacing = 0.005", "spacing = 0.0025");
+    let refined = "[settle]\n[refine]\nspacings = [0.005]";
+    let uniform =
+        run(&changed("seam-strip", &[clamp, fine, ("[settle]", refined)], folder.path()), 2);
+    let graded = format!("{refined}\n[grading]\nrun = \"out-1\"");
+    let scene = changed("seam-strip", &[clamp, fine, ("[settle]", &graded)], folder.path());
+    let [one, two] = [3, 4].map(|threads| run(&scene, threads));
+    assert_eq!(one["state_hash"], two["state_hash"]);
+    let [few, all] = [&one, &uniform].map(|own| number(&own["particles"]));
+    assert!(few < 0.8 * all, "{few} of {all} particles");
+    for own in [&one, &uniform] {
+        assert_eq!((&own["settled"], &own["warnings"]), (&true.into(), &serde_json::json!([])));
+        assert_eq!(own["coarser_grids"][0]["carried"], true);
+        assert_eq!(number(&own["measures"]["seam_gap_max"]), 0.0);
+        assert_eq!(own["contact"]["intersections"], 0);
+    }
+    let [graded, uniform] = [&one, &uniform].map(|own| number(&own["measures"]["lowest"]));
+    assert!((graded - uniform).abs() < 1e-4, "{graded} m against {uniform} m");
+}
+
+#[test]
+fn a_graded_flounce_is_gathered_to_its_band() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fine = run(&flounce(&[], folder.path()), 1);
+    let grading = ("[settle]", "[settle]\n[grading]\nrun = \"out-1\"\nangle = 60");
+    let graded = run(&flounce(&[grading], folder.path()), 2);
+    let [few, all] = [&graded, &fine].map(|own| number(&own["particles"]));
+    assert!(few < 0.9 * all, "{few} of {all} particles");
+    let gap = number(&graded["measures"]["seam_gap_max"]);
+    assert!(gap < 1e-12, "{gap} m");
+    assert_eq!(graded["contact"]["intersections"], 0);
+    let [length, before] = [&graded, &fine].map(|own| of_hem(own, "length"));
+    assert!((length / before - 1.0).abs() < 1e-3, "hems of {length} and {before} m");
+}
+
+/// Writes the scene of a band of 90 mm with a flounce of 270 mm gathered to it into a folder, with some
+/// of its text replaced.
+fn flounce(changes: &[(&str, &str)], folder: &Path) -> PathBuf {
     let shipped = root().join("scenes/patterns/gather.toml");
     let mut pattern = std::fs::read_to_string(&shipped).expect("a pattern");
     for (from, to) in [
@@ -128,10 +169,23 @@ fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
         assert!(pattern.contains(from), "{from}");
         pattern = pattern.replace(from, to);
     }
-    let own = folder.path().join("pattern.toml");
+    let own = folder.join("pattern.toml");
     std::fs::write(&own, pattern).expect("it can be written");
     let [shipped, own] = [shipped, own].map(|path| path.display().to_string());
-    let scene = changed("gather", &[(&shipped, &own)], folder.path());
+    changed("gather", &[&[(shipped.as_str(), own.as_str())], changes].concat(), folder)
+}
+
+/// Returns a measure of the hem of that flounce.
+fn of_hem(summary: &Value, measure: &str) -> f64 {
+    let edges = summary["measures"]["free_edges"].as_array().expect("edges");
+    let hem = edges.iter().find(|edge| edge["edge"] == "flounce.bottom").expect("the hem");
+    number(&hem[measure])
+}
+
+#[test]
+fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = flounce(&[], folder.path());
     let [one, two] = [1, 2].map(|threads| run(&scene, threads));
     assert_eq!(one["state_hash"], two["state_hash"]);
     // Of 46 nodes at the top of the flounce 16 are nodes of the band, and the others are tied
@@ -139,9 +193,7 @@ fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
     let measures = &one["measures"];
     assert!(number(&measures["seam_gap_max"]) < 1e-12, "{}", measures["seam_gap_max"]);
     assert_eq!(number(&one["contact"]["intersections"]), 0.0);
-    let edges = measures["free_edges"].as_array().expect("edges");
-    let hem = edges.iter().find(|edge| edge["edge"] == "flounce.bottom").expect("the hem");
-    let length = number(&hem["length"]);
+    let length = of_hem(&one, "length");
     assert!((length / 0.27 - 1.0).abs() < 0.01, "the hem is {length} m long");
 }
 

@@ -67,8 +67,8 @@ pub enum Error {
         /// Problem with the fold.
         what: &'static str,
     },
-    /// Panel that cannot be graded: it is folded, or graded already.
-    #[error("a panel that is folded, or graded already, cannot be graded")]
+    /// Panel that cannot be graded: it is graded already.
+    #[error("a panel that is graded already cannot be graded again")]
     Graded,
     /// Panel with a rim of triangles in a model that has none.
     #[error(

@@ -43,6 +43,7 @@ pub use measure::block::Block;
 pub use measure::triangle_strain::TriangleStrain;
 pub use panel::allowance::Allowance;
 pub use panel::fold::Fold;
+pub use panel::graded::GradedPanel;
 pub use panel::grain::Grain;
 pub use panel::interpolation::Interpolation;
 pub use panel::lattice::{Cell, Lattice};

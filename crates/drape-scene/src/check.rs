@@ -70,7 +70,7 @@ pub(crate) fn check(
     let count = placed.iter().map(|own| own.positions.len() / 3).sum();
     let plain = placed.len();
     let (mut seams, mut notes, mut garments) = (Vec::new(), Vec::new(), Vec::new());
-    for garment in garment::garments(checker, &materials, count) {
+    for garment in garment::garments(checker, &materials, count, grading.as_ref()) {
         let particles = garment.particles();
         garments.extend(particles.map(|particles| Garment { name: garment.name, particles }));
         placed.extend(garment.panels);

@@ -91,6 +91,7 @@ fn on_grid(
     let scene = documents.scene.clone().with_settings(&settings)?;
     let (mut file, faults) = scene.decode_with_faults::<SceneFile>()?;
     file.refine = None;
+    file.grading = None;
     let documents = Documents { scene: &scene, ..*documents };
     check(&documents, &file, faults).map_err(|error| {
         let message = format!("a grid of {} mm: {error}", figure(1e3 * spacing));

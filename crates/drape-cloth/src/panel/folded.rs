@@ -96,11 +96,14 @@ impl Lattice {
             for (direction, yarns) in self.yarns().iter().enumerate() {
                 self.add_fold(fold, yarns, direction, &mut bent);
             }
+            let turn_min = ROUNDING_ERROR * fold.angle.abs();
+            let spacing = self.spacing[0].max(self.spacing[1]);
+            let is_bent = |node: u32| (bent[node as usize] * spacing).abs() > turn_min;
             // The line rises with u from the first corner to the third, or falls from the fourth to
             // the second.
             let (clear, parted) = if u * v > 0.0 { ([1, 3], [0, 2]) } else { ([0, 2], [1, 3]) };
             for (cell, areas) in self.cells.iter().zip(&mut areas) {
-                if parted.iter().any(|&corner| bent[cell.corners[corner] as usize] != 0.0) {
+                if parted.iter().any(|&corner| is_bent(cell.corners[corner])) {
                     let half = 0.5 * (areas[parted[0]] + areas[parted[1]]);
                     parted.iter().for_each(|&corner| areas[corner] = 0.0);
                     clear.iter().for_each(|&corner| areas[corner] += half);

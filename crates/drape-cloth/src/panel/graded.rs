@@ -12,14 +12,28 @@
 //! triangles at an outline.
 
 use crate::error::Error;
+use crate::panel::fold::{Fold, LineCoordinates};
 use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
 
 /// Largest level. A cell of level `l` has sides of `2^l` spacings.
 const LEVEL_MAX: u8 = 3;
 
+/// Distance from a fold within which cells keep their size, in spacings: that over which a fold is
+/// rounded, and two more for the connectors of the particles there.
+const FOLD_REACH: f64 = 4.0;
+
 /// Tolerance of the areas of a full cell and of a ratio of spacings: rounding.
 const ROUNDING_ERROR: f64 = 1e-9;
+
+/// Panel whose cells were joined to larger ones where they may be, with the numbers of its particles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GradedPanel {
+    /// Panel.
+    pub lattice: Lattice,
+    /// Number of each particle of the finer panel in this one; none for those that it does not have.
+    pub numbers: Vec<Option<u32>>,
+}
 
 /// Levels of the cells of a grid, row by row.
 struct Levels {
@@ -70,8 +84,8 @@ impl Lattice {
     /// Returns the panel with cells of two, four and eight spacings, nowhere larger than `spacing_max`:
     /// the largest spacing, in m, that is allowed at given material coordinates.
     ///
-    /// Cells beside the outline keep their size, so that the outline keeps its nodes. Two cells that
-    /// touch differ by a factor of two at most. The particles are numbered grid by grid, the finest
+    /// Cells beside the outline keep their size, so that the outline keeps its nodes, and so do those
+    /// beside a fold. Two cells that touch differ by a factor of two at most. The particles are numbered grid by grid, the finest
     /// first; the nodes of the outline of a panel that was cut elsewhere follow.
     ///
     /// ```
@@ -79,19 +93,16 @@ impl Lattice {
     ///
     /// let fine = Lattice::rectangle(0.3, 0.3, 0.005)?;
     /// // Fine along a diagonal.
-    /// let graded = fine.graded(|[u, v]| 0.005 + 0.5 * (u - v).abs())?;
+    /// let graded = fine.graded(|[u, v]| 0.005 + 0.5 * (u - v).abs())?.lattice;
     /// assert!(graded.coordinates.len() < fine.coordinates.len() / 2);
     /// assert!((graded.area() - 0.09).abs() < 1e-12);
     /// # Ok::<(), drape_cloth::Error>(())
     /// ```
     ///
     /// # Errors
-    /// When the panel is folded, or graded already.
-    pub fn graded(&self, spacing_max: impl Fn([f64; 2]) -> f64) -> Result<Self, Error> {
+    /// When the panel is graded already.
+    pub fn graded(&self, spacing_max: impl Fn([f64; 2]) -> f64) -> Result<GradedPanel, Error> {
         let [grid] = self.grids.as_slice() else { return Err(Error::Graded) };
-        if !self.folds.is_empty() {
-            return Err(Error::Graded);
-        }
         let mut levels = Levels::of(self, grid, spacing_max);
         levels.raise();
         levels.balance();
@@ -99,7 +110,7 @@ impl Lattice {
     }
 
     /// Returns the panel with the cells of its grid joined by their levels.
-    fn joined(&self, grid: &Grid, levels: &Levels) -> Self {
+    fn joined(&self, grid: &Grid, levels: &Levels) -> GradedPanel {
         let node = |[column, row]: [usize; 2]| grid.points[row * grid.columns + column];
         let mut numbers = vec![None; self.coordinates.len()];
         let mut coordinates = Vec::new();
@@ -161,7 +172,18 @@ impl Lattice {
                 allowances[*number as usize] = area;
             }
         }
-        Self { coordinates, cells, rim, allowances, grids, ..self.clone() }
+        let lattice = Self { coordinates, cells, rim, allowances, grids, ..self.clone() };
+        GradedPanel { lattice, numbers }
+    }
+
+    /// Returns whether a point lies beside a fold.
+    fn is_beside_fold(&self, point: [f64; 2]) -> bool {
+        let reach = FOLD_REACH * self.spacing[0].max(self.spacing[1]);
+        let is_beside = |fold: &Fold| {
+            let LineCoordinates { along, left } = fold.coordinates(point);
+            left.abs() < reach && (-reach..fold.length() + reach).contains(&along)
+        };
+        self.folds.iter().any(is_beside)
     }
 }
 
@@ -182,7 +204,13 @@ impl Levels {
             let ratio = allowed.into_iter().fold(f64::MAX, f64::min) / finest;
             let fits = |level: &u8| ratio >= f64::from(1_u32 << level) * (1.0 - ROUNDING_ERROR);
             let limit = (1..=LEVEL_MAX).take_while(fits).last().unwrap_or(0);
-            let limit = if cell.quadrants.iter().all(is_full) { limit } else { 0 };
+            let beside_fold = || {
+                cell.corners
+                    .iter()
+                    .any(|&node| lattice.is_beside_fold(lattice.coordinates[node as usize]))
+            };
+            let may = cell.quadrants.iter().all(is_full) && (limit == 0 || !beside_fold());
+            let limit = if may { limit } else { 0 };
             let point = places[cell.corners[0] as usize];
             cells[point / grid.columns * columns + point % grid.columns] =
                 Some(CellLevel { index, level: 0, limit });
@@ -300,9 +328,16 @@ fn triangulated(corners: [u32; 4], middles: [Option<u32>; 4], even: bool) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::connectors::BendingConnectors;
+    use crate::rim::fits::PanelFits;
+    use crate::rim::neighbourhood::Neighbourhoods;
 
     fn disc() -> Lattice {
         Lattice::disc(0.15, 0.005).expect("a disc")
+    }
+
+    fn graded(fine: &Lattice, spacing_max: impl Fn([f64; 2]) -> f64) -> Lattice {
+        fine.graded(spacing_max).expect("it was not graded").lattice
     }
 
     /// Coordinates of the ends of all sides of an outline.
@@ -323,13 +358,13 @@ mod tests {
     fn the_outline_and_the_area_stay_and_no_side_has_a_node_within() {
         let fine = disc();
         for slope in [0.1, 0.3, 1.0, 10.0] {
-            let graded = fine.graded(|[u, v]| 0.004 + slope * (u - v).abs()).expect("a panel");
+            let graded = graded(&fine, |[u, v]| 0.004 + slope * (u - v).abs());
             assert!(graded.coordinates.len() < fine.coordinates.len(), "{slope}");
             assert!((graded.area() / fine.area() - 1.0).abs() < 1e-12, "{slope}");
             // A node within a side would leave it to one triangle, as the outline is.
             assert_eq!(outline(&graded), outline(&fine), "{slope}");
         }
-        let grids = fine.graded(|_| 1.0).expect("a panel").grids;
+        let grids = graded(&fine, |_| 1.0).grids;
         let spacings: Vec<f64> = grids.iter().map(|grid| (1e3 * grid.spacing[0]).round()).collect();
         assert_eq!(spacings, [5.0, 10.0, 20.0, 40.0]);
     }
@@ -337,7 +372,7 @@ mod tests {
     #[test]
     fn the_spacing_is_nowhere_larger_than_allowed() {
         let allowed = |[u, v]: [f64; 2]| 0.005 + 0.4 * (u - 0.5 * v).abs();
-        let graded = disc().graded(allowed).expect("a panel");
+        let graded = graded(&disc(), allowed);
         for triangle in graded.triangles() {
             let points = triangle.map(|node| graded.coordinates[node as usize]);
             let side = [0, 1].map(|axis| {
@@ -351,13 +386,66 @@ mod tests {
     }
 
     #[test]
-    fn what_is_fine_everywhere_stays_as_it_is_and_folded_and_graded_panels_are_refused() {
+    fn what_is_fine_everywhere_stays_as_it_is_and_a_graded_panel_is_refused() {
         let fine = disc();
-        assert_eq!(fine.graded(|_| 0.009).expect("a panel"), fine);
-        let graded = fine.graded(|_| 1.0).expect("a panel");
-        assert_eq!(graded.graded(|_| 1.0), Err(Error::Graded));
-        let fold = crate::Fold { ends: [[-0.2, 0.0], [0.2, 0.0]], angle: 1.0 };
-        let folded = fine.with_folds(&[fold]).expect("a fold");
-        assert_eq!(folded.graded(|_| 1.0), Err(Error::Graded));
+        assert_eq!(graded(&fine, |_| 0.009), fine);
+        assert_eq!(graded(&fine, |_| 1.0).graded(|_| 1.0), Err(Error::Graded));
+    }
+
+    #[test]
+    fn particles_keep_their_places_under_their_new_numbers() {
+        let fine = disc();
+        let GradedPanel { lattice, numbers } = fine.graded(|_| 1.0).expect("it was not graded");
+        let kept = numbers
+            .iter()
+            .zip(&fine.coordinates)
+            .filter_map(|(number, at)| Some((number.as_ref()?, at)));
+        let mut found = vec![0; lattice.coordinates.len()];
+        for (&number, at) in kept {
+            assert_eq!(lattice.coordinates[number as usize], *at);
+            found[number as usize] += 1;
+        }
+        assert!(found.iter().all(|&count| count == 1) && found.len() < numbers.len());
+    }
+
+    /// Rest curvatures that count as none: their rounding, where a fold of 1 rad has 200 1/m.
+    const NO_CURVATURE: f64 = 1e-9;
+
+    #[test]
+    fn a_fold_keeps_its_rest_curvatures() {
+        for ends in [[[-0.2, 0.0], [0.2, 0.0]], [[-0.2, -0.05], [0.2, 0.13]]] {
+            let fold = Fold { ends, angle: 1.0 };
+            let fine = disc().with_folds(&[fold]).expect("it crosses the disc");
+            let GradedPanel { lattice, numbers } = fine.graded(|_| 1.0).expect("it was not graded");
+            assert!(lattice.coordinates.len() < fine.coordinates.len() * 3 / 4);
+            let mut folded = 0;
+            for direction in [0, 1] {
+                let [before, after] = [&fine, &lattice]
+                    .map(|own| own.fold_curvatures(&own.yarns()[direction], direction));
+                for (before, number) in before.iter().zip(&numbers) {
+                    let after = number.map_or(0.0, |number| after[number as usize]);
+                    assert!((after - before).abs() < NO_CURVATURE, "{after} 1/m, {before} before");
+                    folded += usize::from(after.abs() > NO_CURVATURE);
+                }
+            }
+            assert!(folded > 50, "{folded} connectors are folded");
+            let without_shear = |own: &Lattice| {
+                let areas = own.shear_areas();
+                areas.iter().flatten().filter(|area| **area == 0.0).count()
+            };
+            assert_eq!(without_shear(&lattice), without_shear(&fine));
+
+            // Between cells of two sizes no stencil is folded.
+            let bending = BendingConnectors::of(&lattice, &lattice.areas(), true);
+            let neighbourhoods = Neighbourhoods::of(&lattice).expect("it has a rim");
+            let fits = PanelFits::of(&lattice, &neighbourhoods, &bending);
+            let inside = fits.stencils.iter().filter(|stencil| {
+                let [u, v] = lattice.coordinates[stencil.middle as usize];
+                u.hypot(v) < 0.13
+            });
+            let curvatures: Vec<f64> = inside.flat_map(|stencil| stencil.folds).collect();
+            assert!(curvatures.len() > 50, "{} curvatures of stencils", curvatures.len());
+            assert!(curvatures.iter().all(|curvature| curvature.abs() < NO_CURVATURE));
+        }
     }
 }

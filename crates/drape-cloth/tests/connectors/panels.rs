@@ -132,7 +132,8 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
 pub fn graded(lattice: &Lattice) -> Lattice {
     let [u, v] = lattice.grain.to_material(lattice.middle);
     let distance = |[x, y]: [f64; 2]| (0.6 * (x - u) + 0.8 * (y - v)).abs();
-    lattice.graded(|point| 0.006 + 0.5 * distance(point)).expect("it is not folded")
+    let graded = lattice.graded(|point| 0.006 + 0.5 * distance(point));
+    graded.expect("it was not graded").lattice
 }
 
 /// All panels of the patterns in the repository at 10 mm, as they lie and with the grain rotated by

@@ -30,9 +30,8 @@ pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64
         return Vec::new();
     }
     let slides = parts.garments.iter_mut().filter_map(|garment| {
-        let VerticalExtent { low, high: top } = garment.hung;
-        let now = garment.extent(positions).high;
-        let slides = garment.slid.is_none() && top - now > SUNK * (top - low).max(SLIDE_MIN);
+        let (top, now) = (garment.hung.high, garment.extent(positions).high);
+        let slides = garment.slid.is_none() && has_sunk(garment.hung, now);
         slides.then(|| {
             garment.slid = Some(time);
             format!(
@@ -45,12 +44,17 @@ pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64
     slides.collect()
 }
 
+/// Returns whether a garment, as it was put and with its top at a height now, in m, is lower than
+/// settling cloth.
+fn has_sunk(VerticalExtent { low, high: top }: VerticalExtent, now: f64) -> bool {
+    top - now > SUNK * (top - low).max(SLIDE_MIN)
+}
+
 /// Warnings about garments that rest, but not where they were put.
 pub(crate) fn sunk(parts: &GarmentParts, positions: &[f64]) -> Vec<String> {
     let sunk = parts.garments.iter().filter_map(|garment| {
-        let VerticalExtent { low, high: top } = garment.hung;
-        let now = garment.extent(positions).high;
-        (top - now > SUNK * (top - low)).then(|| {
+        let (top, now) = (garment.hung.high, garment.extent(positions).high);
+        has_sunk(garment.hung, now).then(|| {
             format!(
                 "the garment \"{}\" slid from {top:.2} m to {now:.2} m: nothing holds it there; pin it, take it in, or \
                  raise friction",

@@ -20,13 +20,13 @@ use crate::check::fabrics::check_thickness;
 use crate::check::panel::noise::noise;
 use crate::check::panel::{PlacedPanel, SPACING, check_spacing};
 use crate::file::garment::GarmentFile;
+use crate::grading::Grading;
 use crate::scene::material::Material;
 use crate::scene::seam::{Seam, SeamPairs};
 
 use self::layer::layer;
 use self::placed_panel::{Piece, placed_panel};
 use self::seam_order::PlacedSeam;
-use crate::check::panel::cut_lattice::node_numbers;
 
 /// Garment as its panels and its seams.
 pub(crate) struct CutGarment {
@@ -51,6 +51,7 @@ pub(crate) fn garments(
     checker: &mut Checker<'_>,
     materials: &[Option<Material>],
     first: usize,
+    grading: Option<&Grading>,
 ) -> Vec<CutGarment> {
     let file = checker.file;
     let mut first = first;
@@ -61,9 +62,8 @@ pub(crate) fn garments(
         let Some(path) = checker.locate(&named, &entry.pattern) else { continue };
         let Some(pattern) = pattern(checker, &named, &path) else { continue };
         let Some(pattern) = changed(checker, &key, entry, pattern) else { continue };
-        let Some(garment) = cut(checker, &key, entry, Numbered { pattern: &pattern, first }) else {
-            continue;
-        };
+        let uncut = UncutPattern { pattern: &pattern, first, grading };
+        let Some(garment) = cut(checker, &key, entry, uncut) else { continue };
         for placed in &garment.panels {
             if let Some(Some(material)) = materials.get(placed.panel.material) {
                 check_thickness(checker, &key, &placed.panel.lattice, material);
@@ -150,9 +150,10 @@ fn changed(
 }
 
 /// Pattern whose particles are numbered from a number on.
-struct Numbered<'a> {
+struct UncutPattern<'a> {
     pattern: &'a Pattern,
     first: usize,
+    grading: Option<&'a Grading>,
 }
 
 /// Cuts a pattern at the spacing of a garment and puts each panel at its place.
@@ -160,9 +161,9 @@ fn cut(
     checker: &mut Checker<'_>,
     key: &str,
     entry: &GarmentFile,
-    numbered: Numbered<'_>,
+    uncut: UncutPattern<'_>,
 ) -> Option<CutGarment> {
-    let Numbered { pattern, first } = numbered;
+    let UncutPattern { pattern, first, grading } = uncut;
     let unit = checker.unit;
     let known: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
     for name in entry.panel.keys().filter(|name| !known.contains(&name.as_str())) {
@@ -178,29 +179,21 @@ fn cut(
     let cut = pieces(checker, key, Cutter::new(spacing).cut(pattern))?;
     let layer = layer(checker, &format!("{key}.layer"), entry.layer).unwrap_or(0);
     let mut noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
-    let (mut panels, mut pieces, mut next) = (Vec::new(), Vec::new(), first);
+    let (mut pieces, mut next) = (Vec::new(), first);
     for (index, own) in cut.panels.iter().enumerate() {
-        let numbers = node_numbers(own);
-        let piece = Piece { key, entry, pattern, cut: &cut, index, numbers: &numbers, first: next };
-        panels.extend(placed_panel(checker, &piece, layer, &mut noise));
-        pieces.push((next, numbers));
-        next += own.positions.len();
+        let piece = Piece { key, entry, pattern, cut: &cut, index, first: next, grading };
+        let placed = placed_panel(checker, &piece, layer, &mut noise);
+        next += placed.as_ref().map_or(own.positions.len(), |own| own.panel.positions.len() / 3);
+        pieces.extend(placed);
     }
-    if panels.len() == known.len() {
-        check_seam_order(checker, entry, pattern, |EdgeId { panel, edge }| {
-            let (_, numbers) = &pieces[panel];
-            let nodes = cut.panels[panel].edges[edge].iter();
-            let place = |&node: &u32| {
-                let first = 3 * numbers[node as usize] as usize;
-                [0, 1, 2].map(|axis| panels[panel].positions[first + axis])
-            };
-            nodes.map(place).collect()
-        });
+    if pieces.len() < known.len() {
+        return None;
     }
-    let node = |id: NodeId| {
-        let (first, numbers) = &pieces[id.panel];
-        *first as u32 + numbers[id.node as usize]
-    };
+    check_seam_order(checker, entry, pattern, |EdgeId { panel, edge }| {
+        let nodes = cut.panels[panel].edges[edge].iter();
+        nodes.map(|&node| pieces[panel].position(node)).collect()
+    });
+    let node = |id: NodeId| pieces[id.panel].particle(id.node);
     let seams = pattern.seams().iter().zip(&cut.seams).map(|(seam, nodes)| {
         let tie = |tie: &drape_pattern::Tie| Tie {
             particle: node(tie.node),
@@ -219,8 +212,9 @@ fn cut(
             name.to_string_lossy().into_owned()
         }
     };
-    let whole = panels.len() == known.len();
-    whole.then(|| CutGarment { name, panels, seams: seams.collect(), notes })
+    let seams = seams.collect();
+    let panels = pieces.into_iter().map(|piece| piece.panel).collect();
+    Some(CutGarment { name, panels, seams, notes })
 }
 
 /// Checks the order and the sense of the seams of a garment, whose edges have their places from a

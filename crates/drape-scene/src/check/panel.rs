@@ -75,7 +75,9 @@ pub(crate) fn panels(
         let lattice = lattice(checker, &key, entry, first);
         let lattice = lattice.and_then(|lattice| fold(checker, &key, entry, lattice));
         let lattice = match grading {
-            Some(grading) => lattice.and_then(|own| graded(checker, &entry.name, own, grading)),
+            Some(grading) => lattice
+                .and_then(|own| graded(checker, &entry.name, &own, grading))
+                .map(|own| own.lattice),
             None => lattice,
         };
         let noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());

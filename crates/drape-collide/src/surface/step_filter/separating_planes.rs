@@ -76,3 +76,54 @@ impl SeparatingPlane {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PairKind;
+
+    #[test]
+    fn heights_hold_only_where_all_rounding_leaves_the_separation() {
+        let separation = 0.25;
+        assert!(!SeparatingPlane::holds(0.0, 0.0, 0.0));
+        assert!(!SeparatingPlane::holds(0.5, 0.25, separation));
+        // The unit vector and the product may each be off by some last places, the separation by one.
+        assert!(!SeparatingPlane::holds(separation * (1.0 + 9.0 * f64::EPSILON), 0.0, separation));
+        assert!(SeparatingPlane::holds(separation * (1.0 + 12.0 * f64::EPSILON), 0.0, separation));
+    }
+
+    #[test]
+    fn the_clearance_is_rounded_down() {
+        let plane = |low, high| SeparatingPlane { normal: [0.0; 3], heights: [0.0; 4], low, high };
+        assert_eq!(plane(1.0, 0.0).clearance(0.0), 1.0 - UNIT - f64::EPSILON);
+        assert_eq!(plane(0.0, 0.0).clearance(1.0), -1.0 - f64::EPSILON);
+        let found = plane(0.75, 0.25).clearance(0.125);
+        assert!((found - 0.375).abs() < 1e-14 && found < 0.375, "{found}");
+    }
+
+    #[test]
+    fn offsets_are_distances_from_the_nearest_vertex_of_a_primitive() {
+        let plane = SeparatingPlane {
+            normal: [0.0, 0.0, 1.0],
+            heights: [3.0, 5.0, -2.0, 1.0],
+            low: 3.0,
+            high: 1.0,
+        };
+        let pair = |kind| Pair {
+            kind,
+            features: [0, 1],
+            vertices: [0, 1, 2, 3],
+            activation_distance: 1.0,
+            min_separation: 0.1,
+            area: 1.0,
+            parallel: 0.0,
+            distance: 2.0,
+        };
+        assert_eq!(plane.offsets(&pair(PairKind::EdgeEdge)), [0.0, 2.0, 3.0, 0.0]);
+        let plane = SeparatingPlane { heights: [3.0, 1.0, -2.0, 0.5], ..plane };
+        assert_eq!(plane.offsets(&pair(PairKind::VertexFace)), [0.0, 0.0, 3.0, 0.5]);
+        let down = [0.0, 0.0, -1.5];
+        let approaches = plane.approaches(&pair(PairKind::EdgeEdge), [down; 4]);
+        assert_eq!(approaches, [1.5, 1.5, -1.5, -1.5]);
+    }
+}

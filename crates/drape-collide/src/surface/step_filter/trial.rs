@@ -151,3 +151,23 @@ fn fraction_in_ball(point: Vector, displacement: Vector, radius: f64) -> f64 {
 fn last_place(number: f64) -> f64 {
     number.next_up() - number
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fraction_that_stays_in_a_ball_ends_on_it() {
+        let point = [0.3, -0.2, 0.1];
+        for displacement in [[2.0, 0.5, -1.0], [-2.0, 0.5, -1.0], [0.2, 0.3, 0.0]] {
+            let fraction = fraction_in_ball(point, displacement, 0.5);
+            let end = norm(std::array::from_fn(|k| point[k] + fraction * displacement[k]));
+            assert!(fraction == 1.0 && end < 0.5 || (end - 0.5).abs() < 1e-15, "{fraction}, {end}");
+        }
+        // The whole room is 2^-40 of the radius, and squares cancel.
+        let room = 0.5_f64.powi(40);
+        let fraction = fraction_in_ball([1.0 - room, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
+        assert!((fraction / room - 1.0).abs() < 1e-9, "{fraction}");
+        assert_eq!(fraction_in_ball([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0), 0.0);
+    }
+}

@@ -323,3 +323,110 @@ impl Approach {
         low - high >= self.kept
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Truncator of whole displacements, with chunks of one pair each.
+    fn truncator(groups: usize, pairs: Vec<Approach>) -> Truncator {
+        Truncator {
+            fractions: (0..groups).map(|_| AtomicU64::new(1f64.to_bits())).collect(),
+            before: Vec::new(),
+            chunks: pairs.into_iter().map(|pair| vec![pair]).collect(),
+        }
+    }
+
+    fn fractions(truncator: &Truncator) -> Vec<f64> {
+        (0..truncator.fractions.len()).map(|group| truncator.fraction(group)).collect()
+    }
+
+    /// Edge of vertices 0 and 1 at a height of 1 over one of vertices 2 and 3.
+    fn edges(approaches: [f64; 4], room: f64) -> Approach {
+        Approach {
+            vertices: [0, 1, 2, 3],
+            groups: [0, 1, 2, 3],
+            first: 2,
+            approaches,
+            offsets: [0.0; 4],
+            room,
+            normal: [0.0, 0.0, 1.0],
+            kept: 1.0 - room,
+        }
+    }
+
+    #[test]
+    fn an_approach_is_safe_that_leaves_a_tenth_of_its_room() {
+        for (approaches, is_safe) in [
+            ([0.2, 0.4, 0.4, 0.1], true),
+            ([0.2, 0.4, 0.55, 0.1], false),
+            // One that moves away gives no room: the other may be truncated.
+            ([0.95, 0.0, -2.0, -3.0], false),
+            ([-1.0, -1.0, -2.0, -3.0], true),
+        ] {
+            assert_eq!(edges(approaches, 1.0).is_safe(), is_safe, "{approaches:?}");
+        }
+    }
+
+    #[test]
+    fn a_frozen_pair_may_part_but_not_approach_and_a_pair_in_touch_rests() {
+        let pair = edges([0.1, 0.0, -0.1, 1e-9], 0.0);
+        let own = truncator(4, Vec::new());
+        own.freeze(&pair, true);
+        assert_eq!(fractions(&own), [0.0, 1.0, 1.0, 0.0]);
+        own.freeze(&pair, false);
+        assert_eq!(fractions(&own), [0.0; 4]);
+        for none in [-0.0, -1.0, f64::NAN] {
+            let own = truncator(1, Vec::new());
+            own.limit(0, none);
+            assert_eq!(own.fraction(0).to_bits(), 0, "{none}");
+        }
+    }
+
+    #[test]
+    fn limits_that_do_not_end_are_replaced_by_a_common_fraction_that_leaves_all_rooms() {
+        // Two that follow each other, each a little more slowly: their limits fall for ever.
+        let slower = 0.9995;
+        let one = Approach { groups: [0, 0, 1, 1], ..edges([1.0, 1.0, -slower, -slower], 1e-4) };
+        let other = Approach { groups: [1, 1, 0, 0], ..one };
+        let mut own = truncator(3, vec![one, other]);
+        own.settle();
+        let found = fractions(&own);
+        assert!(
+            found[2] > 0.0 && found[2] < 1.0,
+            "a group without a pair has the common part: {found:?}"
+        );
+        for (pair, chunk) in [one, other].iter().zip(&own.chunks) {
+            assert_eq!(pair.groups, chunk[0].groups);
+            let [above, below] = pair.at_fractions(pair.groups.map(|group| found[group as usize]));
+            assert!(above + below <= pair.room * (1.0 + EXCESS), "{above} {below} {}", pair.room);
+            // As much of its room is taken as a pair may.
+            assert!(above + below > 0.5 * pair.room || above < below, "{above} {below}");
+        }
+    }
+
+    #[test]
+    fn vertices_of_pairs_that_are_not_proved_apart_stop() {
+        let positions = [0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let sinks = |depth: f64| {
+            let mut displacements = [0.0; 12];
+            displacements[5] = -depth;
+            displacements
+        };
+        let pair = edges([0.0; 4], 0.5);
+        let far = Approach { kept: -10.0, ..pair };
+        for (depth, proved) in [(0.0, true), (0.4, true), (0.6, false)] {
+            for pairs in [vec![pair], vec![far, pair], vec![pair, far]] {
+                let own = truncator(4, pairs);
+                assert_eq!(own.stop_unproved(&positions, &sinks(depth)), proved, "{depth}");
+                let expected = if proved { [1.0; 4] } else { [0.0; 4] };
+                assert_eq!(fractions(&own), expected, "{depth}");
+            }
+        }
+        // A pair that has no room is proved if it rests, and only then.
+        let tight = Approach { kept: 1.5, ..pair };
+        let own = truncator(4, vec![tight]);
+        assert!(own.stop_unproved(&positions, &sinks(0.0)) && fractions(&own) == [1.0; 4]);
+        assert!(!own.stop_unproved(&positions, &sinks(-0.1)) && fractions(&own) == [0.0; 4]);
+    }
+}

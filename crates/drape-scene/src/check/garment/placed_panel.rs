@@ -1,6 +1,6 @@
 //! Panels of a cut pattern at their places.
 
-use drape_cloth::Grain;
+use drape_cloth::{Grain, Lattice};
 use drape_input::toml_key;
 use drape_pattern::{CutPattern, Pattern, Placement};
 
@@ -9,10 +9,12 @@ use crate::check::fabrics::material_index;
 use crate::check::garment::allowances::allowances;
 use crate::check::garment::layer::{layer, worn_at};
 use crate::check::panel::PlacedPanel;
-use crate::check::panel::cut_lattice::cut_lattice;
+use crate::check::panel::cut_lattice::{cut_lattice, node_numbers};
 use crate::check::panel::folds::{FoldLine, UnfoldedPanel, folded};
+use crate::check::panel::graded::graded;
 use crate::check::panel::noise::Noise;
 use crate::file::garment::{GarmentFile, GarmentPanelFile};
+use crate::grading::Grading;
 use crate::scene::panel::{Panel, PanelEdge};
 
 /// Panel of a cut pattern, and the garment that it is of.
@@ -24,10 +26,34 @@ pub(crate) struct Piece<'a> {
     pub(crate) cut: &'a CutPattern,
     /// Index of the panel.
     pub(crate) index: usize,
-    /// Number of each of its nodes in its lattice.
-    pub(crate) numbers: &'a [u32],
     /// Number of its first particle in the scene.
     pub(crate) first: usize,
+    pub(crate) grading: Option<&'a Grading>,
+}
+
+/// Panel of a garment at its place, with the numbers of the nodes of its cut.
+pub(crate) struct PlacedPiece {
+    pub(crate) panel: PlacedPanel,
+    /// Number of each node in the lattice; none for nodes inside that a graded panel does not have.
+    numbers: Vec<Option<u32>>,
+}
+
+impl PlacedPiece {
+    /// Returns the number of a node of an edge in the lattice.
+    fn number(&self, node: u32) -> u32 {
+        self.numbers[node as usize].expect("a graded panel has all nodes of its outline")
+    }
+
+    /// Returns the particle in the scene that a node of an edge is.
+    pub(crate) fn particle(&self, node: u32) -> u32 {
+        self.panel.panel.first as u32 + self.number(node)
+    }
+
+    /// Returns the position of a node of an edge, in m.
+    pub(crate) fn position(&self, node: u32) -> [f64; 3] {
+        let first = 3 * self.number(node) as usize;
+        [0, 1, 2].map(|axis| self.panel.positions[first + axis])
+    }
 }
 
 impl<'a> Piece<'a> {
@@ -47,11 +73,9 @@ pub(crate) fn placed_panel(
     piece: &Piece<'_>,
     layer_of_garment: u32,
     noise: &mut Option<Noise>,
-) -> Option<PlacedPanel> {
-    let &Piece { key, entry, pattern, cut, index, numbers, first } = piece;
+) -> Option<PlacedPiece> {
+    let &Piece { key, entry, cut, index, first, .. } = piece;
     let (panel, own) = (piece.panel(), piece.own());
-    let allowances: Vec<_> =
-        allowances(pattern, cut, index).iter().map(|own| own.numbered(numbers)).collect();
     let cut = &cut.panels[index];
     let placement = placement(checker, piece);
     let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
@@ -78,8 +102,47 @@ pub(crate) fn placed_panel(
         Some(name) => material_index(checker, &fabric_key, name),
         None => material_index(checker, &fabric_key, fabric),
     };
+    let name = match &entry.name {
+        Some(garment) => format!("{garment}.{}", panel.name()),
+        None => panel.name().to_owned(),
+    };
+    let NumberedLattice { lattice, numbers } = lattice(checker, piece, &name)?;
+    let (placement, material) = (worn_at(placement?, layer), material?);
+    let mut positions = vec![0.0; 3 * lattice.coordinates.len()];
+    for (number, &place) in numbers.iter().zip(&cut.positions) {
+        let height = noise.as_mut().map_or(0.0, |noise| noise.height(place));
+        let Some(number) = number else { continue };
+        let point = placement.point(place);
+        for axis in 0..3 {
+            positions[3 * *number as usize + axis] =
+                point[axis] + height * placement.rotation[axis][2];
+        }
+    }
+    let edges = panel.outline().iter().zip(&cut.edges).map(|(edge, nodes)| PanelEdge {
+        name: edge.name.clone(),
+        nodes: nodes.iter().filter_map(|&node| numbers[node as usize]).collect(),
+    });
+    let edges = edges.collect();
+    let panel = Panel { name, material, lattice, first, edges, layer };
+    let velocities = vec![0.0; positions.len()];
+    Some(PlacedPiece { panel: PlacedPanel { panel, positions, velocities }, numbers })
+}
+
+/// Lattice of a panel, with the number of each node of its cut in it.
+struct NumberedLattice {
+    lattice: Lattice,
+    numbers: Vec<Option<u32>>,
+}
+
+/// Makes the lattice of a panel of a name.
+fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<NumberedLattice> {
+    let &Piece { key, pattern, cut, index, grading, .. } = piece;
+    let panel = piece.panel();
+    let numbers = node_numbers(&cut.panels[index]);
+    let allowances: Vec<_> =
+        allowances(pattern, cut, index).iter().map(|own| own.numbered(&numbers)).collect();
     let grain = Grain::from_degrees(panel.grain().to_degrees());
-    let lattice = cut_lattice(cut, numbers, grain);
+    let lattice = cut_lattice(&cut.panels[index], &numbers, grain);
     let lattice =
         lattice.and_then(|lattice| lattice.with_allowances(&allowances)).map_err(|error| {
             let message = format!("panel \"{}\": {error}", panel.name());
@@ -89,28 +152,12 @@ pub(crate) fn placed_panel(
     let lines = panel.folds().iter().map(|fold| FoldLine { ends: fold.ends, angle: fold.angle });
     let unfolded = UnfoldedPanel { lattice: lattice.ok()?, lines };
     let lattice = folded(checker, key, panel.name(), unfolded)?;
-    let (placement, material) = (worn_at(placement?, layer), material?);
-    let mut positions = vec![0.0; 3 * cut.positions.len()];
-    for (&node, &place) in numbers.iter().zip(&cut.positions) {
-        let height = noise.as_mut().map_or(0.0, |noise| noise.height(place));
-        let point = placement.point(place);
-        for axis in 0..3 {
-            positions[3 * node as usize + axis] =
-                point[axis] + height * placement.rotation[axis][2];
-        }
-    }
-    let edges = panel.outline().iter().zip(&cut.edges).map(|(edge, nodes)| PanelEdge {
-        name: edge.name.clone(),
-        nodes: nodes.iter().map(|&node| numbers[node as usize]).collect(),
-    });
-    let edges = edges.collect();
-    let name = match &entry.name {
-        Some(garment) => format!("{garment}.{}", panel.name()),
-        None => panel.name().to_owned(),
+    let Some(grading) = grading else {
+        return Some(NumberedLattice { lattice, numbers: numbers.into_iter().map(Some).collect() });
     };
-    let panel = Panel { name, material, lattice, first, edges, layer };
-    let velocities = vec![0.0; positions.len()];
-    Some(PlacedPanel { panel, positions, velocities })
+    let graded = graded(checker, name, &lattice, grading)?;
+    let numbers = numbers.iter().map(|&number| graded.numbers[number as usize]).collect();
+    Some(NumberedLattice { lattice: graded.lattice, numbers })
 }
 
 /// Checks the placement of a panel: that of the scene, or else of the pattern; shifted with the

@@ -1,6 +1,6 @@
 //! Check of grading: panels whose particles are farther apart where the cloth is flat.
 
-use drape_cloth::Lattice;
+use drape_cloth::{GradedPanel, Lattice};
 use drape_input::{Given, excerpt};
 
 use crate::check::checker::Checker;
@@ -12,12 +12,8 @@ const ANGLE: f64 = 30.0;
 /// Reads the run that `[grading]` names.
 pub(crate) fn grading(checker: &mut Checker<'_>) -> Option<Grading> {
     let entry = checker.file.grading.as_ref()?;
-    let refused = match checker.file.panel.is_empty() {
-        true => Some("the scene has no [[panel]]; garments are not graded"),
-        false if checker.file.is_breen() => Some("particles of Breen's model are on one grid"),
-        false => None,
-    };
-    if let Some(message) = refused {
+    if checker.file.is_breen() {
+        let message = "particles of Breen's model are on one grid";
         checker.fail("grading", message, "leave [grading] out");
         return None;
     }
@@ -36,19 +32,18 @@ pub(crate) fn grading(checker: &mut Checker<'_>) -> Option<Grading> {
 pub(crate) fn graded(
     checker: &mut Checker<'_>,
     name: &str,
-    lattice: Lattice,
+    lattice: &Lattice,
     grading: &Grading,
-) -> Option<Lattice> {
+) -> Option<GradedPanel> {
     let Some(spacing_max) = grading.spacing_max(name) else {
         let message = format!("that run has no panel \"{}\"", excerpt(name));
         checker.fail("grading.run", message, "name a run of this scene");
         return None;
     };
     let graded = lattice.graded(spacing_max);
-    let help = "leave the folds or [grading] out";
-    graded
-        .map_err(|error| {
-            checker.fail("grading", format!("panel \"{}\": {error}", excerpt(name)), help)
-        })
-        .ok()
+    let report = |error| {
+        let message = format!("panel \"{}\": {error}", excerpt(name));
+        checker.fail("grading", message, "leave [grading] out");
+    };
+    graded.map_err(report).ok()
 }
