@@ -4,7 +4,7 @@ use crate::sheets::{sheets, surface};
 use crate::support::Dice;
 use drape_collide::{
     CcdFilter, ContactDistances, Detector, PairKind, PinchPolicy, Surface, SurfaceContact,
-    SurfaceParts, SurfaceSettings, SurfaceStep, Sweep, intersections,
+    SurfaceParts, SurfaceSettings, SurfaceStep, Sweep, Truncation, intersections,
 };
 
 const SPACING: f64 = 5e-3;
@@ -160,6 +160,9 @@ fn a_body_goes_on_as_one_piece() {
     assert!(pairs.as_slice().iter().any(|pair| pair.kind == PairKind::EdgeEdge));
     let truncation = filter.truncate(pairs, &positions, &mut displacement).unwrap();
     assert!(truncation.body_fraction > 0.02 && truncation.body_fraction < 0.04, "{truncation:?}");
+    let Truncation { shortened, at_drift_budget, frozen, least_fraction, .. } = truncation;
+    assert_eq!((shortened, at_drift_budget, frozen), (100, 100, 0));
+    assert_eq!(least_fraction, truncation.body_fraction);
     for (shortened, full) in displacement.iter().zip(&full) {
         assert_eq!(*shortened, full * truncation.body_fraction);
     }
@@ -261,4 +264,60 @@ fn vertices_that_seams_join_or_tie_and_held_ones_keep_a_common_fraction() {
         }
         assert_eq!(left[corner + 6], small);
     }
+}
+
+/// What is left of a step, of its displacement of a free sheet and as a fraction of its motion of a body
+/// so far above it; both go up, by so much each.
+fn rise(apart: f64, sheet: f64, body: f64) -> (f64, f64) {
+    let side = 5;
+    let (mut parts, mut positions) = stack(2, side);
+    let free = 3 * side * side;
+    parts.free_vertices = side * side;
+    positions[free..].iter_mut().skip(2).step_by(3).for_each(|height| *height = apart);
+    let settings = SurfaceSettings {
+        stiffness: 1e8,
+        sticking_displacement: 1e-5,
+        friction_coefficients: vec![0.0; 4],
+        pinch: PinchPolicy::Error,
+    };
+    let bodies = positions.split_off(free);
+    let mut end = bodies.clone();
+    end.iter_mut().skip(2).step_by(3).for_each(|height| *height += body);
+    let surface = Surface::new(parts).unwrap();
+    let mut contact = SurfaceContact::new(surface, settings, bodies).unwrap();
+    contact.begin(&positions, &end);
+    let mut displacements: Vec<f64> =
+        (0..free).map(|k| if k % 3 == 2 { sheet } else { 0.0 }).collect();
+    let mut obstacle_advance = 1.0;
+    let whole = contact.limit_step(SurfaceStep {
+        start: &positions,
+        displacements: &mut displacements,
+        held: &[],
+        obstacle_time: 0.0,
+        obstacle_advance: &mut obstacle_advance,
+    });
+    assert!(!whole);
+    let heights: Vec<f64> = displacements.chunks(3).map(|displacement| displacement[2]).collect();
+    assert!(heights.iter().all(|height| *height == heights[0]), "{heights:?}");
+    (heights[0], obstacle_advance)
+}
+
+#[test]
+fn steps_of_many_edges_are_shortened_before_pairs_are_detected() {
+    let equal = |found: f64, expected: f64| {
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} instead of {expected}");
+    };
+    let long = 40.0 * SPACING;
+    // To four edges, where nothing is met.
+    let (sheet, advance) = rise(0.01, -long, 0.5 * long);
+    equal(sheet, -4.0 * SPACING);
+    equal(advance, 0.1);
+    // To nine tenths of the room below a body at rest.
+    let (sheet, advance) = rise(0.01, long, 0.0);
+    equal(sheet, 0.9 * (0.01 - 2.0 * DISTANCES.min_separation));
+    equal(advance, sheet / long);
+    // To half an edge each, where the sheet would soon meet the body.
+    let (sheet, advance) = rise(LAYER_GAP, long, 0.5 * long);
+    equal(sheet, 0.5 * SPACING);
+    equal(advance, 1.0 / 40.0);
 }
