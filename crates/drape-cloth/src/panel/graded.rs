@@ -328,6 +328,7 @@ fn triangulated(corners: [u32; 4], middles: [Option<u32>; 4], even: bool) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Allowance;
     use crate::layout::connectors::BendingConnectors;
     use crate::rim::fits::PanelFits;
     use crate::rim::neighbourhood::Neighbourhoods;
@@ -393,19 +394,21 @@ mod tests {
     }
 
     #[test]
-    fn particles_keep_their_places_under_their_new_numbers() {
+    fn particles_keep_their_places_and_allowances_under_their_new_numbers() {
         let fine = disc();
+        let side = fine.outline().pop_first().expect("a side");
+        let hem = Allowance { line: side.to_vec(), width: 0.02 };
+        let fine = fine.with_allowances(&[hem]).expect("it lies along the outline");
         let GradedPanel { lattice, numbers } = fine.graded(|_| 1.0).expect("it was not graded");
-        let kept = numbers
-            .iter()
-            .zip(&fine.coordinates)
-            .filter_map(|(number, at)| Some((number.as_ref()?, at)));
         let mut found = vec![0; lattice.coordinates.len()];
-        for (&number, at) in kept {
-            assert_eq!(lattice.coordinates[number as usize], *at);
-            found[number as usize] += 1;
+        for (before, number) in numbers.iter().enumerate() {
+            let Some(number) = number.map(|number| number as usize) else { continue };
+            assert_eq!(lattice.coordinates[number], fine.coordinates[before]);
+            assert_eq!(lattice.allowances[number], fine.allowances[before]);
+            found[number] += 1;
         }
         assert!(found.iter().all(|&count| count == 1) && found.len() < numbers.len());
+        assert_eq!(lattice.allowances.iter().filter(|area| **area > 0.0).count(), 2);
     }
 
     /// Rest curvatures that count as none: their rounding, where a fold of 1 rad has 200 1/m.
