@@ -86,7 +86,7 @@ pub(crate) struct SceneFile {
     /// after the other.
     pub(crate) refine: Option<RefineFile>,
     /// Larger distances between particles where the cloth is flat, by the curvature of an earlier run;
-    /// none if missing. Not on coarser grids.
+    /// none if missing. Coarser grids of `[refine]` are not graded.
     pub(crate) grading: Option<GradingFile>,
     /// Phase that follows when the cloth has come to rest, with `[settle]` only; bodies and pins
     /// move from the start if missing.

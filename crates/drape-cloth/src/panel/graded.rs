@@ -29,7 +29,7 @@ const ROUNDING_ERROR: f64 = 1e-9;
 /// Panel whose cells were joined to larger ones where they may be, with the numbers of its particles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedPanel {
-    /// Panel.
+    /// Graded panel.
     pub lattice: Lattice,
     /// Number of each particle of the finer panel in this one; none for those that it does not have.
     pub numbers: Vec<Option<u32>>,
@@ -84,9 +84,10 @@ impl Lattice {
     /// Returns the panel with cells of two, four and eight spacings, nowhere larger than `spacing_max`:
     /// the largest spacing, in m, that is allowed at given material coordinates.
     ///
-    /// Cells beside the outline keep their size, so that the outline keeps its nodes, and so do those
-    /// beside a fold. Two cells that touch differ by a factor of two at most. The particles are numbered grid by grid, the finest
-    /// first; the nodes of the outline of a panel that was cut elsewhere follow.
+    /// Cells beside the outline keep their size, so that the outline keeps its nodes, and so do cells
+    /// beside a fold. Two cells that touch differ by a factor of two at most. The particles are
+    /// numbered grid by grid, the finest first; the nodes of the outline of a panel that was cut
+    /// elsewhere follow.
     ///
     /// ```
     /// use drape_cloth::Lattice;
@@ -176,7 +177,7 @@ impl Lattice {
         GradedPanel { lattice, numbers }
     }
 
-    /// Returns whether a point lies beside a fold.
+    /// Returns whether a point is so near a fold that cells keep their size.
     fn is_beside_fold(&self, point: [f64; 2]) -> bool {
         let reach = FOLD_REACH * self.spacing[0].max(self.spacing[1]);
         let is_beside = |fold: &Fold| {

@@ -44,8 +44,8 @@ pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64
     slides.collect()
 }
 
-/// Returns whether a garment, as it was put and with its top at a height now, in m, is lower than
-/// settling cloth.
+/// Returns whether a garment has sunk farther than cloth settles, from where it was put to where its
+/// top is now, in m.
 fn has_sunk(VerticalExtent { low, high: top }: VerticalExtent, now: f64) -> bool {
     top - now > SUNK * (top - low).max(SLIDE_MIN)
 }

@@ -41,7 +41,7 @@ pub(crate) struct PlacedPiece {
 impl PlacedPiece {
     /// Returns the number of a node of an edge in the lattice.
     fn number(&self, node: u32) -> u32 {
-        self.numbers[node as usize].expect("a graded panel has all nodes of its outline")
+        self.numbers[node as usize].expect("it has all nodes of edges")
     }
 
     /// Returns the particle in the scene that a node of an edge is.
@@ -134,7 +134,7 @@ struct NumberedLattice {
     numbers: Vec<Option<u32>>,
 }
 
-/// Makes the lattice of a panel of a name.
+/// Makes the lattice of a panel, which has a name in the scene.
 fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<NumberedLattice> {
     let &Piece { key, pattern, cut, index, grading, .. } = piece;
     let panel = piece.panel();
@@ -156,7 +156,12 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
         return Some(NumberedLattice { lattice, numbers: numbers.into_iter().map(Some).collect() });
     };
     let graded = graded(checker, name, &lattice, grading)?;
-    let numbers = numbers.iter().map(|&number| graded.numbers[number as usize]).collect();
+    let numbers: Vec<_> = numbers.iter().map(|&number| graded.numbers[number as usize]).collect();
+    if cut.panels[index].edges.iter().flatten().any(|&node| numbers[node as usize].is_none()) {
+        let message = format!("panel \"{}\" has an edge that is not its outline", panel.name());
+        checker.fail("grading", message, "leave [grading] out, and report the pattern");
+        return None;
+    }
     Some(NumberedLattice { lattice: graded.lattice, numbers })
 }
 
