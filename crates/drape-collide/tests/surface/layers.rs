@@ -170,6 +170,32 @@ fn a_body_goes_on_as_one_piece() {
     assert!(smallest(&mut detector, &surface, &positions) >= 1.0);
 }
 
+#[test]
+fn pairs_without_room_are_counted_and_may_part() {
+    let (parts, mut positions) = stack(2, 6);
+    // Half a nanometre of room.
+    let height = 2.0 * DISTANCES.min_separation + 5e-10;
+    positions[108..].iter_mut().skip(2).step_by(3).for_each(|place| *place = height);
+    let surface = surface(&parts);
+    let mut detector = Detector::default();
+    let pairs = detector.detect(&surface, &positions, MARGIN).unwrap();
+    let has_room = |distance: f64| distance - 2.0 * DISTANCES.min_separation > 1e-9;
+    let tight = pairs.as_slice().iter().filter(|pair| !has_room(pair.distance_at(&positions)));
+    let tight = tight.count();
+    let mut up = vec![0.0; positions.len()];
+    up[108..].iter_mut().skip(2).step_by(3).for_each(|component| *component = 2e-4);
+    let whole = up.clone();
+    let mut filter = CcdFilter::default();
+    let truncation = filter.truncate(pairs, &positions, &mut up).unwrap();
+    assert!(up == whole && truncation.frozen == tight && tight > 100, "{truncation:?}, {tight}");
+    assert_eq!(truncation.shortened, 0);
+    let mut down = vec![0.0; positions.len()];
+    down[110] = -2e-4;
+    let truncation = filter.truncate(pairs, &positions, &mut down).unwrap();
+    assert!(down.iter().all(|component| *component == 0.0));
+    assert_eq!((truncation.shortened, truncation.least_fraction), (1, 0.0));
+}
+
 /// Height of each layer of a stack after all but the lowest were told to go down by so much.
 fn fall(layers: usize, side: usize, drop: f64, rests: bool) -> Vec<f64> {
     let (parts, mut positions) = stack(layers, side);

@@ -369,6 +369,27 @@ mod tests {
     }
 
     #[test]
+    fn two_that_approach_share_their_room_by_their_speeds() {
+        let pair = Approach { offsets: [0.0, 0.1, 0.0, 0.0], ..edges([1.2, 1.0, 0.6, 0.1], 0.3) };
+        let limits = pair.limits(&[0.5; 4]).expect("they approach by 0.9 m");
+        for (limit, expected) in limits.into_iter().zip([0.2 / 1.2, 0.3, 0.1 / 0.6, 1.0]) {
+            assert!((limit - expected).abs() < 1e-15, "{limits:?}");
+        }
+        assert!(pair.limits(&[0.5 / 3.0; 4]).is_none());
+    }
+
+    #[test]
+    fn an_end_is_proved_with_its_rounding() {
+        let at_heights = |heights: [f64; 4]| heights.map(|height| [0.0, 0.0, height]);
+        let pair = Approach { kept: 0.75, ..edges([0.0; 4], 0.25) };
+        for heights in [[0.75, 1.0, 0.0, 0.0], [0.0, 0.0, -0.75, -1.0]] {
+            assert!(!pair.is_proved(at_heights(heights), [0.0; 3]), "{heights:?}");
+            let farther = heights.map(|height| height * (1.0 + 1e-14));
+            assert!(pair.is_proved(at_heights(farther), [0.0; 3]), "{heights:?}");
+        }
+    }
+
+    #[test]
     fn a_frozen_pair_may_part_but_not_approach_and_a_pair_in_touch_rests() {
         let pair = edges([0.1, 0.0, -0.1, 1e-9], 0.0);
         let own = truncator(4, Vec::new());
