@@ -4,12 +4,13 @@
 //! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
 //! phase, or the run, is over. `run.rs` makes them all, watched; `saved.rs` is what a run goes on
 //! from after it was interrupted; `coarser_grid.rs` lets the cloth come to rest on coarser grids first;
-//! `prescription.rs` is what a program does between steps.
+//! `seams.rs` ends the sewing; `prescription.rs` is what a program does between steps.
 
 pub(crate) mod coarser_grid;
 pub(crate) mod prescription;
 pub(crate) mod run;
 pub(crate) mod saved;
+mod seams;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -22,7 +23,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
-use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::measure::{fallen, note_slides};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
@@ -31,8 +31,6 @@ use crate::record::statistics::Statistics;
 use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
-use crate::sewing::closing_springs::SeamState;
-use crate::sewing::node_map::merge;
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 
@@ -442,48 +440,6 @@ impl Simulation {
         self.phases.begun.push(Phase { name, start, frame });
     }
 
-    /// Ends the sewing when the seams are closed, or when they do not close. A seam that misses by
-    /// little is pulled harder first, so that merging its sides moves no cloth into a body.
-    fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
-        let Some(springs) = self.world.closing_springs() else { return Ok(()) };
-        let positions = &self.world.state.positions;
-        match springs.state(positions, self.stepping.time(), self.last.imbalance) {
-            SeamState::Open => {}
-            SeamState::Closed => self.finish_sewing()?,
-            SeamState::Failed(gap) => {
-                let seam = OpenSeam::new(&self.parts, gap, positions);
-                if gap.width <= STRETCHED_MAX * self.spacing {
-                    let warning = seam.warn(self.spacing, springs.largest_force(positions));
-                    if self.world.stiffen_springs(self.stepping.time(), gap.width) {
-                        self.outcome.events.push(warning);
-                        return Ok(());
-                    }
-                    return self.finish_sewing();
-                }
-                self.outcome.place = Some(seam.place);
-                let reason = seam.describe();
-                self.end_early(Status::SeamsOpen, reason);
-            }
-        }
-        Ok(())
-    }
-
-    /// Merges the two sides of every seam; the garment begins to hang.
-    fn finish_sewing(&mut self) -> Result<(), drape_implicit::Error> {
-        let mut positions = self.world.state.positions.clone();
-        merge(&self.parts.seams, self.world.cloth.masses(), &mut positions);
-        self.parts.garments.iter_mut().for_each(|garment| garment.hang(&positions));
-        self.world.finish_sewing(self.stepping.time(), &positions);
-        let relaxation = self.rest.criteria;
-        self.world.set_relaxing(relaxation.is_some_and(|own| !own.inertia));
-        self.stepping.reduce(&self.world, &self.parts.seams)?;
-        self.begin_phase(match relaxation {
-            Some(_) => PhaseName::Relax,
-            None => PhaseName::Simulate,
-        });
-        self.restart(relaxation)
-    }
-
     /// Sets bodies and pins in motion for so many seconds; the cloth, which is at rest, has inertia
     /// from now on.
     fn set_in_motion(&mut self, seconds: f64) -> Result<(), drape_implicit::Error> {
@@ -550,19 +506,6 @@ impl Simulation {
         };
         let sewing = self.open_seam();
         self.end_early(status, format!("{error}{}{sewing}", self.closest_place()));
-    }
-
-    /// Seam that is open the widest while a garment is sewn, and what to try, for the end of a
-    /// message.
-    fn open_seam(&mut self) -> String {
-        let positions = &self.world.state.positions;
-        let Some(springs) = self.world.closing_springs() else { return String::new() };
-        let seam = OpenSeam::new(&self.parts, springs.widest_gap(positions), positions);
-        self.outcome.place = Some(seam.place);
-        format!(
-            "; {}; start its panels nearer to where they are worn, sew more slowly (sew.seconds), or choose another spacing",
-            seam.describe()
-        )
     }
 
     fn end_early(&mut self, status: Status, reason: String) {

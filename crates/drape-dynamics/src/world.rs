@@ -200,6 +200,16 @@ impl World {
         self.begin_balance();
     }
 
+    /// Places cloth with closed seams among the bodies at a time, in s, if it intersects nothing there.
+    /// Distances that are too short grow again within a time, in s. Returns whether it was placed.
+    pub(crate) fn place_sewn(&mut self, time: f64, positions: &[f64], growth_seconds: f64) -> bool {
+        let Some(surfaces) = self.contact.surfaces_mut() else { return true };
+        let bodies = surfaces.contact.body_positions().to_vec();
+        let placed = PlacedSurfaces { positions, bodies: &bodies, growth_seconds };
+        surfaces.intersections_when_sewn(&placed) == Some(0)
+            && surfaces.place(time, &placed).is_ok()
+    }
+
     /// Starts the energy balance at the present state, where the run keeps one.
     fn begin_balance(&mut self) {
         if self.with_balance {

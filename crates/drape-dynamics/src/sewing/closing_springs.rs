@@ -16,6 +16,13 @@ const STIFFNESS: f64 = 1e4;
 /// 1812 iterations for three steps.
 const CLOSED: f64 = 1e-4;
 
+/// Widest gap of a seam that stays open, at which its sides may be merged if nothing intersects then,
+/// in m: about the thickness of cloth. A T-shirt of 25 506 particles was sewn with 0.33 mm left.
+const NEARLY_CLOSED: f64 = 5e-4;
+
+/// Multiple of its length that the closing of the seams takes before they may be merged with such a gap.
+const NEARLY_CLOSED_AFTER: f64 = 1.1;
+
 /// Gap to which the springs close a seam, in m. The deviation of a spring from it is smaller.
 const CLOSING: f64 = 0.2 * CLOSED;
 
@@ -86,6 +93,8 @@ pub(crate) enum SeamState {
     Open,
     /// All gaps are closed, and the cloth is calm.
     Closed,
+    /// A narrow gap stays open, and the cloth is calm.
+    NearlyClosed,
     /// A gap stays open.
     Failed(WidestGap),
 }
@@ -180,9 +189,13 @@ impl ClosingSprings {
         }
         let gap = self.widest_gap(positions);
         let late = time >= PATIENCE * self.seconds;
-        match gap.width <= CLOSED && (late || imbalance <= TOLERANCE) {
+        let is_calm = imbalance <= TOLERANCE;
+        let is_nearly_closed =
+            gap.width <= NEARLY_CLOSED && time >= NEARLY_CLOSED_AFTER * self.seconds;
+        match gap.width <= CLOSED && (late || is_calm) {
             true => SeamState::Closed,
             false if late => SeamState::Failed(gap),
+            false if is_calm && is_nearly_closed => SeamState::NearlyClosed,
             false => SeamState::Open,
         }
     }

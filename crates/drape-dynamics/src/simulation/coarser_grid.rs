@@ -20,8 +20,8 @@ use crate::sewing::node_map::merge;
 use crate::stepping::Scheme;
 use crate::world::PlacedSurfaces;
 
-/// Number of first steps over which distances grow again that the interpolation made too short.
-const GROWTH_STEPS: f64 = 20.0;
+/// Number of first steps over which distances grow again that became too short where cloth was placed.
+pub(super) const GROWTH_STEPS: f64 = 20.0;
 
 /// Number of first steps in which the interpolated cloth becomes smooth, which is bent at the lines of the
 /// coarser grid alone; the memories of friction begin behind them.

@@ -166,8 +166,8 @@ mod tests {
         }
         // The whole room is 2^-40 of the radius, and squares cancel.
         let room = 0.5_f64.powi(40);
-        let fraction = fraction_in_ball([1.0 - room, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
-        assert!((fraction / room - 1.0).abs() < 1e-9, "{fraction}");
+        let fraction = fraction_in_ball([1.0 - room, 0.0, 0.0], [0.7, 0.0, 0.0], 1.0);
+        assert!((0.7 * fraction / room - 1.0).abs() < 1e-9, "{fraction}");
         assert_eq!(fraction_in_ball([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0), 0.0);
     }
 }
