@@ -26,12 +26,12 @@ const FOLD_REACH: f64 = 4.0;
 /// Tolerance of the areas of a full cell and of a ratio of spacings: rounding.
 const ROUNDING_ERROR: f64 = 1e-9;
 
-/// Panel whose cells were joined to larger ones where they may be, with the numbers of its particles.
+/// Graded panel, with the numbers that the particles of the finer panel have in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedPanel {
     /// Graded panel.
     pub lattice: Lattice,
-    /// Number of each particle of the finer panel in this one; none for those that it does not have.
+    /// Number of each particle of the finer panel in the graded one; none where that has no particle.
     pub numbers: Vec<Option<u32>>,
 }
 

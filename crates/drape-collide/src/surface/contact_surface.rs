@@ -43,7 +43,7 @@ impl Surface {
         self.primitives.free
     }
 
-    /// Class of the vertices that closed seams make move together with a vertex: the smallest of them.
+    /// Class of a vertex: the smallest of the vertices that move together with it where seams are closed.
     pub(crate) fn moving_class(&self, vertex: u32) -> u32 {
         match self.separations.seam_gaps.is_empty() {
             true => self.primitives.seams.moving_class(vertex),

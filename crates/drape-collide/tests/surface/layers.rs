@@ -232,16 +232,21 @@ fn a_layer_falls_as_far_as_the_one_below_it_and_the_room_between_them() {
     }
 }
 
-/// Displacements that are left where one corner of the upper of two sheets is told to go through the
-/// lower one and the rest of it sinks a little, with seams and held vertices.
-fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f64) {
-    let settings = SurfaceSettings {
+/// Settings of contact of two groups without friction.
+fn frictionless() -> SurfaceSettings {
+    SurfaceSettings {
         stiffness: 1e8,
         sticking_displacement: 1e-5,
         friction_coefficients: vec![0.0; 4],
         pinch: PinchPolicy::Error,
-    };
-    let mut contact = SurfaceContact::new(Surface::new(parts).unwrap(), settings, vec![]).unwrap();
+    }
+}
+
+/// Displacements that are left where one corner of the upper of two sheets is told to go through the
+/// lower one and the rest of it sinks a little, with seams and held vertices.
+fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f64) {
+    let mut contact =
+        SurfaceContact::new(Surface::new(parts).unwrap(), frictionless(), vec![]).unwrap();
     contact.begin(positions, &[]);
     let vertices = positions.len() / 3;
     let mut displacements: Vec<f64> = (0..positions.len())
@@ -292,25 +297,19 @@ fn vertices_that_seams_join_or_tie_and_held_ones_keep_a_common_fraction() {
     }
 }
 
-/// What is left of a step, of its displacement of a free sheet and as a fraction of its motion of a body
-/// so far above it; both go up, by so much each.
+/// Limited displacement of a free sheet, in m, and limited fraction of the motion of a body that is so far
+/// above it, where the step lifts both by so much each.
 fn rise(apart: f64, sheet: f64, body: f64) -> (f64, f64) {
     let side = 5;
     let (mut parts, mut positions) = stack(2, side);
     let free = 3 * side * side;
     parts.free_vertices = side * side;
     positions[free..].iter_mut().skip(2).step_by(3).for_each(|height| *height = apart);
-    let settings = SurfaceSettings {
-        stiffness: 1e8,
-        sticking_displacement: 1e-5,
-        friction_coefficients: vec![0.0; 4],
-        pinch: PinchPolicy::Error,
-    };
     let bodies = positions.split_off(free);
     let mut end = bodies.clone();
     end.iter_mut().skip(2).step_by(3).for_each(|height| *height += body);
     let surface = Surface::new(parts).unwrap();
-    let mut contact = SurfaceContact::new(surface, settings, bodies).unwrap();
+    let mut contact = SurfaceContact::new(surface, frictionless(), bodies).unwrap();
     contact.begin(&positions, &end);
     let mut displacements: Vec<f64> =
         (0..free).map(|k| if k % 3 == 2 { sheet } else { 0.0 }).collect();

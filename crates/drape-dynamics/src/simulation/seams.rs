@@ -9,8 +9,9 @@ use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
 
 impl Simulation {
-    /// Ends the sewing when the seams are closed, or when they do not close. A seam that misses by
-    /// little is pulled harder first, so that merging its sides moves no cloth into a body.
+    /// Ends the sewing when the seams are closed, or when they do not close. A seam with a narrow gap is
+    /// merged if nothing intersects then; a seam with a wider one is pulled harder first, so that merging
+    /// its sides moves no cloth into a body.
     pub(super) fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let positions = &self.world.state.positions;

@@ -45,7 +45,7 @@ impl SeamExemptions {
         self.class[vertex as usize]
     }
 
-    /// Class of a vertex, with tied vertices: all of it move together where seams are closed.
+    /// Class of a vertex, tied vertices included: its vertices move together where seams are closed.
     pub(crate) fn moving_class(&self, vertex: u32) -> u32 {
         self.moving_class[vertex as usize]
     }

@@ -34,7 +34,7 @@ pub(crate) struct Piece<'a> {
 /// Panel of a garment at its place, with the numbers of the nodes of its cut.
 pub(crate) struct PlacedPiece {
     pub(crate) panel: PlacedPanel,
-    /// Number of each node in the lattice; none for nodes inside that a graded panel does not have.
+    /// Number of each node of the cut in the lattice; none where a graded panel has no particle.
     numbers: Vec<Option<u32>>,
 }
 
