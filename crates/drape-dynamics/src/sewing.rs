@@ -24,3 +24,4 @@ pub(crate) mod closing_springs;
 pub(crate) mod node_map;
 pub(crate) mod reduced_system;
 pub(crate) mod reduction;
+pub(crate) mod untangling;

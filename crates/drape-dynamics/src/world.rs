@@ -34,6 +34,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use drape_cloth::{Cloth, SeamBending, State};
+use drape_collide::SewnPlacement;
 use drape_implicit::System;
 use drape_scene::{HoldUntil, Scene, Sewing};
 
@@ -200,14 +201,30 @@ impl World {
         self.begin_balance();
     }
 
-    /// Places cloth with closed seams among the bodies at a time, in s, if it intersects nothing there.
-    /// Distances that are too short grow again within a time, in s. Returns whether it was placed.
-    pub(crate) fn place_sewn(&mut self, time: f64, positions: &[f64], growth_seconds: f64) -> bool {
-        let Some(surfaces) = self.contact.surfaces_mut() else { return true };
+    /// Placement of cloth with closed seams at some positions, in m, among the bodies.
+    pub(crate) fn sewn_placement(
+        &mut self,
+        positions: &[f64],
+    ) -> Result<SewnPlacement, drape_collide::Error> {
+        let Some(surfaces) = self.contact.surfaces_mut() else {
+            return Ok(SewnPlacement::Free(f64::INFINITY));
+        };
         let bodies = surfaces.contact.body_positions().to_vec();
-        let placed = PlacedSurfaces { positions, bodies: &bodies, growth_seconds };
-        surfaces.intersections_when_sewn(&placed) == Some(0)
-            && surfaces.place(time, &placed).is_ok()
+        surfaces.contact.sewn_placement(positions, &bodies)
+    }
+
+    /// Places cloth with closed seams among the bodies at a time, in s, where it intersects nothing.
+    /// Distances that are too short grow again within a time, in s.
+    pub(crate) fn place_sewn(
+        &mut self,
+        time: f64,
+        positions: &[f64],
+        growth_seconds: f64,
+    ) -> Result<(), Error> {
+        let Some(surfaces) = self.contact.surfaces_mut() else { return Ok(()) };
+        let bodies = surfaces.contact.body_positions().to_vec();
+        surfaces.place(time, &PlacedSurfaces { positions, bodies: &bodies, growth_seconds })?;
+        Ok(())
     }
 
     /// Starts the energy balance at the present state, where the run keeps one.

@@ -25,6 +25,7 @@ mod surface_contact;
 mod thrown_sheet;
 
 pub use pinch::PinchedVertices;
+pub use placing::SewnPlacement;
 pub use settings::{PinchPolicy, SurfaceSettings};
 pub use summary::{PairDistance, SurfaceSummary};
 pub use surface_contact::{SavedContact, SurfaceContact, SurfaceMemory};

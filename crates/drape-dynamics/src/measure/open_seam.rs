@@ -42,6 +42,16 @@ impl<'a> OpenSeam<'a> {
         )
     }
 
+    /// Warns that particles were moved by a way in m, because other cloth is between its sides.
+    pub(crate) fn warn_untangled(&self, way: f64) -> String {
+        let place = self.describe();
+        format!(
+            "{place}; other cloth is between its sides, so particles there are moved by up to {:.2} mm, to where \
+             nothing intersects",
+            1e3 * way
+        )
+    }
+
     /// Warns that it is sewn although it is open at a spacing in m, pulled by a force in N.
     pub(crate) fn warn(&self, spacing: f64, force: f64) -> String {
         let Self { name, panels: [one, other], place: [x, y, z], gap } = self;

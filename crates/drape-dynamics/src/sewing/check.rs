@@ -152,14 +152,14 @@ fn contact_of_the_sides_of_a_seam_ends_where_they_may_be_merged() {
     let mut closed = start.clone();
     merge(&pairs, &vec![1.0; start.len() / 3], &mut closed);
     let is_closed = |positions: &[f64], time, imbalance| {
-        matches!(springs.state(positions, time, imbalance), SeamState::Closed)
+        matches!(springs.state(positions, time, imbalance, 5e-4), SeamState::Closed)
     };
     assert!(is_closed(&closed, 0.5, 0.2) && is_closed(&closed, 1.0, 5.0));
     assert!(!is_closed(&closed, 0.5, 5.0) && !is_closed(&closed, 0.4, 0.2));
     // A seam that stays open by half a millimetre at most may be merged a tenth later.
     let mut nearly = closed.clone();
     let is_nearly_closed = |positions: &[f64], time, imbalance| {
-        matches!(springs.state(positions, time, imbalance), SeamState::NearlyClosed)
+        matches!(springs.state(positions, time, imbalance, 5e-4), SeamState::NearlyClosed(_))
     };
     nearly[3 * pairs.pairs[0][0] as usize] += 4e-4;
     assert!(is_nearly_closed(&nearly, 0.56, 0.2) && !is_nearly_closed(&nearly, 0.54, 0.2));
@@ -167,7 +167,7 @@ fn contact_of_the_sides_of_a_seam_ends_where_they_may_be_merged() {
     nearly[3 * pairs.pairs[0][0] as usize] += 2e-4;
     assert!(!is_nearly_closed(&nearly, 0.56, 0.2));
     assert!(
-        matches!(springs.state(&start, 1.0, 0.2), SeamState::Failed(gap) if gap.width == widest)
+        matches!(springs.state(&start, 1.0, 0.2, 5e-4), SeamState::Failed(gap) if gap.width == widest)
     );
 }
 

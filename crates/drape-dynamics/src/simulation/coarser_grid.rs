@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use drape_cloth::Interpolation;
+use drape_collide::SewnPlacement;
 use drape_scene::{Panel, Scene};
 
 use super::saved::SavedSimulation;
@@ -166,20 +167,27 @@ impl Simulation {
         if is_sewn {
             merge(&self.parts.seams, self.world.cloth.masses(), &mut positions);
         }
-        let placed = PlacedSurfaces {
-            positions: &positions,
-            bodies: bodies.as_deref().unwrap_or_default(),
-            growth_seconds: GROWTH_STEPS * self.stepping.clock().step,
-        };
+        let bodies = bodies.unwrap_or_default();
+        let untangling = self.untangling();
         if let Some(surfaces) = self.world.contact.surfaces_mut() {
-            match surfaces.intersections_when_sewn(&placed) {
-                Some(0) => {}
-                Some(count) => {
-                    return Ok(Err(format!("its cloth has {count} intersections on the next")));
+            let contact = &mut surfaces.contact;
+            match contact.sewn_placement(&positions, &bodies) {
+                Ok(SewnPlacement::Free(_)) => {}
+                Ok(SewnPlacement::Intersecting(found)) => {
+                    let placement = |trial: &[f64]| contact.sewn_placement(trial, &bodies);
+                    if untangling.untangle(&mut positions, ticks, placement).is_none() {
+                        let count = found.len();
+                        return Ok(Err(format!("its cloth has {count} intersections on the next")));
+                    }
                 }
-                None => return Ok(Err("it has other bodies than the next".into())),
+                Err(_) => return Ok(Err("it has other bodies than the next".into())),
             }
         }
+        let placed = PlacedSurfaces {
+            positions: &positions,
+            bodies: &bodies,
+            growth_seconds: GROWTH_STEPS * self.stepping.clock().step,
+        };
         self.stepping.start_at(ticks);
         let time = self.stepping.time();
         self.parts.garments.iter_mut().for_each(|garment| garment.hang(&positions));
@@ -222,8 +230,8 @@ mod tests {
         let [mut own, mut other] = [sheets(), sheets()];
         let mut positions = own.positions().to_vec();
         let half = positions.len() / 2;
-        // A particle in the middle of the lower sheet is above the upper one.
-        positions[3 * (half / 6) + 1] += 0.015;
+        // Half of the lower sheet is far above the upper one.
+        positions[..half / 2].iter_mut().skip(1).step_by(3).for_each(|y| *y += 0.05);
         let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
         let begun = own.begin_with(carried).expect("a solver");
         assert!(begun.expect_err("it intersects").contains("intersections"), "a reason");
@@ -233,6 +241,20 @@ mod tests {
         }
         assert_eq!(own.state_hash(), other.state_hash());
         assert_eq!(own.time(), other.time());
+    }
+
+    #[test]
+    fn cloth_with_one_particle_on_the_wrong_side_is_carried_untangled() {
+        let mut own = sheets();
+        let mut positions = own.positions().to_vec();
+        let middle = 3 * (positions.len() / 12) + 1;
+        positions[middle] += 0.015;
+        let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
+        own.begin_with(carried).expect("a solver").expect("it is untangled");
+        let now = own.positions().to_vec();
+        let found = own.world.sewn_placement(&now).expect("finite positions");
+        assert!(matches!(found, SewnPlacement::Free(_)), "{found:?}");
+        own.step().expect("a step");
     }
 
     #[test]

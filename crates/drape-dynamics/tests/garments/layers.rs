@@ -8,7 +8,7 @@ use drape_scene::{Error, Scene};
 
 use crate::tube;
 
-const FABRIC: &str = r#"name = "plain"
+pub(crate) const FABRIC: &str = r#"name = "plain"
 density = 0.15
 thickness = 0.0003
 shear = { stiffness = 35.0 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod attachments;
+mod blocked_seam;
 mod layers;
 
 /// A tube of 40 mm height in two halves of a width, each wrapped to a radius, both in mm; it closes

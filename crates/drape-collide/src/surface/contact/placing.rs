@@ -1,11 +1,21 @@
 //! Placing: cloth and bodies at other places between two steps.
 
 use super::obstacles::check_bodies;
+use super::pinch::vertices_of;
 use super::surface_contact::SurfaceContact;
 use crate::error::Error;
 
 /// Fraction of the smallest distance over its minimum separation that shrunk distances keep.
 const SEPARATION_KEPT: f64 = 0.9;
+
+/// Placement of surfaces with closed seams.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SewnPlacement {
+    /// Nothing intersects; the smallest distance of a pair over its minimum separation is this.
+    Free(f64),
+    /// The vertices of the edge and the triangle of every intersection.
+    Intersecting(Vec<[u32; 5]>),
+}
 
 impl SurfaceContact {
     /// Shrinks all distances until no pair is below its minimum separation at the free vertices'
@@ -33,25 +43,35 @@ impl SurfaceContact {
         Ok(())
     }
 
-    /// Returns the number of intersections with closed seams at other places: the free vertices' and the
-    /// bodies' positions, in m. The contact stays as it is.
+    /// Returns what closed seams give at other places: the free vertices' and the bodies' positions, in m. The
+    /// contact stays as it is.
     ///
     /// # Errors
-    /// Positions that are not finite, or another number of coordinates of bodies.
-    pub fn intersections_when_sewn(
+    /// Positions that are not finite, too many pairs, or another number of coordinates of bodies.
+    pub fn sewn_placement(
         &mut self,
         positions: &[f64],
         bodies: &[f64],
-    ) -> Result<usize, Error> {
+    ) -> Result<SewnPlacement, Error> {
         let (memory, open_seams) = (self.memory(), self.open_seams.clone());
         let seam_gaps = self.surface.separations.seam_gaps.clone();
         self.close_seams();
         let placed = self.place_bodies(bodies);
-        let found = placed.and_then(|()| Ok(self.intersections(positions)?.len()));
+        let found = placed.and_then(|()| self.placement(positions));
         self.open_seams = open_seams;
         self.surface.separations.seam_gaps = seam_gaps;
         self.drop_pairs();
         self.restore(&memory);
         found
+    }
+
+    /// Returns what the free vertices' positions, in m, give.
+    fn placement(&mut self, positions: &[f64]) -> Result<SewnPlacement, Error> {
+        let found = self.intersections(positions)?.to_vec();
+        if found.is_empty() {
+            return Ok(SewnPlacement::Free(self.summary_at(positions)?.min_ratio));
+        }
+        let vertices = found.into_iter().map(|own| vertices_of(&self.surface, own));
+        Ok(SewnPlacement::Intersecting(vertices.collect()))
     }
 }

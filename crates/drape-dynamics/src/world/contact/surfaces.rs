@@ -229,11 +229,6 @@ impl Surfaces {
         self.contact.growth_fraction() < 1.0 && self.growth.is_some_and(late)
     }
 
-    /// Returns the number of intersections of sewn cloth and bodies at other places.
-    pub(crate) fn intersections_when_sewn(&mut self, placed: &PlacedSurfaces<'_>) -> Option<usize> {
-        self.contact.intersections_when_sewn(placed.positions, placed.bodies).ok()
-    }
-
     /// Places sewn cloth and bodies anew at a time, in s, where they intersect nowhere. Distances shrink to
     /// what there is, and grow again.
     ///
