@@ -178,11 +178,39 @@ fn garments_at_the_feet_are_worn_at_the_centre_that_is_advised() {
         let (code, _, said) = with("center = [0.01, -1.35, 0.02]");
         assert_eq!(code, Some(3), "{name}: {said}");
         assert!(said.contains("starts at the feet of the body"), "{name}: {said}");
-        let advice = said.split("write ").nth(1).and_then(|rest| rest.split(" in its").next());
-        let advice = advice.unwrap_or_else(|| panic!("{name}: no advice in {said}"));
+        let advice = advice(&said);
         let (code, _, said) = with(advice);
         assert_eq!(code, Some(0), "{name} at {advice}: {said}");
     }
+}
+
+#[test]
+fn a_shirt_of_another_program_crosses_no_hand_at_the_centre_that_is_advised() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let folder = tempfile::tempdir().expect("a folder");
+    for spacing in [25, 15] {
+        let with = |center: &str| {
+            let text = format!(
+                "spacing = \"{spacing} mm\"\nfabric.wool.file = \"{root}/fabrics/matsudaira-b/sheet.toml\"\n\
+                 [[garment]]\npattern = \"{root}/crates/drape-pattern/patterns/shirt.json\"\nfabric = \"wool\"\n{center}\n\
+                 [[collider.mesh]]\nfile = \"{root}/scenes/bodies/body.obj\"\n\
+                 [contact]\noffset = 0.003\n[time]\nstep = 0.005\nend = 60\n[settle]\n"
+            );
+            std::fs::write(folder.path().join("scene.toml"), text).expect("written");
+            drape(folder.path(), &["check", "scene.toml", "--allow-path", root])
+        };
+        let (code, _, said) = with("center = [0, 0, 0]");
+        assert_eq!(code, Some(3), "{said}");
+        let advice = advice(&said);
+        let (code, _, said) = with(advice);
+        assert_eq!(code, Some(0), "{spacing} mm at {advice}: {said}");
+    }
+}
+
+/// Returns the line that a message advises to write.
+fn advice(said: &str) -> &str {
+    let advice = said.split("write ").nth(1).and_then(|rest| rest.split(" in its").next());
+    advice.unwrap_or_else(|| panic!("no advice in {said}"))
 }
 
 #[test]

@@ -96,6 +96,10 @@ fn balance(energy: &Energy) -> String {
 /// Returns the failure that a run ended with, if any, and its remedy.
 pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
     let place = folder.display();
+    let shown = match folder.join("place.png").is_file() {
+        true => ", and place.png shows the seam",
+        false => "",
+    };
     match summary.status {
         Status::Ok => Ok(()),
         Status::DidNotSettle if summary.reason.is_some() => Err(Failure::Solver(format!(
@@ -114,7 +118,7 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
         ))),
         Status::SeamsOpen => Err(Failure::Solver(format!(
             "{}; something keeps its sides apart, or sew.seconds is too short; the last state was \
-             written, and place.png shows the seam",
+             written{shown}",
             summary.reason.unwrap_or_default()
         ))),
         Status::FellOff => Err(Failure::Solver(format!(
@@ -144,13 +148,8 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
                 summary.simulated_seconds
             ),
         }),
-        Status::SolverFailed if summary.place.is_some() => Err(Failure::Solver(format!(
-            "the step after {} s could not be solved; the last good state was written, and place.png shows the seam: {}",
-            summary.simulated_seconds,
-            summary.reason.unwrap_or_default()
-        ))),
         Status::SolverFailed => Err(Failure::Solver(format!(
-            "the step after {} s could not be solved; the last good state was written: {}",
+            "the step after {} s could not be solved; the last good state was written{shown}: {}",
             summary.simulated_seconds,
             summary.reason.unwrap_or_default()
         ))),

@@ -14,6 +14,7 @@ use drape_collide::{Body, Shape, Triangulation};
 use crate::check::checker::Checker;
 use crate::scene::Scene;
 use crate::scene::garment::Garment;
+use crate::surfaces::StartSurfaces;
 use drape_collide::section::{SectionPlane, convex_hull, encloses};
 
 use super::girth::{Fit, Girths};
@@ -76,6 +77,10 @@ const NEAR: f64 = 0.12;
 /// heights, and of one.
 const CLOSE: usize = 4;
 const CLOSE_AT_HEIGHT: usize = 2;
+
+/// Ways up and down, to the front and to the back, and to the sides by which a place that is advised is
+/// changed where surfaces cross, in m.
+const NUDGES: [f64; 5] = [0.005, 0.01, 0.015, 0.02, 0.03];
 
 /// Weight of the cost of a place where a garment has to stretch.
 const STRETCHED: f64 = 1.5;
@@ -374,7 +379,7 @@ pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Places {
         }
         let fault = describe(&garment.name, place, &points, &solids);
         let girths = Girths::new(scene, number);
-        let shift = solids.shift(&points, Some(&girths));
+        let shift = solids.shift(&points, Some(&girths)).map(|shift| apart(scene, garment, shift));
         let help = remedy(checker, number, shift);
         match place {
             Place::Feet => places.notes.push(format!("{fault}; {help}")),
@@ -395,6 +400,31 @@ fn grows(scene: &Scene) -> bool {
 fn points(scene: &Scene, garment: &Garment) -> Vec<[f64; 3]> {
     let place = |particle| [0, 1, 2].map(|axis| scene.start.positions[3 * particle + axis]);
     garment.particles.clone().map(place).collect()
+}
+
+/// Returns the place next to a shift of a garment, in m, at which it crosses nothing, or the same if there
+/// is none: fingers can be between the particles of a coarse panel.
+fn apart(scene: &Scene, garment: &Garment, shift: [f64; 3]) -> [f64; 3] {
+    let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(scene).ok()).flatten();
+    let Some(StartSurfaces { mut contact, .. }) = surfaces else { return shift };
+    let own = 3 * garment.particles.start..3 * garment.particles.end;
+    let mut crosses_nothing = |shift: &[f64; 3]| {
+        let mut positions = scene.start.positions.clone();
+        let places = positions[own.clone()].as_chunks_mut::<3>().0;
+        places
+            .iter_mut()
+            .for_each(|place| *place = [0, 1, 2].map(|axis| place[axis] + shift[axis]));
+        contact.intersections(&positions).is_ok_and(<[_]>::is_empty)
+    };
+    let ways = NUDGES.iter().flat_map(|way| [1, 2, 0].map(|axis| (axis, way)));
+    let nudged = ways.flat_map(|(axis, way)| {
+        [*way, -way].map(|way| {
+            let mut nudged = shift;
+            nudged[axis] += way;
+            nudged
+        })
+    });
+    std::iter::once(shift).chain(nudged).find(&mut crosses_nothing).unwrap_or(shift)
 }
 
 /// Describes where a garment starts.
