@@ -224,13 +224,13 @@ fn what_moves_after_rest_moves_on_the_last_grid() {
 }
 
 #[test]
-fn cloth_that_would_intersect_on_the_next_grid_is_left_and_said() {
+fn cloth_that_intersects_in_few_places_on_the_next_grid_is_carried_untangled() {
     // The grid is as coarse as the ball, whose triangles are finer.
     let scene = || refined("", "[0.07, 0.03]");
     let summary = Simulation::new(scene()).unwrap().run(&mut ()).unwrap();
-    assert!(summary.coarser_grids.iter().all(|own| !own.carried) && summary.settled, "{summary:?}");
-    assert!(summary.warnings[0].contains("begins from its own start"), "{:?}", summary.warnings);
-    assert_eq!((summary.frame_times[0], summary.contact.intersections), (0.0, 0));
+    assert!(summary.coarser_grids.iter().all(|own| own.carried) && summary.settled, "{summary:?}");
+    assert!(summary.warnings[0].contains("are displaced by up to"), "{:?}", summary.warnings);
+    assert!(summary.frame_times[0] > 0.0 && summary.contact.intersections == 0);
     goes_on(scene, 17);
 }
 

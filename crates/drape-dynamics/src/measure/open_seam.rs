@@ -42,11 +42,11 @@ impl<'a> OpenSeam<'a> {
         )
     }
 
-    /// Warns that particles were moved by a way in m, because other cloth is between its sides.
+    /// Warns that particles were displaced by a way in m, because other cloth is between its sides.
     pub(crate) fn warn_untangled(&self, way: f64) -> String {
         let place = self.describe();
         format!(
-            "{place}; other cloth is between its sides, so particles there are moved by up to {:.2} mm, to where \
+            "{place}; other cloth is between its sides, so particles there are displaced by up to {:.2} mm, to where \
              nothing intersects",
             1e3 * way
         )

@@ -146,22 +146,29 @@ impl Simulation {
                 }
             };
         let record = GridRecord { carried: begun.is_ok(), ..grid.record() };
-        if let Err(reason) = begun {
-            self.outcome.events.push(format!(
-                "the grid of {:.1} mm is of no use: {reason}; the next one begins from its own start",
-                1e3 * record.spacing
-            ));
-        }
+        let spacing = 1e3 * record.spacing;
+        let event = match begun {
+            Ok(None) => None,
+            Ok(Some(way)) => Some(format!(
+                "the cloth of the grid of {spacing:.1} mm intersects on the next; particles there are displaced by up to \
+                 {:.2} mm, to where nothing does",
+                1e3 * way
+            )),
+            Err(reason) => Some(format!(
+                "the grid of {spacing:.1} mm is of no use: {reason}; the next one begins from its own start"
+            )),
+        };
+        self.outcome.events.extend(event);
         self.grids.push(record);
         Ok(())
     }
 
-    /// Begins at rest with cloth that a coarser grid gives; returns why it cannot, and changes nothing
-    /// then.
+    /// Begins at rest with cloth that a coarser grid gives; returns how far particles were displaced where it
+    /// intersected, in m, or why it cannot, and changes nothing then.
     fn begin_with(
         &mut self,
         carried: CarriedCloth,
-    ) -> Result<Result<(), String>, drape_implicit::Error> {
+    ) -> Result<Result<Option<f64>, String>, drape_implicit::Error> {
         let CarriedCloth { ticks, mut positions, bodies } = carried;
         let is_sewn = !self.parts.seams.is_empty();
         if is_sewn {
@@ -169,16 +176,18 @@ impl Simulation {
         }
         let bodies = bodies.unwrap_or_default();
         let untangling = self.untangling();
+        let mut displaced = None;
         if let Some(surfaces) = self.world.contact.surfaces_mut() {
             let contact = &mut surfaces.contact;
             match contact.sewn_placement(&positions, &bodies) {
                 Ok(SewnPlacement::Free(_)) => {}
                 Ok(SewnPlacement::Intersecting(found)) => {
+                    let count = found.len();
                     let placement = |trial: &[f64]| contact.sewn_placement(trial, &bodies);
-                    if untangling.untangle(&mut positions, ticks, placement).is_none() {
-                        let count = found.len();
+                    let Some(way) = untangling.untangle(&mut positions, ticks, placement) else {
                         return Ok(Err(format!("its cloth has {count} intersections on the next")));
-                    }
+                    };
+                    displaced = Some(way);
                 }
                 Err(_) => return Ok(Err("it has other bodies than the next".into())),
             }
@@ -202,7 +211,7 @@ impl Simulation {
         self.steps_to_forget = SMOOTHING_STEPS;
         self.phases.begun = vec![Phase { name: PhaseName::Relax, start: time, frame: 0 }];
         self.restart(relaxation)?;
-        Ok(Ok(()))
+        Ok(Ok(displaced))
     }
 }
 
@@ -213,13 +222,14 @@ mod tests {
     use super::*;
     use crate::world::check::FABRIC;
 
-    /// Two level sheets, 10 mm apart.
-    fn sheets() -> Simulation {
+    /// Two level sheets, 10 mm apart, and more of a scene.
+    fn sheets(more: &str) -> Simulation {
         let text = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n[[panel]]\nname = \"sheet\"\n\
                     fabric = \"plain\"\nrectangle = [0.1, 0.1]\nturn = [-90, 0, 0]\n\
                     stack = { count = 2, step = [0, 0.01, 0] }\n\
                     [[pin]]\npanel = \"sheet\"\nedge = \"top\"\n\
-                    [time]\nstep = 0.005\nend = 1\n[settle]\n";
+                    [time]\nstep = 0.005\nend = 9\n[settle]\n";
+        let text = format!("{text}{more}");
         let fabric = Document::new("plain.toml", FABRIC);
         let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric]);
         Simulation::new(scene.expect("a right scene")).expect("a solver")
@@ -227,7 +237,7 @@ mod tests {
 
     #[test]
     fn cloth_that_would_intersect_is_not_carried_and_leaves_the_grid_at_its_start() {
-        let [mut own, mut other] = [sheets(), sheets()];
+        let [mut own, mut other] = [sheets(""), sheets("")];
         let mut positions = own.positions().to_vec();
         let half = positions.len() / 2;
         // Half of the lower sheet is far above the upper one.
@@ -244,8 +254,28 @@ mod tests {
     }
 
     #[test]
+    fn a_grid_whose_cloth_would_intersect_is_left_and_said() {
+        let mut own =
+            sheets("[refine]\nspacings = [0.05]\n[[pin]]\npanel = \"sheet 2\"\nedge = \"top\"\n");
+        let start = own.positions().to_vec();
+        let grid = &mut own.coarser[0].simulation;
+        while !grid.step().expect("a step").finished {}
+        assert!(grid.is_at_rest());
+        let half = grid.world.state.positions.len() / 4;
+        grid.world.state.positions[..half].iter_mut().for_each(|x| *x += 0.05);
+        own.leave_coarser_grid().expect("a solver");
+        assert_eq!((own.positions(), own.time()), (&start[..], 0.0));
+        assert!(own.coarser.is_empty() && !own.grids[0].carried);
+        let told = &own.outcome.events[0];
+        assert!(
+            told.contains("intersections") && told.contains("begins from its own start"),
+            "{told}"
+        );
+    }
+
+    #[test]
     fn cloth_with_one_particle_on_the_wrong_side_is_carried_untangled() {
-        let mut own = sheets();
+        let mut own = sheets("");
         let mut positions = own.positions().to_vec();
         let middle = 3 * (positions.len() / 12) + 1;
         positions[middle] += 0.015;
@@ -259,7 +289,7 @@ mod tests {
 
     #[test]
     fn cloth_nearer_than_surfaces_keep_is_carried_with_shrunk_distances() {
-        let mut own = sheets();
+        let mut own = sheets("");
         let mut positions = own.positions().to_vec();
         let half = positions.len() / 2;
         positions[half..].iter_mut().skip(1).step_by(3).for_each(|y| *y -= 0.01 - 5e-5);

@@ -62,7 +62,7 @@ fn a_seam_that_a_corner_keeps_open_is_merged_beside_it() {
         assert_eq!((summary.status, summary.contact.intersections), (Status::Ok, 0), "{behind} m");
         assert!(
             summary.warnings.iter().any(|warning| warning.contains(
-                "other cloth is between its sides, so particles there are moved by up to "
+                "other cloth is between its sides, so particles there are displaced by up to "
             )),
             "{:?}",
             summary.warnings
