@@ -105,6 +105,7 @@ impl TrackedPairs {
         let drift = |vertex| norm(subtract(at(placement, vertex), at(pairs.positions(), vertex)));
         self.drift.extend((0..pairs.step_start(placement).moved).map(drift));
         // A maximum that passes NaN on.
-        self.drift.iter().fold(0.0, |most, &drift| if drift <= most { most } else { drift })
+        let larger = |most: f64, drift: f64| drift > most || drift.is_nan();
+        self.drift.iter().fold(0.0, |most, &drift| if larger(most, drift) { drift } else { most })
     }
 }
