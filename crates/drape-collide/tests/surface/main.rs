@@ -10,6 +10,7 @@ mod derivatives;
 mod energy;
 mod exact;
 mod exactness;
+mod growth;
 mod layers;
 mod oracle;
 mod pinch;

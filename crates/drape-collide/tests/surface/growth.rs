@@ -1,0 +1,118 @@
+//! Distances that start shorter than they are to be, and grow; places to which surfaces are put.
+
+use drape_collide::{PinchPolicy, SewnPlacement, SurfaceContact, SurfaceSettings};
+
+use crate::sheets::{Between, KEPT, REACH, WIDE, level, plates};
+
+/// Sheet with room of 0.12 and 0.34 mm to the plates, less than the 0.2 mm that it is to keep.
+fn tight() -> Between {
+    let mut tight = Between::new(PinchPolicy::Error, WIDE, [-1.2e-4, 3.4e-4]);
+    tight.contact.shrink_distances(&level(0.0)).unwrap();
+    tight
+}
+
+/// Grows the distances by an increment in a step at one place; returns the fraction that is kept then.
+fn grow(between: &mut Between, increment: f64, height: f64) -> f64 {
+    let contact = &mut between.contact;
+    contact.grow_distances(&level(height), increment);
+    let bodies = contact.body_positions().to_vec();
+    contact.begin(&level(height), &bodies);
+    contact.commit(&level(height));
+    contact.growth_fraction()
+}
+
+#[test]
+fn distances_shrink_to_the_nearest_pair_and_grow_by_increments_to_the_whole() {
+    let mut between = tight();
+    let start = 1.2e-4 / REACH;
+    assert!((between.contact.growth_fraction() - start).abs() < 1e-9);
+    assert_eq!(between.contact.potential(&level(0.0)), 0.0, "no pair is active");
+    assert!((grow(&mut between, 0.1, 0.0) - start - 0.1).abs() < 1e-9);
+    assert!(between.contact.growth_work() > 0.0);
+    // Nine tenths of the distance may become what is kept, and no more.
+    let most = 0.9 * 1.2e-4 / KEPT;
+    for _ in 0..3 {
+        assert!((grow(&mut between, 0.4, 0.0) - most).abs() < 1e-9);
+    }
+    // In the middle there is room; a tenth too little for the whole grows on, rounding does not.
+    let middle = 1.1e-4;
+    assert!((grow(&mut between, 0.9 - most, middle) - 0.9).abs() < 1e-9);
+    assert_eq!(grow(&mut between, 0.1 - 1e-12, middle), 1.0);
+    assert_eq!(grow(&mut between, 0.1, middle), 1.0);
+    assert_eq!(between.contact.growth_work(), 0.0, "nothing grows any more");
+}
+
+#[test]
+fn what_is_kept_never_falls_while_distances_grow() {
+    let mut between = tight();
+    let fraction = grow(&mut between, 0.2, 0.0);
+    // Nearer to the plate there is room for less than is kept already.
+    assert_eq!(grow(&mut between, 0.2, -4e-5), fraction);
+}
+
+#[test]
+fn a_place_is_free_with_its_least_separation_or_intersects_at_known_vertices() {
+    let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
+    let bodies = between.contact.body_positions().to_vec();
+    let memory = between.contact.memory();
+    let free = between.contact.sewn_placement(&level(1e-4), &bodies).unwrap();
+    let SewnPlacement::Free(ratio) = free else { panic!("{free:?}") };
+    assert!((ratio - 3e-4 / KEPT).abs() < 1e-9, "{ratio}");
+    // One corner of the sheet is in the upper plate.
+    let mut corner = level(0.0);
+    corner[1] = 5e-4;
+    let found = between.contact.sewn_placement(&corner, &bodies).unwrap();
+    let SewnPlacement::Intersecting(found) = found else { panic!("{found:?}") };
+    let surface = between.contact.surface();
+    for [a, b, c, d, e] in &found {
+        assert!(surface.edges().contains(&[*a, *b]), "{a} and {b} are no edge");
+        assert!(surface.triangles().contains(&[*c, *d, *e]), "{c}, {d} and {e} are no triangle");
+        assert!([a, b, c, d, e].contains(&&0), "it is not at the corner");
+    }
+    assert!(!found.is_empty());
+    // Where the plates are elsewhere, the same sheet is free; nothing of that stays.
+    let [lower, upper] = plates(WIDE, [-4e-4, 9e-4]);
+    let apart = [lower.0, upper.0].concat();
+    let free = between.contact.sewn_placement(&corner, &apart).unwrap();
+    assert!(matches!(free, SewnPlacement::Free(ratio) if (ratio - 2.0).abs() < 1e-6), "{free:?}");
+    assert!(between.contact.memory() == memory && between.contact.body_positions() == bodies);
+    assert!(between.contact.sewn_placement(&corner, &bodies[3..]).is_err(), "a vertex is missing");
+}
+
+#[test]
+fn surfaces_are_placed_and_their_distances_shrink_to_what_there_is() {
+    let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
+    let [lower, upper] = plates(WIDE, [-1e-4, 4e-4]);
+    let bodies = [lower.0, upper.0].concat();
+    between.contact.place_bodies(&bodies).unwrap();
+    assert_eq!(between.contact.body_positions(), bodies);
+    assert!((between.ratio(0.0) - 0.5).abs() < 1e-9);
+    between.contact.shrink_to_separation(&level(0.0)).unwrap();
+    assert!((between.contact.growth_fraction() - 0.45).abs() < 1e-9, "nine tenths of it");
+    assert!((between.ratio(0.0) - 1.0 / 0.9).abs() < 1e-9);
+    between.contact.shrink_to_separation(&level(0.0)).unwrap();
+    assert!((between.contact.growth_fraction() - 0.45).abs() < 1e-9, "there is room now");
+    assert!(between.contact.place_bodies(&bodies[3..]).is_err(), "a vertex is missing");
+}
+
+#[test]
+fn settings_out_of_range_are_refused() {
+    let contact = |change: &dyn Fn(&mut SurfaceSettings)| {
+        let between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
+        let mut settings = SurfaceSettings::new(1e8, vec![0.0; 9]);
+        change(&mut settings);
+        let bodies = between.contact.body_positions().to_vec();
+        SurfaceContact::new(between.contact.surface().clone(), settings, bodies)
+    };
+    assert!(contact(&|_| ()).is_ok());
+    let zero: [&dyn Fn(&mut SurfaceSettings); 5] = [
+        &|own| own.stiffness = 0.0,
+        &|own| own.sticking_displacement = 0.0,
+        &|own| own.stiffness = f64::NAN,
+        &|own| own.friction_coefficients[8] = -1e-9,
+        &|own| own.friction_coefficients.truncate(8),
+    ];
+    for (k, change) in zero.into_iter().enumerate() {
+        assert!(contact(change).is_err(), "{k}");
+    }
+}
