@@ -1,4 +1,4 @@
-//! Untangling: particles of sewn cloth that intersects are moved a little until nothing does.
+//! Untangling: particles of sewn cloth that intersects are displaced a little, until nothing does.
 //!
 //! Where seams are merged, or cloth comes from a coarser grid, a corner or an edge can lie on the wrong side
 //! of other cloth: at an underarm, for example, four edges meet. One particle of an intersection after
@@ -16,7 +16,7 @@ use super::node_map::merge;
 /// Number of displacements that are tried.
 const TRIES: usize = 320;
 
-/// Number of intersections up to which it is tried.
+/// Largest number of intersections that are untangled.
 const INTERSECTIONS_MAX: usize = 100;
 
 /// Largest coordinates of displacements, in turn, over the spacing.
@@ -29,7 +29,7 @@ const FARTHEST: f64 = 0.6;
 /// much less, steps had no solution.
 const ENOUGH: f64 = 0.3;
 
-/// Fractions of its displacement with which a particle may do in the end.
+/// Fractions of its displacement that are tried for a particle in the end, the smallest first.
 const FRACTIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Fractions by which the points of the sequence follow one another: the powers of 1 over the root of
@@ -37,7 +37,7 @@ const FRACTIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 const INCREMENTS: [f64; 3] =
     [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_5];
 
-/// Particles of sewn cloth that may be moved.
+/// Particles of sewn cloth that may be displaced.
 #[derive(Debug)]
 pub(crate) struct Untangling {
     pairs: SeamPairs,
@@ -62,9 +62,9 @@ impl Untangling {
         Self { pairs, masses, held, spacing, first, merged }
     }
 
-    /// Moves particles from positions in m, at which seams are merged, until nothing intersects. Returns the
-    /// longest way, in m, or none if that does not succeed. Another start of the sequence tries other
-    /// displacements.
+    /// Displaces particles from positions in m, at which seams are merged, until nothing intersects. Returns
+    /// the longest displacement, in m, or none if that does not succeed. Another start of the sequence
+    /// tries other displacements.
     pub(crate) fn untangle(
         &self,
         positions: &mut Vec<f64>,
@@ -126,11 +126,14 @@ impl Untangling {
         }
     }
 
-    /// First particles of all that intersections move.
+    /// First particles of all at intersections that are merged with none that is held.
     fn movable(&self, found: &[[u32; 5]]) -> BTreeSet<u32> {
-        let all = found.iter().flatten().filter(|&&vertex| (vertex as usize) < self.first.len());
-        let free = all.filter(|&&particle| !self.held[particle as usize]);
-        free.map(|&particle| self.first[particle as usize]).collect()
+        let first = found.iter().flatten().filter_map(|&vertex| self.first.get(vertex as usize));
+        let is_free = |first: &&u32| {
+            let merged = self.merged.get(first).into_iter().flatten().chain([*first]);
+            !merged.into_iter().any(|&particle| self.held[particle as usize])
+        };
+        first.filter(is_free).copied().collect()
     }
 
     /// Displacement with a number, in m.
@@ -233,7 +236,7 @@ mod tests {
     #[test]
     fn particles_that_are_held_and_vertices_of_bodies_stay() {
         let mut positions = start();
-        let own = untangling([true, true, false, false, true]);
+        let own = untangling([true, false, false, false, false]);
         assert_eq!(own.untangle(&mut positions, 0, above_a_floor), None);
         assert_eq!(positions, start());
     }

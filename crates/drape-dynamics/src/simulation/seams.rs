@@ -41,12 +41,14 @@ impl Simulation {
         let (place, mut reason) = (seam.place, seam.describe());
         if gap.width <= STRETCHED_MAX * self.spacing {
             let warning = seam.warn(self.spacing, springs.largest_force(positions));
+            let merged = self.merged();
+            let placement = self.world.sewn_placement(&merged);
+            let is_free = matches!(placement, Ok(SewnPlacement::Free(_)));
             if self.world.stiffen_springs(self.stepping.time(), gap.width) {
-                self.outcome.events.push(warning);
+                self.outcome.events.extend(is_free.then_some(warning));
                 return Ok(());
             }
-            let merged = self.merged();
-            if let Ok(SewnPlacement::Free(_)) = self.world.sewn_placement(&merged) {
+            if is_free {
                 return self.place_sewn(&merged);
             }
             reason += ", with other cloth or a body between its sides";

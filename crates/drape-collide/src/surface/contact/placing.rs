@@ -11,9 +11,9 @@ const SEPARATION_KEPT: f64 = 0.9;
 /// Placement of surfaces with closed seams.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SewnPlacement {
-    /// Nothing intersects; the smallest distance of a pair over its minimum separation is this.
+    /// Nothing intersects: the smallest distance of a pair over its minimum separation.
     Free(f64),
-    /// The vertices of the edge and the triangle of every intersection.
+    /// Something intersects: the vertices of the edge and the triangle of every intersection.
     Intersecting(Vec<[u32; 5]>),
 }
 
@@ -43,8 +43,8 @@ impl SurfaceContact {
         Ok(())
     }
 
-    /// Returns what closed seams give at other places: the free vertices' and the bodies' positions, in m. The
-    /// contact stays as it is.
+    /// Returns the placement with closed seams at other positions of the free vertices and of the bodies, in
+    /// m. The contact stays as it is.
     ///
     /// # Errors
     /// Positions that are not finite, too many pairs, or another number of coordinates of bodies.
@@ -65,7 +65,7 @@ impl SurfaceContact {
         found
     }
 
-    /// Returns what the free vertices' positions, in m, give.
+    /// Returns the placement at positions of the free vertices, in m.
     fn placement(&mut self, positions: &[f64]) -> Result<SewnPlacement, Error> {
         let found = self.intersections(positions)?.to_vec();
         if found.is_empty() {
