@@ -184,6 +184,11 @@ impl World {
         self.seams.springs.as_mut().is_some_and(|springs| springs.stiffen(time, gap))
     }
 
+    /// Whether the springs that close the seams are stiffened.
+    pub(crate) fn springs_are_stiffened(&self) -> bool {
+        self.seams.springs.as_ref().is_some_and(|springs| springs.stiffening().is_some())
+    }
+
     /// Ends the sewing at a time, in s, with the cloth at rest at some positions, in m.
     pub(crate) fn finish_sewing(&mut self, time: f64, positions: &[f64]) {
         self.seams.springs = None;

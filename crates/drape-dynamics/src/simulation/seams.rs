@@ -17,9 +17,9 @@ use crate::sewing::untangling::Untangling;
 const NEARLY_CLOSED: f64 = 5e-4;
 
 impl Simulation {
-    /// Ends the sewing when the seams are closed, or when they do not close. A seam that stays open by little
-    /// because other cloth is between its sides is merged beside it. Another one is pulled harder first,
-    /// so that merging its sides moves no cloth into a body.
+    /// Ends the sewing when the seams are closed, or when they do not close. Where a seam stays open by little
+    /// because other cloth is between its sides, the cloth is untangled. Another seam is pulled harder
+    /// first, so that merging its sides moves no cloth into a body.
     pub(super) fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let narrow = NEARLY_CLOSED.max(STRETCHED_MAX * self.spacing);
@@ -43,12 +43,15 @@ impl Simulation {
             let warning = seam.warn(self.spacing, springs.largest_force(positions));
             let merged = self.merged();
             let placement = self.world.sewn_placement(&merged);
-            let is_free = matches!(placement, Ok(SewnPlacement::Free(_)));
             if self.world.stiffen_springs(self.stepping.time(), gap.width) {
-                self.outcome.events.extend(is_free.then_some(warning));
+                let is_blocked = match &placement {
+                    Ok(SewnPlacement::Intersecting(found)) => self.is_of_cloth(found),
+                    _ => false,
+                };
+                self.outcome.events.extend((!is_blocked).then_some(warning));
                 return Ok(());
             }
-            if is_free {
+            if matches!(placement, Ok(SewnPlacement::Free(_))) {
                 return self.place_sewn(&merged);
             }
             reason += ", with other cloth or a body between its sides";
@@ -72,14 +75,20 @@ impl Simulation {
         self.restart(relaxation)
     }
 
-    /// Merges the two sides of every seam where that lets nothing intersect: at their mean if the widest gap
-    /// is narrow enough, and else beside what is between them.
+    /// Merges the two sides of every seam where that lets nothing intersect, if the widest gap is narrow
+    /// enough, or once cloth that is between them is untangled.
     fn merge_nearly_closed(&mut self, gap: WidestGap) -> Result<(), drape_implicit::Error> {
         let mut positions = self.merged();
         let mut warning = None;
         match self.world.sewn_placement(&positions) {
             Ok(SewnPlacement::Free(_)) if gap.width > NEARLY_CLOSED => return Ok(()),
             Ok(SewnPlacement::Free(_)) => {}
+            // Round a body the cloth may be too short: it is pulled harder first.
+            Ok(SewnPlacement::Intersecting(found))
+                if !self.is_of_cloth(&found) && !self.world.springs_are_stiffened() =>
+            {
+                return Ok(());
+            }
             Ok(SewnPlacement::Intersecting(_)) => {
                 let seam = OpenSeam::new(&self.parts, gap, &self.world.state.positions);
                 let untangling = self.untangling();
@@ -96,6 +105,11 @@ impl Simulation {
         self.place_sewn(&positions)
     }
 
+    /// Whether vertices of intersections are all of cloth.
+    fn is_of_cloth(&self, found: &[[u32; 5]]) -> bool {
+        found.iter().flatten().all(|&vertex| (vertex as usize) < self.world.cloth.particles())
+    }
+
     /// Places a garment at some positions, in m, where its seams are merged and nothing intersects. Distances
     /// that become too short grow again.
     fn place_sewn(&mut self, positions: &[f64]) -> Result<(), drape_implicit::Error> {
@@ -104,7 +118,7 @@ impl Simulation {
         placed.map_or(Ok(()), |()| self.finish_sewing(positions))
     }
 
-    /// Returns what moves particles of sewn cloth that intersects.
+    /// Returns the untangling of the sewn cloth.
     pub(super) fn untangling(&self) -> Untangling {
         let world = &self.world;
         let (masses, held) = (world.cloth.masses().to_vec(), world.held().to_vec());
