@@ -60,18 +60,18 @@ fn the_plate_that_approaches_more_passes_through_the_cloth() {
 
 #[test]
 fn cloth_that_a_released_plate_cuts_is_exempt_from_the_test_for_intersections() {
-    // The plates are narrower than the sheet, whose outer triangles they cut.
+    // The plates are narrower than the sheet, whose outer triangles they cut, far from their faces.
     let half = 1.2 * SPACING;
     let mut between = Between::new(PinchPolicy::Release, half, [-4e-4, 4e-4]);
     let pinched = between.step([0.0, -4e-4], [0.0, 0.0]);
-    assert!(pinched.released >= 9 && pinched.thinned == 0, "{pinched:?}");
-    let pinched = between.step([0.0, -4e-4], [0.0, 0.0]);
+    assert!((10..=ALL).contains(&pinched.released) && pinched.thinned == 0, "{pinched:?}");
+    let pinched = between.step([0.0, -8e-4], [0.0, 0.0]);
     let all = between.contact.intersections_with_released(&level(0.0)).unwrap();
-    assert!(!all.is_empty() && pinched.released >= 9, "{pinched:?}");
+    assert!(!all.is_empty() && pinched.released >= 10, "{pinched:?}");
     assert!(between.contact.intersections(&level(0.0)).unwrap().is_empty());
-    // Vertices that the plate cuts, or contains, stay released while it stays.
+    // Nine vertices are in the plate; those of triangles that it cuts stay released too.
     let again = between.step([0.0, 0.0], [0.0, 0.0]);
-    assert!(again.released >= 9 && again.released <= pinched.released, "{again:?}");
+    assert!((10..=pinched.released).contains(&again.released), "{again:?} after {pinched:?}");
 }
 
 #[test]

@@ -83,7 +83,7 @@ pub const KEPT: f64 = 2e-4;
 pub const REACH: f64 = 6e-4;
 
 /// Thickness of a plate, in m.
-const THICKNESS: f64 = 1e-3;
+const THICKNESS: f64 = 2e-3;
 
 /// Level sheet between two plates, its vertices and the plates' at some heights.
 pub struct Between {

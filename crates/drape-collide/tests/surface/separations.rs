@@ -1,6 +1,10 @@
-//! Distances that start shorter than they are to be, and grow; places to which surfaces are put.
+//! Distances that surfaces keep: those that grow, those of places to which they are put, and those of the
+//! sides of open seams.
 
-use drape_collide::{PinchPolicy, SewnPlacement, SurfaceContact, SurfaceSettings};
+use drape_collide::{
+    ContactDistances, PinchPolicy, SewnPlacement, Surface, SurfaceContact, SurfaceParts,
+    SurfaceSettings, SurfaceStep,
+};
 
 use crate::sheets::{Between, KEPT, REACH, WIDE, level, plates};
 
@@ -115,4 +119,94 @@ fn settings_out_of_range_are_refused() {
     for (k, change) in zero.into_iter().enumerate() {
         assert!(contact(change).is_err(), "{k}");
     }
+}
+
+#[test]
+fn steps_are_limited_by_a_plate_where_it_is_since_it_moved() {
+    let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-3, 4e-3]);
+    let sink = |between: &mut Between| {
+        let bodies = between.contact.body_positions().to_vec();
+        between.contact.begin(&level(0.0), &bodies);
+        let mut displacements = level(-3e-3);
+        let start = level(0.0);
+        displacements.iter_mut().zip(&start).for_each(|(x, start)| *x -= start);
+        between.contact.limit_step(SurfaceStep {
+            start: &start,
+            displacements: &mut displacements,
+            held: &[],
+            obstacle_time: 1.0,
+            obstacle_advance: &mut 0.0,
+        });
+        between.contact.commit(&start);
+        displacements[1]
+    };
+    assert_eq!(sink(&mut between), -3e-3, "the plate is 4 mm below");
+    between.step([3e-3, 0.0], [0.0, 0.0]);
+    let sunk = sink(&mut between);
+    assert!((-8e-4..-1e-4).contains(&sunk), "{sunk} m, and the plate is 1 mm below");
+}
+
+/// Two squares of 10 mm, one above the other with a slit between them, in one plane, and the contact of
+/// their sides, which a seam joins.
+fn slit(width: f64) -> Vec<f64> {
+    let rows = [-0.01 - 0.5 * width, -0.5 * width, 0.5 * width, 0.01 + 0.5 * width];
+    rows.iter().flat_map(|y| [0.0, *y, 0.0, 0.01, *y, 0.0]).collect()
+}
+
+fn seam() -> SurfaceContact {
+    let surface = Surface::new(SurfaceParts {
+        rest_positions: slit(0.02),
+        triangles: vec![[0, 1, 2], [1, 3, 2], [4, 5, 6], [5, 7, 6]],
+        areas: vec![5e-5; 8],
+        groups: vec![0, 0, 0, 0, 1, 1, 1, 1],
+        distances: vec![ContactDistances { activation_distance: 1e-4, min_separation: 2e-5 }; 2],
+        free_vertices: 8,
+        seam_pairs: vec![[2, 4], [3, 5]],
+        ties: Vec::new(),
+    });
+    let settings = SurfaceSettings::new(1e8, vec![0.0; 4]);
+    SurfaceContact::new(surface.unwrap(), settings, Vec::new()).unwrap()
+}
+
+/// Gaps at the particles of a seam that is open by a width, in m.
+fn gaps(width: f64) -> Vec<f64> {
+    (0..8).map(|v| if (2..6).contains(&v) { width } else { f64::INFINITY }).collect()
+}
+
+#[test]
+fn sides_of_an_open_seam_repel_each_other_below_half_of_its_gap() {
+    let mut contact = seam();
+    contact.open_seams(&gaps(2e-4), &slit(2e-4)).unwrap();
+    assert_eq!(contact.potential(&slit(1.1e-4)), 0.0);
+    assert!(contact.potential(&slit(0.9e-4)) > 0.0);
+    // They repel each other the later, the narrower the gap is, and not where they are one point.
+    contact.set_seam_gaps(&gaps(1e-4));
+    assert_eq!(contact.potential(&slit(0.6e-4)), 0.0);
+    assert!(contact.potential(&slit(0.4e-4)) > 0.0);
+    contact.set_seam_gaps(&gaps(1e-13));
+    assert_eq!(contact.potential(&slit(0.1e-4)), 0.0);
+}
+
+#[test]
+fn no_gap_is_wider_than_what_the_sides_are_apart_at_the_start() {
+    let mut contact = seam();
+    // They lie at a tenth of the gap that is given.
+    contact.open_seams(&gaps(1e-3), &slit(1e-4)).unwrap();
+    assert_eq!(contact.potential(&slit(1e-4)), 0.0, "none repels the other at the start");
+    assert!(contact.potential(&slit(0.8e-4)) > 0.0);
+}
+
+#[test]
+fn a_contact_with_open_seams_goes_on_from_one_with_open_seams_alone() {
+    let [mut open, mut other, mut closed] = [seam(), seam(), seam()];
+    let start = slit(2e-4);
+    open.open_seams(&gaps(2e-4), &start).unwrap();
+    other.open_seams(&gaps(2e-4), &start).unwrap();
+    other.set_seam_gaps(&gaps(1e-4));
+    let saved = other.saved();
+    open.resume(&start, &saved).unwrap();
+    assert_eq!(open.potential(&slit(0.6e-4)), 0.0, "its gap is the narrower one");
+    assert!(closed.resume(&start, &saved).is_err());
+    let closed_seams = closed.saved();
+    assert!(open.resume(&start, &closed_seams).is_err());
 }
