@@ -231,6 +231,16 @@ fn what_cannot_be_detected_is_an_error() {
         let bad = detector.detect(&surface, &positions, 1e-3);
         assert!(matches!(bad, Err(Error::InvalidPosition { .. })));
     }
+    let places = &parts.rest_positions;
+    let still = vec![0.0; places.len()];
+    let mut lost = still.clone();
+    lost[95] = f64::NAN;
+    for sweep in [Sweep::Common, Sweep::Individual] {
+        let short = detector.detect_swept(&surface, places, sweep(&still[1..]), 1e-3);
+        assert!(matches!(short, Err(Error::WrongLength { found: 95, .. })));
+        let bad = detector.detect_swept(&surface, places, sweep(&lost), 1e-3);
+        assert!(matches!(bad, Err(Error::InvalidPosition { .. })));
+    }
     for margin in [0.0, -1.0, f64::NAN] {
         let bad = detector.detect(&surface, &parts.rest_positions, margin);
         assert!(matches!(bad, Err(Error::OutOfRange { .. })));
