@@ -184,7 +184,7 @@ impl World {
         self.seams.springs.as_mut().is_some_and(|springs| springs.stiffen(time, gap))
     }
 
-    /// Whether the springs that close the seams are stiffened.
+    /// Whether the closing springs are stiffened.
     pub(crate) fn springs_are_stiffened(&self) -> bool {
         self.seams.springs.as_ref().is_some_and(|springs| springs.stiffening().is_some())
     }
@@ -218,8 +218,8 @@ impl World {
         surfaces.contact.sewn_placement(positions, &bodies)
     }
 
-    /// Places cloth with closed seams among the bodies at a time, in s, where it intersects nothing.
-    /// Distances that are too short grow again within a time, in s.
+    /// Places cloth with closed seams at positions, in m, where it intersects nothing, at a time, in s.
+    /// Minimum separations are reduced to the distances there, and grow again within a time, in s.
     pub(crate) fn place_sewn(
         &mut self,
         time: f64,

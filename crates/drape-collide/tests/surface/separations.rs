@@ -1,5 +1,5 @@
-//! Distances that surfaces keep: those that grow, those of places to which they are put, and those of the
-//! sides of open seams.
+//! Minimum separations of surfaces: while they grow, after surfaces are placed, and between the sides of
+//! open seams.
 
 use drape_collide::{
     ContactDistances, PinchPolicy, SewnPlacement, Surface, SurfaceContact, SurfaceParts,
@@ -168,7 +168,7 @@ fn seam() -> SurfaceContact {
     SurfaceContact::new(surface.unwrap(), settings, Vec::new()).unwrap()
 }
 
-/// Gaps at the particles of a seam that is open by a width, in m.
+/// Gap at each vertex for an open seam of a width, in m; infinite away from the seam.
 fn gaps(width: f64) -> Vec<f64> {
     (0..8).map(|v| if (2..6).contains(&v) { width } else { f64::INFINITY }).collect()
 }

@@ -159,7 +159,7 @@ pub fn level(height: f64) -> Vec<f64> {
     (0..SIDE * SIDE).flat_map(|v| [place(v % SIDE), height, place(v / SIDE)]).collect()
 }
 
-/// Half side of plates that are wider than the sheet, in m.
+/// Half the side length of plates that are wider than the sheet, in m.
 pub const WIDE: f64 = 0.03;
 
 /// All vertices of the sheet.

@@ -42,7 +42,8 @@ impl<'a> OpenSeam<'a> {
         )
     }
 
-    /// Warns that particles were displaced by a way in m, because other cloth is between its sides.
+    /// Warns that other cloth is between the sides of the seam, and that particles were displaced there by up
+    /// to a distance, in m.
     pub(crate) fn warn_untangled(&self, way: f64) -> String {
         let place = self.describe();
         format!(

@@ -25,11 +25,12 @@ const REACHES: [f64; 3] = [0.05, 0.15, 0.3];
 /// Largest coordinate of the displacement that a particle may have in the end, over the spacing.
 const FARTHEST: f64 = 0.6;
 
-/// Smallest distance over its minimum separation that is enough. Distances grow again from there; from
-/// much less, steps had no solution.
+/// Smallest ratio of a distance and its minimum separation that is enough. Minimum separations are reduced
+/// to fit it, and grow again; from much smaller ratios, steps had no solution.
 const ENOUGH: f64 = 0.3;
 
-/// Fractions of its displacement that are tried for a particle in the end, the smallest first.
+/// Fractions of the displacement of a particle, in ascending order. The first that leaves enough distance
+/// replaces the whole displacement.
 const FRACTIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Fractions by which the points of the sequence follow one another: the powers of 1 over the root of

@@ -61,7 +61,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Begins to hang a garment whose seams are merged at some positions, in m.
+    /// Starts the phase after the sewing, with the seams merged at positions in m.
     fn finish_sewing(&mut self, positions: &[f64]) -> Result<(), drape_implicit::Error> {
         self.parts.garments.iter_mut().for_each(|garment| garment.hang(positions));
         self.world.finish_sewing(self.stepping.time(), positions);

@@ -8,7 +8,7 @@ use crate::error::Error;
 /// Fraction of the smallest distance over its minimum separation that shrunk distances keep.
 const SEPARATION_KEPT: f64 = 0.9;
 
-/// Placement of surfaces with closed seams.
+/// Result of placing surfaces with closed seams: intersections, or the smallest distance.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SewnPlacement {
     /// Nothing intersects: the smallest distance of a pair over its minimum separation.
