@@ -18,6 +18,7 @@ mod obstacles;
 mod open_seams;
 mod pinch;
 mod placing;
+mod saved;
 mod settings;
 mod summary;
 mod surface_contact;
@@ -26,6 +27,7 @@ mod thrown_sheet;
 
 pub use pinch::PinchedVertices;
 pub use placing::SewnPlacement;
+pub use saved::{SavedContact, SurfaceMemory};
 pub use settings::{PinchPolicy, SurfaceSettings};
 pub use summary::{PairDistance, SurfaceSummary};
-pub use surface_contact::{SavedContact, SurfaceContact, SurfaceMemory};
+pub use surface_contact::SurfaceContact;

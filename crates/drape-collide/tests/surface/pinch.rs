@@ -33,6 +33,21 @@ fn cloth_is_thinned_where_plates_leave_little_room_and_until_they_are_far() {
 }
 
 #[test]
+fn cloth_is_thinned_between_corners_as_well_as_between_faces() {
+    // Corners of the plates are inside the cells about the middle of the sheet.
+    let mut between = Between::new(PinchPolicy::Thin, 0.2 * SPACING, [-4e-4, 4e-4]);
+    assert_eq!(between.step([1e-4, -3e-4], [0.0, -1e-4]), thinned(7));
+}
+
+#[test]
+fn only_cloth_that_may_be_thinned_keeps_less_than_its_distance() {
+    let fraction = |policy| Between::new(policy, WIDE, [-4e-4, 4e-4]).contact.thinned_fraction();
+    assert_eq!(fraction(PinchPolicy::Thin), PinchPolicy::THINNED_FRACTION);
+    assert_eq!(fraction(PinchPolicy::Error), 1.0);
+    assert_eq!(fraction(PinchPolicy::Release), 1.0);
+}
+
+#[test]
 fn cloth_is_never_pinched_where_that_is_an_error() {
     let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
     assert_eq!(between.step([0.0, -4e-4], [0.0, -2e-4]), thinned(0));
@@ -53,8 +68,9 @@ fn the_plate_that_approaches_more_passes_through_the_cloth() {
     // The upper one is round the sheet, and released as long as it is.
     assert_eq!(between.step([0.0, -2.5e-4], [5e-5, 5e-5]), released(ALL));
     assert_eq!(between.step([0.0, -2.5e-4], [5e-5, 5e-5]), released(ALL));
-    // It goes up again, and has contact once it is out of reach.
-    assert_eq!(between.step([0.0, 1.3e-3], [5e-5, 5e-5]), released(ALL));
+    // It goes up again, above the sheet but near it, and has contact once it is out of reach.
+    assert_eq!(between.step([0.0, 6e-4], [5e-5, 5e-5]), released(ALL));
+    assert_eq!(between.step([0.0, 7e-4], [5e-5, 5e-5]), released(ALL));
     assert_eq!(between.step([0.0, 0.0], [5e-5, 5e-5]), released(0));
 }
 

@@ -47,6 +47,18 @@ fn distances_shrink_to_the_nearest_pair_and_grow_by_increments_to_the_whole() {
 }
 
 #[test]
+fn the_work_of_a_growth_is_the_energy_that_it_adds() {
+    let mut between = tight();
+    grow(&mut between, 0.1, 0.0);
+    let before = between.contact.potential(&level(0.0));
+    grow(&mut between, 0.1, 0.0);
+    let added = between.contact.potential(&level(0.0)) - before;
+    assert!(before > 0.0 && added > 0.0, "{before} J, {added} J");
+    let work = between.contact.growth_work();
+    assert!((work - added).abs() < 1e-12 * added, "{work} J for {added} J");
+}
+
+#[test]
 fn what_is_kept_never_falls_while_distances_grow() {
     let mut between = tight();
     let fraction = grow(&mut between, 0.2, 0.0);
@@ -185,6 +197,7 @@ fn sides_of_an_open_seam_repel_each_other_below_half_of_its_gap() {
     assert!(contact.potential(&slit(0.4e-4)) > 0.0);
     contact.set_seam_gaps(&gaps(1e-13));
     assert_eq!(contact.potential(&slit(0.1e-4)), 0.0);
+    assert_eq!(contact.potential(&slit(0.0)), 0.0, "not even where they meet");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The stiffness of surfaces in contact against differences of their forces.
 
-use crate::sheets::{DISTANCES, sheets, surface};
+use crate::sheets::{ALL, Between, DISTANCES, SPACING, level, sheets, surface};
 use drape_collide::{PinchPolicy, SurfaceContact, SurfaceSettings};
 
 const STICK: f64 = 1e-4;
@@ -86,4 +86,19 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
         let resists = along.iter().any(|force| force.abs() > 1e-9 * size * STICK);
         assert!(across > 0.0 && resists != slides, "along {along:?}, across {across}");
     }
+}
+
+#[test]
+fn bodies_have_no_stiffness_of_their_own() {
+    // The sheet is beyond the first corner of the first plate.
+    let mut between = Between::new(PinchPolicy::Error, 1.2 * SPACING, [-4e-4, 4e-4]);
+    let lower = between.contact.body_positions().chunks(3).take(8).map(|corner| corner[1]);
+    let [first, middle] = [lower.clone().next().unwrap(), lower.sum::<f64>() / 8.0];
+    let height = first + 3e-4 * (first - middle).signum();
+    let mut blocks = 0;
+    between.contact.add_stiffness(&level(height), &mut |vertices, _| {
+        assert!(vertices.iter().all(|&vertex| vertex < ALL), "{vertices:?}");
+        blocks += 1;
+    });
+    assert!(blocks > ALL, "{blocks}");
 }

@@ -1,22 +1,21 @@
 //! Contact of a surface with itself and with bodies.
 
-use serde::{Deserialize, Serialize};
-
 use super::active_pairs::{ActivePair, ActivePairs};
 use super::growth::Growth;
 use super::obstacles::{Obstacles, check_bodies};
 use super::open_seams::OpenSeams;
 use super::pinch::{Pinch, PinchedVertices, vertices_of};
+use super::saved::{SavedContact, SurfaceMemory};
 use super::settings::{PinchPolicy, SurfaceSettings};
 use super::summary::{PairDistance, SurfaceSummary};
 use crate::error::Error;
 use crate::surface::contact_surface::Surface;
 use crate::surface::exact::{Intersection, IntersectionTest, encloses, intersections};
-use crate::surface::friction::{ActiveGap, FrictionEnergy, Stretch, SurfaceFriction};
+use crate::surface::friction::{ActiveGap, FrictionEnergy, SurfaceFriction};
 use crate::surface::geometry::PinchState;
 use crate::surface::placement::Placement;
 use crate::surface::step_filter::{StepLimiter, SurfaceStep};
-use crate::surface::tracked_pairs::{TrackedMemory, TrackedPairs};
+use crate::surface::tracked_pairs::TrackedPairs;
 use crate::vector::{Matrix, at, outer};
 
 /// Contact of a surface with itself and with bodies: barrier and friction, their forces and
@@ -44,43 +43,6 @@ pub struct SurfaceContact {
     pub(super) open_seams: OpenSeams,
     /// Positions of all vertices at which an evaluation is asked for, in m.
     trial: Placement,
-}
-
-/// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
-/// pinched vertices and the fraction of distances that is kept.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct SurfaceMemory {
-    stretches: Vec<Stretch>,
-    bodies: Vec<f64>,
-    pinch: Vec<PinchState>,
-    growth_fraction: f64,
-}
-
-/// All that the next steps of a [`SurfaceContact`] depend on between two steps, to be written to a
-/// file: its memory, the gaps of its open seams and the pairs at hand.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SavedContact {
-    memory: SurfaceMemory,
-    seam_gaps: Vec<f64>,
-    tracked: TrackedMemory,
-}
-
-impl SurfaceMemory {
-    /// Checks that this is the memory of a contact.
-    fn check(&self, contact: &SurfaceContact) -> Result<(), Error> {
-        let Self { stretches, bodies, pinch, growth_fraction } = self;
-        check_bodies(bodies, contact.obstacles.start.len())?;
-        let free = contact.surface.free_count();
-        if !pinch.is_empty() && pinch.len() != free {
-            let (what, found) = ("pinch states", pinch.len());
-            return Err(Error::WrongLength { what, found, needed: free });
-        }
-        let finite = bodies.iter().all(|x| x.is_finite()) && Stretch::are_right(stretches);
-        if !(finite && *growth_fraction > 0.0 && *growth_fraction <= 1.0) {
-            return Err(Error::SavedContact);
-        }
-        Ok(())
-    }
 }
 
 impl SurfaceContact {
