@@ -153,6 +153,18 @@ fn shards_and_keys_choose_points() {
     assert!(messages.contains("drape sweep run study.toml --list"), "{messages}");
     let (list, _) = bench.ran(&["sweep", "run", "study.toml", "--list"], 0);
     assert_eq!(list.lines().filter(|line| line.contains("\tok\t")).count(), 6, "{list}");
+    // Tables of the parts make the table of all points, unless they are of another study.
+    bench.ran(&["sweep", "collect", "study.toml"], 0);
+    let whole = bench.rows();
+    for shard in ["1/2", "2/2"] {
+        bench.ran(&["sweep", "collect", "study.toml", "--shard", shard], 0);
+    }
+    std::fs::remove_file(bench.path("results/table.csv")).unwrap();
+    bench.ran(&["sweep", "collect", "study.toml", "--join"], 0);
+    assert_eq!(bench.rows(), whole);
+    bench.write("[[axis]]\nkey = \"time.end\"\nvalues = [0.02]\n");
+    let (_, messages) = bench.ran(&["sweep", "collect", "study.toml", "--join"], 6);
+    assert!(messages.contains("collect its shards anew"), "{messages}");
 }
 
 #[test]
@@ -336,6 +348,9 @@ fn axes_in_step_and_files_of_a_pattern() {
 fn mistakes_of_a_study_have_remedies_that_help() {
     let axis = |rest: &str| format!("[[axis]]\n{rest}");
     let end = |rest: &str| axis(&format!("key = \"time.end\"\n{rest}"));
+    let measures = |name: &str| {
+        format!("[[measure]]\nkey = \"steps\"\n[[measure]]\nkey = \"particles\"\n{name}")
+    };
     let sample = |rest: &str| {
         format!(
             "[[sample]]\nmethod = \"sobol\"\ncount = 4\n[[sample.range]]\nkey = \"time.end\"\n{rest}"
@@ -379,6 +394,22 @@ fn mistakes_of_a_study_have_remedies_that_help() {
                 + &axis("key = \"spacing\"\nvalues = [0.01, 0.02]\ntogether = \"a\"\n"),
         ),
         (end("values = [1]\n") + &end("values = [2]\n"), "its own key", end("values = [1]\n")),
+        (
+            end("values = [1]\n") + &end("name = \"until\"\nvalues = [2]\n"),
+            "is set by two axes",
+            end("values = [1]\n"),
+        ),
+        (
+            end("values = [1]\n")
+                + &axis("key = \"spacing\"\nname = \"time.end\"\nvalues = [0.01]\n"),
+            "its own name",
+            end("values = [1]\n") + &axis("key = \"spacing\"\nvalues = [0.01]\n"),
+        ),
+        (
+            end("values = [1]\n") + &measures("name = \"steps\"\n"),
+            "give each measure its own name",
+            end("values = [1]\n") + &measures(""),
+        ),
         (sample("start = 1\nend = 1\n"), "give another end", sample("start = 1\nend = 2\n")),
         (
             format!("keep = \"lats\"\n{}", end("values = [1]\n")),
@@ -422,7 +453,8 @@ fn exported_tasks_are_all_points() {
     shell.arg(bench.path("results/slurm.sh")).env("SLURM_ARRAY_TASK_ID", "1");
     let ended = shell.output().unwrap();
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
-    bench.ran(&["sweep", "export", "study.toml", "--dask", "-o", "-"], 0);
+    let (dask, _) = bench.ran(&["sweep", "export", "study.toml", "--dask", "-o", "-"], 0);
+    assert!(dask.contains("TASKS = 1\n") && dask.contains("\"study.toml\""), "{dask}");
     let (_, messages) = bench.ran(&["sweep", "export", "study.toml"], 2);
     assert!(messages.contains("--slurm"), "{messages}");
 }

@@ -196,3 +196,70 @@ fn removed(path: &Path, result: std::io::Result<()>) -> Result<(), Error> {
         _ => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Place in a folder, with files of its run.
+    fn place(root: &Path, files: &[(&str, &str)]) -> Place {
+        let place = Place { key: "ab12".into(), folder: root.join("ab12") };
+        std::fs::create_dir_all(&place.folder).expect("a folder");
+        for (name, text) in files {
+            std::fs::write(place.folder.join(name), text).expect("a file");
+        }
+        place
+    }
+
+    #[test]
+    fn a_run_is_finished_if_both_files_say_so_and_begun_if_it_was_cut_off() {
+        let is = |files: &[(&str, &str)]| {
+            let root = tempfile::tempdir().expect("a folder");
+            let place = place(root.path(), files);
+            (place.is_finished(), place.is_begun())
+        };
+        let run = ("run.json", "{}");
+        let [ok, stopped] = [r#"{"status": "ok"}"#, r#"{"status": "interrupted"}"#];
+        let state = |text| ("status.json", text);
+        let summary = |text| ("summary.json", text);
+        assert_eq!(is(&[]), (false, false));
+        assert_eq!(is(&[run]), (false, true));
+        assert_eq!(is(&[run, summary(stopped)]), (false, true));
+        assert_eq!(is(&[summary(stopped)]), (false, false));
+        assert_eq!(is(&[run, state(r#"{"state": "ok"}"#), summary(ok)]), (true, false));
+        assert_eq!(is(&[run, state(r#"{"state": "running"}"#), summary(ok)]), (false, false));
+        assert_eq!(is(&[run, state(r#"{"state": "ok"}"#), summary(stopped)]), (false, true));
+    }
+
+    #[test]
+    fn of_measures_alone_the_record_is_kept_unless_a_worker_failed() {
+        let root = tempfile::tempdir().expect("a folder");
+        let files = [("summary.json", r#"{"status": "ok"}"#)];
+        let mut record = Record {
+            key: "ab12".into(),
+            outcome: Outcome::WorkerFailed,
+            exit_code: None,
+            retries: 3,
+            seconds: 1.0,
+            message: String::new(),
+            summary: None,
+        };
+        let own = place(root.path(), &files);
+        own.finish(&record, Keep::Measures).expect("finished");
+        assert!(own.folder.is_dir() && own.record() == Some(record.clone()));
+        record.outcome = Outcome::Done;
+        own.finish(&record, Keep::All).expect("finished");
+        assert!(own.folder.is_dir() && own.record() == Some(record.clone()));
+        own.finish(&record, Keep::Measures).expect("finished");
+        record.summary = Some(json!({ "status": "ok" }));
+        assert!(!own.folder.exists() && own.record() == Some(record));
+    }
+
+    #[test]
+    fn what_is_in_the_way_of_a_removal_is_said() {
+        let path = Path::new("here");
+        let failed = |kind: std::io::ErrorKind| removed(path, Err(kind.into()));
+        assert!(failed(std::io::ErrorKind::NotFound).is_ok() && removed(path, Ok(())).is_ok());
+        assert!(failed(std::io::ErrorKind::PermissionDenied).is_err());
+    }
+}

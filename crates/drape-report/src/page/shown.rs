@@ -1,7 +1,7 @@
 //! Quantities as text, before a page or a terminal lays them out.
 
 use crate::parameter::{Interval, Parameter, Units};
-use crate::text::number::{Notation, percent, typeset};
+use crate::text::number::{DIGITS, Notation, percent, significant, typeset};
 
 /// Value with its error and unit, rounded together, as plain text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -138,9 +138,14 @@ impl Scaled {
         let write = |number: f64| notation.mantissa(scale(number));
         let power = notation.power();
         let interval = match parameter.interval {
-            Interval::Between { lower, upper } => {
-                format!("[{}, {}]{power}", write(lower), write(upper))
-            }
+            Interval::Between { lower, upper } => match [lower, upper].map(scale) {
+                bounds if bounds.iter().all(|bound| notation.suits(*bound)) => {
+                    format!("[{}, {}]{power}", write(lower), write(upper))
+                }
+                [lower, upper] => {
+                    format!("[{}, {}]", significant(lower, DIGITS), significant(upper, DIGITS))
+                }
+            },
             Interval::Above { lower, .. } => format!("> {}{power}", write(lower)),
             Interval::Below { upper, .. } => format!("< {}{power}", write(upper)),
             Interval::Unknown { .. } | Interval::Fixed { .. } => String::new(),
@@ -194,5 +199,8 @@ mod tests {
         let shown = ShownParameter::new(&parameter);
         assert_eq!(shown.interval, "< 9.250");
         assert_eq!(shown.reason, Some("the fit is as good without"));
+        let wide = Interval::Between { lower: 0.5, upper: 7.9e47 };
+        let parameter = Parameter { interval: wide, standard_error: Some(2.5), ..parameter };
+        assert_eq!(ShownParameter::new(&parameter).interval, "[0.5000, 7.900e47]");
     }
 }

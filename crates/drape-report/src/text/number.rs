@@ -50,6 +50,11 @@ impl Notation {
         }
     }
 
+    /// Returns whether a number has few digits before its decimal point in this notation.
+    pub(crate) fn suits(&self, number: f64) -> bool {
+        shift(number, -self.exponent).abs() < 10f64.powi(MOST_DIGITS)
+    }
+
     /// Returns the power of ten as text: "e-5", or nothing.
     pub(crate) fn power(&self) -> String {
         if self.exponent == 0 { String::new() } else { format!("e{}", self.exponent) }

@@ -440,8 +440,11 @@ fn describe(garment: &str, place: Place, points: &[[f64; 3]], solids: &Solids<'_
             format!("\"{garment}\" starts about the feet of the body: it is {heights}")
         }
         Place::Inside { fraction } => {
-            let percent = 100.0 * fraction;
-            format!("{percent:.0} % of \"{garment}\" starts inside the body: it is {heights}")
+            let percent = match 100.0 * fraction {
+                percent if percent < 1.0 => "Less than 1".to_owned(),
+                percent => format!("{percent:.0}"),
+            };
+            format!("{percent} % of \"{garment}\" starts inside the body: it is {heights}")
         }
         Place::Beside { fraction } => {
             let side = match () {
