@@ -183,6 +183,8 @@ mod tests {
         assert_eq!(rate_of(&[0.0, 0.4, 0.8, 1.2]), 2.5);
         assert_eq!(rate_of(&[0.0, 0.08, 0.16, 0.5, 0.59, 0.9]), 12.0, "no whole number is near");
         assert_eq!(rate_of(&[3.0]), 24.0);
+        let slow = rate_of(&[0.0, 3.0, 6.1, 20.0, 35.0, 60.0]);
+        assert!((1.0 / 15.0..1.0 / 13.0).contains(&slow), "{slow}: less than a frame a second");
     }
 
     #[test]

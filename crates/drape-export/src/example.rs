@@ -118,7 +118,8 @@ pub(crate) fn folder(times: &[f64]) -> TempDir {
     folder
 }
 
-fn array<T: npyz::AutoSerialize + Copy, const N: usize>(path: &Path, rows: &[[T; N]]) {
+/// Writes rows as an array.
+pub(crate) fn array<T: npyz::AutoSerialize + Copy, const N: usize>(path: &Path, rows: &[[T; N]]) {
     let file = fs::File::create(path).unwrap();
     let shape = [rows.len() as u64, N as u64];
     let options = npyz::WriteOptions::new().default_dtype().shape(&shape);

@@ -252,3 +252,41 @@ fn speeds(frame: &Frame, before: Option<&Frame>) -> Vec<f64> {
     let pairs = frame.cloth.iter().zip(&before.cloth);
     pairs.map(|(now, then)| length(difference(*now, *then)) / seconds).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn a_vertex_has_the_mean_of_its_triangles_by_their_areas() {
+        let material = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 3.0]];
+        let folder = example::folder_of_panel(&material, &[[0, 1, 2], [1, 3, 2]]);
+        let recording = Recording::open(folder.path()).unwrap();
+        // Their areas are 0.5 and 1.5 m².
+        let means = Fields::new(&recording).at_vertices(&[1.0, 5.0]);
+        assert_eq!(means, [1.0, 4.0, 4.0, 5.0]);
+    }
+
+    #[test]
+    fn distances_are_those_from_the_nearest_of_several_bodies() {
+        let folder = example::folder(&[0.3]);
+        // Of the cube its lower and its upper face, as two bodies.
+        let faces = ["lower", "upper"]
+            .map(|name| serde_json::json!({ "name": name, "vertices": 4, "triangles": 2 }));
+        let path = folder.path().join("surfaces.json");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut manifest: serde_json::Value = serde_json::from_str(&text).unwrap();
+        manifest["bodies"] = faces.into();
+        std::fs::write(&path, format!("{manifest}\n")).unwrap();
+        let (_, triangles) = example::cube();
+        example::array(&folder.path().join("body-triangles.npy"), &triangles[..4]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let mut frame = recording.frame(0).unwrap();
+        frame.cloth = vec![[0.5, 0.5, 0.01], [0.4, 0.6, 0.98], [0.5, 0.5, 0.5], [0.2, 0.3, -0.03]];
+        let distances = Fields::new(&recording).values(Field::Distance, &frame, None).unwrap();
+        for (distance, expected) in distances.iter().zip([10.0, 20.0, 1e3 * DISTANCE_MAX, 30.0]) {
+            assert!((distance - expected).abs() < 1e-9, "{distances:?}");
+        }
+    }
+}

@@ -39,6 +39,13 @@ fn page(folder: &TempDir, size: usize) -> View {
     View::new(&runs, size).expect("a page")
 }
 
+/// Returns the colours that a page gives to three panels of as many fabrics.
+fn colours(html: &str) -> Vec<Value> {
+    let meta: Value = serde_json::from_str(element(html, "run-0")).expect("JSON");
+    let panels = meta["panels"].as_array().expect("a list");
+    panels.iter().map(|panel| panel["colour"].clone()).collect()
+}
+
 /// Returns what stands in the element of a page between its opening tag and its end.
 fn element<'a>(html: &'a str, id: &str) -> &'a str {
     let (_, rest) = html.split_once(&format!("id=\"{id}\">")).expect("the element");
@@ -85,6 +92,22 @@ fn positions_and_fields_come_back_to_the_fraction_that_is_said() {
     assert!((value - 1.0).abs() <= 0.5 * (end("high") - end("low")) / 255.0 + 1e-12, "{value}");
     let speed = fields.iter().find(|field| field["key"] == "speed").expect("it is there");
     assert_eq!((speed["unit"].as_str(), speed["high"].as_f64()), (Some("m/s"), Some(5.0)));
+}
+
+#[test]
+fn each_fabric_has_its_colour() {
+    let folder = run(1);
+    let panel = |fabric: &str, n: usize| serde_json::json!({ "name": fabric, "vertices": n, "triangles": n / 3, "fabric": fabric });
+    let panels = [panel("linen", 3), panel("wool", 0), panel("cotton", 0), panel("wool", 0)];
+    let manifest =
+        serde_json::json!({ "format": 1, "guarded": false, "bodies": [], "panels": panels });
+    std::fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).expect("writes");
+    let colours = colours(&page(&folder, 20_000_000).html);
+    assert_eq!(colours[1], colours[3], "of one fabric");
+    let mut three = colours[..3].to_vec();
+    three.sort_by_key(Value::to_string);
+    three.dedup();
+    assert_eq!(three.len(), 3, "{colours:?}");
 }
 
 #[test]

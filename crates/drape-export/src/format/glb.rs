@@ -291,7 +291,17 @@ mod tests {
             assert_eq!(&glb[start + 4..start + 8], b"BIN\0");
             let binary = glb[start + 8..].to_vec();
             assert_eq!((word(start), binary.len() % 4), (binary.len(), 0));
-            Read { document: serde_json::from_slice(&glb[20..start]).unwrap(), binary }
+            let document: Value = serde_json::from_slice(&glb[20..start]).unwrap();
+            // The views follow each other, each from a multiple of four bytes on.
+            let mut end = 0;
+            for view in document["bufferViews"].as_array().unwrap() {
+                let [first, length] =
+                    ["byteOffset", "byteLength"].map(|key| Read::number(&view[key]));
+                assert_eq!(first, usize::next_multiple_of(end, 4));
+                end = first + length;
+            }
+            assert_eq!(end.next_multiple_of(4), binary.len());
+            Read { document, binary }
         }
 
         fn number(value: &Value) -> usize {

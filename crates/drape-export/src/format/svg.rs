@@ -369,6 +369,82 @@ mod tests {
         assert!(words.iter().any(|word| word.contains("frame 0, 0.300 s")), "{words:?}");
     }
 
+    /// Returns the numbers of a text.
+    fn numbers(text: &str) -> Vec<f64> {
+        let words = text.split(|c: char| !"-.0123456789".contains(c));
+        words.filter_map(|word| word.parse().ok()).collect()
+    }
+
+    #[test]
+    fn all_is_on_the_page_and_nothing_on_anything_else() {
+        let folder = example::folder(&[0.3]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let text = written(&recording, Field::Shear, &[0.5, 1.0, 1.5, 2.0, -2.5, 3.0, 3.5]);
+        let document = Document::parse(&text).unwrap();
+        let page = document.root_element();
+        let [width, height] = numbers(page.attribute("viewBox").unwrap())[2..] else { panic!() };
+        let text: f64 = page.attribute("font-size").unwrap().parse().unwrap();
+        let value =
+            |node: &roxmltree::Node<'_, '_>, key: &str| numbers(node.attribute(key).unwrap())[0];
+        let groups: Vec<_> = document.descendants().filter(|node| node.has_tag_name("g")).collect();
+        // Panels of 100 × 200 and 250 × 500 mm with their names: left, top, right, bottom.
+        let panels = groups.iter().filter(|node| node.attribute("transform").is_some());
+        let sizes = [[100.0, 200.0], [250.0, 500.0]];
+        let mut boxes = Vec::new();
+        for (panel, size) in panels.zip(sizes) {
+            let place = numbers(panel.attribute("transform").unwrap());
+            let (x, bottom) = (place[0], place[1]);
+            let whole = panel.parent().unwrap();
+            let name = whole.children().find(|node| node.has_tag_name("text")).unwrap();
+            let [name_x, name_y] = ["x", "y"].map(|key| value(&name, key));
+            assert!((x..x + 2.0 * text).contains(&name_x), "{name_x} is not at {x}");
+            let top = bottom - size[1];
+            assert!((top - text..top).contains(&name_y), "{name_y} is not above {top}");
+            let arrow = whole.children().find(|node| node.has_tag_name("path")).unwrap();
+            let arrow = numbers(arrow.attribute("transform").unwrap());
+            assert!(arrow[0] + 0.5 * text < name_x && (x..name_x).contains(&arrow[0]), "{arrow:?}");
+            boxes.push([x, top - text, x + size[0], bottom]);
+        }
+        let inside = |[left, top, right, bottom]: [f64; 4]| {
+            0.0 < left && 2.0 * text < top && right < width && bottom < height - 3.0 * text
+        };
+        assert!(boxes.iter().all(|own| inside(*own)), "{boxes:?} on {width} × {height}");
+        let [a, b] = boxes[..] else { panic!("{boxes:?}") };
+        assert!(a[2] < b[0] || b[2] < a[0] || a[3] < b[1] || b[3] < a[1], "{boxes:?}");
+        // The scale bar is at the right and has the length that it says.
+        let scale = groups.iter().find(|node| node.attribute("id") == Some("scale")).unwrap();
+        let bar = scale.children().find(|node| node.has_tag_name("path")).unwrap();
+        let [x, y, down, length, up] = numbers(bar.attribute("d").unwrap())[..] else { panic!() };
+        let said = scale.descendants().find_map(|node| node.text()).unwrap();
+        assert_eq!((said, down + up), (&format!("{length} mm")[..], 0.0));
+        assert!(x > 0.5 * width && x + length < width && x + length > width - 2.0 * text);
+        assert!((height - 4.0 * text..height).contains(&y), "{y} of {height}");
+        // The legend has the colours of the bands, each once, from the least to the greatest.
+        let legend = groups.iter().find(|node| node.attribute("id") == Some("legend")).unwrap();
+        let bands: Vec<_> = legend.children().filter(|node| node.has_tag_name("rect")).collect();
+        let colours: Vec<&str> = bands.iter().filter_map(|band| band.attribute("fill")).collect();
+        let middle = |band: usize| scale::colour((band as f64 + 0.5) / BANDS as f64, true);
+        assert_eq!(colours, (0..BANDS).map(middle).collect::<Vec<_>>());
+        assert!(bands.windows(2).all(|pair| value(&pair[0], "x") < value(&pair[1], "x")));
+        assert!(value(&bands[BANDS - 1], "x") + value(&bands[BANDS - 1], "width") < x);
+    }
+
+    #[test]
+    fn triangles_are_anticlockwise() {
+        let points = [[2.0, 1.0], [2.5, 1.1], [2.1, 3.0]];
+        assert_eq!(anticlockwise([0, 1, 2], &points), [0, 1, 2]);
+        assert_eq!(anticlockwise([0, 2, 1], &points), [0, 1, 2]);
+        assert_eq!(anticlockwise([1, 0, 2], &points), [1, 2, 0]);
+    }
+
+    #[test]
+    fn steps_in_one_direction_are_one() {
+        let merged = |steps: &[[i64; 2]]| super::merged(steps.iter().copied());
+        assert_eq!(merged(&[[1, 2], [0, 0], [2, 4], [3, 6]]), [[6, 12]]);
+        assert_eq!(merged(&[[1, 2], [-1, -2]]), [[1, 2], [-1, -2]], "it goes back");
+        assert_eq!(merged(&[[1, 0], [1, 1], [0, 1]]), [[1, 0], [1, 1], [0, 1]]);
+    }
+
     #[test]
     fn a_linear_field_has_straight_bands_of_few_points() {
         let (_folder, recording) = lattice(41);

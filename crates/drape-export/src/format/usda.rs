@@ -299,6 +299,12 @@ mod tests {
     }
 
     #[test]
+    fn a_code_that_is_whole_but_for_rounding_is_whole() {
+        let codes = [2.999_995, 3.000_005, 2.9999, 2.5, 0.0].map(code);
+        assert_eq!(codes, [3.0, 3.0, 2.9999, 2.5, 0.0]);
+    }
+
+    #[test]
     fn samples_are_at_the_times_of_the_frames() {
         let text = written(&[0.0, 0.25, 0.5, 0.55]);
         let samples = after(&text, &["def Mesh \"front\"", "point3f[] points.timeSamples = {"]);

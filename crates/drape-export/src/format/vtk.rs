@@ -264,6 +264,8 @@ mod tests {
         let corners: Vec<u8> =
             [0_i64, 2, 1, 1, 2, 3, 4, 6, 5].iter().flat_map(|c| c.to_le_bytes()).collect();
         assert_eq!(bytes(&document, "connectivity"), corners);
+        let ends: Vec<u8> = [3_i64, 6, 9].iter().flat_map(|end| end.to_le_bytes()).collect();
+        assert_eq!(bytes(&document, "offsets"), ends);
     }
 
     #[test]

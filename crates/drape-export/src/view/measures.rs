@@ -53,3 +53,29 @@ fn significant(value: f64) -> String {
         _ => format!("{value:.3e}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_summary_is_told_in_rows_of_names_and_values() {
+        let summary = json!({
+            "status": "ok", "particles": 6561, "settled": true, "wall_seconds": 3.5,
+            "strain": { "warp_max": 0.012345678 },
+            "measures": { "drape": { "coefficient": 43.21987, "box": [1, -2.5] }, "tiny": 1.5e-7 },
+        });
+        let expected = [
+            ["status", "ok"],
+            ["particles", "6561"],
+            ["settled", "yes"],
+            ["strain · warp max", "0.01235"],
+            ["drape · box", "1, -2.500"],
+            ["drape · coefficient", "43.22"],
+            ["tiny", "1.500e-7"],
+        ];
+        assert_eq!(rows(&summary), expected.map(|row| row.map(str::to_owned)));
+    }
+}
