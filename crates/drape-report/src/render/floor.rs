@@ -185,6 +185,9 @@ mod tests {
             let miss = (floor.value(&grid, place) - linear(place)).abs();
             assert!(miss < 3e-4, "{miss} at {place:?}");
         }
+        let end = HALF_SIDE * 0.7;
+        assert_eq!(floor.away([1.0, -1.0]), 0.0);
+        assert!((floor.away([1.0 + 0.6 * end, -1.0 - 0.8 * end]) - 1.0).abs() < 1e-12);
     }
 
     #[test]

@@ -59,3 +59,25 @@ pub(crate) fn add(scene: &Scene, tessellation: &mut Tessellation) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::Surface;
+    use super::*;
+
+    #[test]
+    fn the_band_faces_away_from_the_cloth() {
+        let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0];
+        let triangles = [[0, 2, 1], [0, 3, 2]];
+        let scene =
+            Scene { cloths: vec![Surface::cloth(&positions, &triangles)], ..Scene::default() };
+        let mut tessellation = Tessellation::new(&scene);
+        add(&scene, &mut tessellation);
+        let band = tessellation.vertices.iter().filter(|vertex| vertex.part == Part::Rim(0));
+        for Vertex { position, normal, .. } in band.clone() {
+            let from_middle = subtract(*position, [0.5, position[1], 0.5]);
+            assert!(dot(*normal, from_middle) >= 0.5 - 1e-9, "{normal:?} at {position:?}");
+        }
+        assert!(band.count() > 100);
+    }
+}

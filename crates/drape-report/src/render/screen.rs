@@ -65,3 +65,24 @@ impl ScreenFacet {
         weighted.map(|weight| weight / sum)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_depth_bias_is_added_to_the_depths() {
+        let facet = ScreenFacet {
+            number: 0,
+            pixels: PlaneTriangle::new([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]).unwrap(),
+            inverse_depths: [2.0, 4.0, 5.0].map(|depth: f64| 1.0 / depth),
+            bias: 0.25,
+        };
+        let depths = facet.biased_depths().map(|inverse| 1.0 / inverse);
+        let misses = [2.25, 4.25, 5.25].iter().zip(depths).map(|(a, b)| (a - b).abs());
+        assert!(misses.fold(0.0, f64::max) < 1e-12, "{depths:?}");
+        // Half way between two corners in the picture is nearer to the nearer corner in space.
+        let [a, b, c] = facet.barycentric(0.5, 0.0);
+        assert!((a - 2.0 / 3.0).abs() < 1e-12 && (b - 1.0 / 3.0).abs() < 1e-12 && c.abs() < 1e-12);
+    }
+}
