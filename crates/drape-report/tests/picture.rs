@@ -178,6 +178,19 @@ fn the_nearer_surface_hides_the_farther() {
 }
 
 #[test]
+fn a_ball_is_brighter_on_the_side_of_the_key_light() {
+    let shape = sphere(0.3, [0.0; 3]);
+    let scene = Scene { bodies: vec![Surface::body(&shape.0, &shape.1)], ..Scene::default() };
+    let view = View { elevation_deg: 0.0, ..SMALL };
+    let picture = render(&scene, &view).unwrap();
+    // Sky and headlight do not tell left from right.
+    let at = |x: u32| picture.pixel(x, 150).unwrap().iter().map(|c| u32::from(*c)).sum::<u32>();
+    let sides: Vec<[u32; 2]> = (65..100).map(|away| [at(199 - away), at(200 + away)]).collect();
+    let brighter = |[a, b]: &[u32; 2]| f64::from(*a.max(b)) > 1.15 * f64::from(*a.min(b));
+    assert!(sides.iter().all(brighter), "{sides:?}");
+}
+
+#[test]
 fn front_and_back_differ_and_so_do_warp_and_weft() {
     let (shape, coordinates) = square(0.5, 0.0, 20);
     let scene = |spacing: f64| Scene {

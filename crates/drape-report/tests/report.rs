@@ -124,6 +124,34 @@ fn only_values_beyond_the_limit_are_marked() {
 }
 
 #[test]
+fn the_first_sentence_counts_laws_values_and_assumptions() {
+    let said = |change: &dyn Fn(&mut FitPage)| {
+        let mut page = a_page();
+        change(&mut page);
+        text_of(tree(&page.to_html().unwrap()).root_element())
+    };
+    let one = said(&|_| ());
+    let whole = "0 of 1 fitted laws are good, 1 doubtful, 1 KES value differs from the curves, 1 assumption.";
+    assert!(one.contains(whole), "{one}");
+    // A law that is given has no statistics, and is not judged.
+    let more = said(&|page| {
+        let mut given = page.laws[0].clone();
+        given.statistics = None;
+        page.laws.push(given);
+        page.laws.push(page.laws[0].clone());
+        page.values.clear();
+        page.assumed.push("shear: as of the warp".to_owned());
+    });
+    assert!(more.contains("0 of 2 fitted laws are good, 2 doubtful, 2 assumptions."), "{more}");
+    let none = said(&|page| {
+        page.laws.clear();
+        page.values.clear();
+        page.assumed.clear();
+    });
+    assert!(none.contains("Nothing was fitted; the numbers are as given."), "{none}");
+}
+
+#[test]
 fn two_fabrics_are_compared_by_the_ratio_of_their_values() {
     let page = ComparePage {
         fabrics: ["A", "B"].map(|name| FabricName { name: name.to_owned(), source: String::new() }),

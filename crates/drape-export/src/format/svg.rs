@@ -418,7 +418,7 @@ mod tests {
         let said = scale.descendants().find_map(|node| node.text()).unwrap();
         assert_eq!((said, down + up), (&format!("{length} mm")[..], 0.0));
         assert!(x > 0.5 * width && x + length < width && x + length > width - 2.0 * text);
-        assert!((height - 4.0 * text..height).contains(&y), "{y} of {height}");
+        assert!((height - 4.0 * text..height - text).contains(&y), "{y} of {height}");
         // The legend has the colours of the bands, each once, from the least to the greatest.
         let legend = groups.iter().find(|node| node.attribute("id") == Some("legend")).unwrap();
         let bands: Vec<_> = legend.children().filter(|node| node.has_tag_name("rect")).collect();
@@ -431,18 +431,24 @@ mod tests {
 
     #[test]
     fn triangles_are_anticlockwise() {
-        let points = [[2.0, 1.0], [2.5, 1.1], [2.1, 3.0]];
-        assert_eq!(anticlockwise([0, 1, 2], &points), [0, 1, 2]);
-        assert_eq!(anticlockwise([0, 2, 1], &points), [0, 1, 2]);
-        assert_eq!(anticlockwise([1, 0, 2], &points), [1, 2, 0]);
+        for turn in 0..24 {
+            let corner = |k: u32| {
+                let (sine, cosine) = (0.26 * f64::from(turn) + 2.1 * f64::from(k)).sin_cos();
+                [cosine - 3.0, 1.5 * sine + 2.0]
+            };
+            let points = [0, 1, 2].map(corner);
+            assert_eq!(anticlockwise([0, 1, 2], &points), [0, 1, 2]);
+            assert_eq!(anticlockwise([0, 2, 1], &points), [0, 1, 2]);
+            assert_eq!(anticlockwise([1, 0, 2], &points), [1, 2, 0]);
+        }
     }
 
     #[test]
     fn steps_in_one_direction_are_one() {
-        let merged = |steps: &[[i64; 2]]| super::merged(steps.iter().copied());
-        assert_eq!(merged(&[[1, 2], [0, 0], [2, 4], [3, 6]]), [[6, 12]]);
-        assert_eq!(merged(&[[1, 2], [-1, -2]]), [[1, 2], [-1, -2]], "it goes back");
-        assert_eq!(merged(&[[1, 0], [1, 1], [0, 1]]), [[1, 0], [1, 1], [0, 1]]);
+        let of = |steps: &[[i64; 2]]| merged(steps.iter().copied());
+        assert_eq!(of(&[[1, 2], [0, 0], [2, 4], [3, 6]]), [[6, 12]]);
+        assert_eq!(of(&[[1, 2], [-1, -2]]), [[1, 2], [-1, -2]], "it goes back");
+        assert_eq!(of(&[[1, 0], [1, 1], [0, 1]]), [[1, 0], [1, 1], [0, 1]]);
     }
 
     #[test]

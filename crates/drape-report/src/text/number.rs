@@ -146,6 +146,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_value_far_below_its_error_has_no_digit_beyond_the_errors() {
+        let notation = Notation::of(0.29, Some(2510.0));
+        assert_eq!([0.29, 2510.0].map(|x| notation.mantissa(x)), ["0", "2510"]);
+    }
+
+    #[test]
     fn a_value_is_rounded_to_its_error() {
         let shown = |value: f64, error: f64| {
             let notation = Notation::of(value, Some(error));
