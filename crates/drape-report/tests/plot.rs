@@ -5,7 +5,7 @@
 mod samples;
 
 use drape_report::plot::{UncertaintyPlot, graph_svg, loop_svg, overlay_svg, uncertainty_svg};
-use samples::{a_graph, a_loop, a_page, an_overlay, classes, text_of, tree};
+use samples::{a_graph, a_loop, a_page, an_overlay, classes, tree};
 
 /// The pixels of a path's data.
 fn pixels(data: &str) -> Vec<[f64; 2]> {
@@ -115,11 +115,13 @@ fn uncertainty_bars_reach_as_far_as_the_errors() {
     let ratio = interval / error;
     assert!((ratio - 0.90 / 0.46).abs() < 1e-3, "the bars are in the ratio {ratio}");
     // The title of the axis is below its zero.
-    let place = |text: &str| {
-        let node = svg.descendants().find(|n| n.has_tag_name("text") && text_of(*n).contains(text));
-        node.unwrap().attribute("x").unwrap().parse::<f64>().unwrap()
+    let of = |class: &str, attribute: &str| {
+        let node = svg.descendants().find(|n| classes(n) == [class]).unwrap();
+        let text = node.attribute(attribute).unwrap().trim_start_matches('M');
+        text.split(' ').next().unwrap().parse::<f64>().unwrap()
     };
-    assert!((place("deviation") - place("0 %")).abs() < 1.0, "{}", place("deviation"));
+    let [title, zero] = [of("title", "x"), of("zero", "d")];
+    assert!((title - zero).abs() < 1.0, "{title} and {zero}");
 }
 
 #[test]
