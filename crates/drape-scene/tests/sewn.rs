@@ -48,6 +48,17 @@ fn a_scene_sews_and_turns_what_its_pattern_does_not() {
 }
 
 #[test]
+fn an_edge_of_a_later_panel_is_held_by_its_own_particles() {
+    let scene = read("[[pin]]\npanel = \"back\"\nedge = \"top\"\n").expect("it is right");
+    let back = scene.panels.iter().find(|panel| panel.name == "back").expect("there");
+    let height = |particle: usize| scene.start.positions[3 * particle + 1];
+    let top = back.particles().map(height).fold(f64::NEG_INFINITY, f64::max);
+    let held = &scene.pins[0].particles;
+    assert_eq!(held.len(), 11, "10 mm apart along 100 mm");
+    assert!(held.iter().all(|&own| back.particles().contains(&own) && height(own) == top));
+}
+
+#[test]
 fn mistakes_of_such_seams_are_located_in_the_scene() {
     for (garment, words) in [
         (

@@ -53,3 +53,15 @@ impl DistanceGrowth {
     /// that the step filter tells from none.
     pub const START_DISTANCE_MIN: f64 = 1e-6;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_grow_evenly_to_their_size() {
+        let inflation = Inflation { depth: 0.01, seconds: 2.0 };
+        let remaining = [0.0, 0.5, 2.0, 3.0].map(|time| inflation.remaining(time));
+        assert_eq!(remaining, [1.0, 0.75, 0.0, 0.0]);
+    }
+}

@@ -78,3 +78,24 @@ impl Pin {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pin_lets_go_at_its_event_and_at_no_other() {
+        let mut pin = Pin {
+            particles: vec![3],
+            start: vec![[1.0, 2.0, 3.0]],
+            motion: None,
+            release: f64::INFINITY,
+            until: HoldUntil::Sewn,
+            axes: [true; 3],
+        };
+        pin.release_at(HoldUntil::Rest, 1.0);
+        assert!(pin.holds(2.0));
+        pin.release_at(HoldUntil::Sewn, 1.5);
+        assert!(pin.holds(1.5) && !pin.holds(1.51));
+    }
+}

@@ -277,3 +277,48 @@ fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
     };
     edges.filter(is_free).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_input::Document;
+
+    use super::*;
+
+    const FABRIC: &str = r#"name = "plain"
+density = 0.12
+thickness = 0.0003
+shear = { stiffness = 35.0 }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending.rigidity = 1.2e-5
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending.rigidity = 0.8e-5
+"#;
+
+    #[test]
+    fn a_panel_within_30_degrees_of_the_vertical_stands_upright() {
+        for (turn, upright) in [
+            ("[0, 0, 40]", true),
+            ("[-25, 0, 0]", true),
+            ("[155, 60, 0]", true),
+            ("[-35, 0, 0]", false),
+            ("[35, 20, 0]", false),
+            ("[-90, 0, 0]", false),
+        ] {
+            let text = format!(
+                "fabric.plain.file = \"plain.toml\"\n[[panel]]\nname = \"towel\"\nfabric = \"plain\"\n\
+                 rectangle = [0.1, 0.1]\nturn = {turn}\n[time]\nstep = 0.004\nend = 0.1\n"
+            );
+            let documents = [Document::new("plain.toml", FABRIC)];
+            let scene = Scene::from_documents(&Document::new("towel.toml", text), &documents);
+            let scene = scene.expect("it is right");
+            assert_eq!(scene.cloth.particles(), 121);
+            // Triangles of its own, and large ones of any shape and sense.
+            let own = scene.cloth.triangles();
+            for triangles in [own, &[[0, 15, 112], [27, 90, 53]], &[[112, 15, 0], [7, 40, 99]]] {
+                assert_eq!(stands_upright(&scene, triangles), upright, "{turn}");
+            }
+        }
+    }
+}

@@ -145,4 +145,22 @@ mod tests {
             assert_eq!(motion.path(times), length, "between {times:?}");
         }
     }
+
+    #[test]
+    fn vertices_move_straight_from_frame_to_frame() {
+        let frames = vec![vec![0.0, 0.0, 1.0], vec![0.0, 2.0, 1.0], vec![4.0, 2.0, 0.0]];
+        let motion = ShapeMotion::new(vec![1.0, 2.0, 4.0], frames);
+        for (time, place) in [
+            (0.0, [0.0, 0.0, 1.0]),
+            (1.25, [0.0, 0.5, 1.0]),
+            (2.0, [0.0, 2.0, 1.0]),
+            (2.5, [1.0, 2.0, 0.75]),
+            (4.0, [4.0, 2.0, 0.0]),
+            (9.0, [4.0, 2.0, 0.0]),
+        ] {
+            let mut found = [f64::NAN; 3];
+            motion.write_positions(time, &mut found);
+            assert_eq!(found, place, "at {time} s");
+        }
+    }
 }
