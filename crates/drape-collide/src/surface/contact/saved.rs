@@ -3,13 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::obstacles::check_bodies;
-use super::surface_contact::SurfaceContact;
 use crate::error::Error;
 use crate::surface::friction::Stretch;
 use crate::surface::geometry::PinchState;
 use crate::surface::tracked_pairs::TrackedMemory;
 
-/// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
+/// State of a [`SurfaceContact`](super::SurfaceContact) between two steps: stretches of friction, positions of the bodies,
 /// pinched vertices and the fraction of distances that is kept.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceMemory {
@@ -19,7 +18,7 @@ pub struct SurfaceMemory {
     pub(super) growth_fraction: f64,
 }
 
-/// All that the next steps of a [`SurfaceContact`] depend on between two steps, to be written to a
+/// All that the next steps of a [`SurfaceContact`](super::SurfaceContact) depend on between two steps, to be written to a
 /// file: its memory, the gaps of its open seams and the pairs at hand.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedContact {
@@ -29,11 +28,11 @@ pub struct SavedContact {
 }
 
 impl SurfaceMemory {
-    /// Checks that this is the memory of a contact.
-    pub(super) fn check(&self, contact: &SurfaceContact) -> Result<(), Error> {
+    /// Checks that this is the memory of a contact with some number of free vertices and of
+    /// coordinates of the bodies.
+    pub(super) fn check(&self, free: usize, coordinates: usize) -> Result<(), Error> {
         let Self { stretches, bodies, pinch, growth_fraction } = self;
-        check_bodies(bodies, contact.obstacles.start.len())?;
-        let free = contact.surface.free_count();
+        check_bodies(bodies, coordinates)?;
         if !pinch.is_empty() && pinch.len() != free {
             let (what, found) = ("pinch states", pinch.len());
             return Err(Error::WrongLength { what, found, needed: free });
@@ -49,37 +48,15 @@ impl SurfaceMemory {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::contact::SurfaceSettings;
-    use crate::surface::{ContactDistances, Surface, SurfaceParts};
-
-    /// Contact of one triangle with a body of one triangle.
-    fn contact() -> SurfaceContact {
-        let bodies = vec![0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, 1.0];
-        let cloth = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        let surface = Surface::new(SurfaceParts {
-            rest_positions: [&cloth[..], &bodies].concat(),
-            triangles: vec![[0, 1, 2], [3, 4, 5]],
-            areas: vec![0.2; 6],
-            groups: vec![0, 0, 0, 1, 1, 1],
-            distances: vec![
-                ContactDistances { activation_distance: 3e-4, min_separation: 5e-5 };
-                2
-            ],
-            free_vertices: 3,
-            seam_pairs: Vec::new(),
-            ties: Vec::new(),
-        });
-        let settings = SurfaceSettings::new(1e8, vec![0.0; 4]);
-        SurfaceContact::new(surface.unwrap(), settings, bodies).unwrap()
-    }
 
     #[test]
     fn a_memory_that_no_contact_has_is_refused() {
-        let contact = contact();
+        // Three free vertices, and a body of three.
         let check = |change: &dyn Fn(&mut SurfaceMemory)| {
-            let mut memory = contact.memory();
+            let bodies = vec![0.5; 9];
+            let mut memory = SurfaceMemory { bodies, growth_fraction: 1.0, ..Default::default() };
             change(&mut memory);
-            memory.check(&contact)
+            memory.check(3, 9)
         };
         check(&|_| ()).unwrap();
         check(&|memory| memory.growth_fraction = 0.5).unwrap();

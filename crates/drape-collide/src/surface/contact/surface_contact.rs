@@ -177,7 +177,7 @@ impl SurfaceContact {
     /// A state of another surface, or numbers that no contact has.
     pub fn resume(&mut self, positions: &[f64], saved: &SavedContact) -> Result<(), Error> {
         let SavedContact { memory, seam_gaps, tracked } = saved;
-        memory.check(self)?;
+        memory.check(self.surface.free_count(), self.obstacles.start.len())?;
         let (needed, found) = (3 * self.surface.free_count(), positions.len());
         if found != needed {
             return Err(Error::WrongLength { what: "positions", found, needed });
