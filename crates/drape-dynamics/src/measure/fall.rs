@@ -64,3 +64,17 @@ pub(crate) fn sunk(parts: &GarmentParts, positions: &[f64]) -> Vec<String> {
     });
     sunk.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_garment_has_sunk_by_a_part_of_its_height_or_of_the_least() {
+        let sunk = |low: f64, high: f64, by: f64| has_sunk(VerticalExtent { low, high }, high - by);
+        for (low, high) in [(0.4, 1.4), (1.0, 1.3), (1.0, 1.01)] {
+            let limit = SUNK * f64::max(high - low, SLIDE_MIN);
+            assert!(!sunk(low, high, limit - 1e-6) && sunk(low, high, limit + 1e-6), "{low}");
+        }
+    }
+}

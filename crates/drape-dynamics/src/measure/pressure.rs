@@ -32,8 +32,13 @@ pub(crate) fn at_particles(world: &mut World, positions: &[f64]) -> Option<Vec<f
 /// touches.
 pub(crate) fn pressures(world: &mut World, positions: &[f64]) -> Option<Value> {
     let at_particles = at_particles(world, positions)?;
-    let touched = at_particles.into_iter().zip(world.cloth.areas());
-    let touched = touched.map(|(pressure, &area)| Touched { pressure, area });
+    summary(&at_particles, world.cloth.areas())
+}
+
+/// Summary of the pressures at particles, in Pa, with their areas, in m².
+fn summary(pressures: &[f64], areas: &[f64]) -> Option<Value> {
+    let touched = pressures.iter().zip(areas);
+    let touched = touched.map(|(&pressure, &area)| Touched { pressure, area });
     let mut touched: Vec<Touched> = touched.collect();
     touched.retain(|place| place.pressure > TOUCH);
     touched.sort_by(|a, b| a.pressure.total_cmp(&b.pressure));
@@ -46,4 +51,22 @@ pub(crate) fn pressures(world: &mut World, positions: &[f64]) -> Option<Value> {
         "p99": touched[last * 99 / 100].pressure,
         "max": touched[last].pressure,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_is_the_force_over_the_area_and_one_of_a_hundred_is_above_the_99th() {
+        // Pressures of 1 to 200 Pa, the larger ones on twice the area, and particles that nothing touches.
+        let pressures: Vec<f64> = (1..=200).map(f64::from).chain([0.0, 0.0]).collect();
+        let areas: Vec<f64> = (1..=202).map(|k| if k > 100 { 2e-4 } else { 1e-4 }).collect();
+        let found = summary(&pressures, &areas).unwrap();
+        let number = |key: &str| found[key].as_f64().unwrap();
+        assert!((number("area") - 0.03).abs() < 1e-12);
+        assert!((number("mean") - (5050.0 + 2.0 * 15050.0) / 300.0).abs() < 1e-9);
+        assert_eq!((number("p99"), number("max")), (198.0, 200.0));
+        assert!(summary(&[0.0; 3], &[1e-4; 3]).is_none());
+    }
 }
