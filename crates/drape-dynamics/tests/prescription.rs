@@ -57,6 +57,7 @@ fn a_constant_force_is_a_fall_in_its_direction() {
     simulation.apply_forces(&forces(acceleration, &masses())).unwrap();
     let steps = 50;
     for _ in 0..steps {
+        assert_eq!(simulation.next_step(), STEP);
         simulation.step().unwrap();
     }
     let t = f64::from(steps) * STEP;

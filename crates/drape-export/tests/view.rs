@@ -39,7 +39,7 @@ fn page(folder: &TempDir, size: usize) -> View {
     View::new(&runs, size).expect("a page")
 }
 
-/// Returns the colours that a page gives to three panels of as many fabrics.
+/// Returns the colours that a page gives to the panels of its first run.
 fn colours(html: &str) -> Vec<Value> {
     let meta: Value = serde_json::from_str(element(html, "run-0")).expect("JSON");
     let panels = meta["panels"].as_array().expect("a list");

@@ -1,4 +1,4 @@
-//! Meshes that the tests fraction.
+//! Meshes that the tests share.
 
 use crate::support::Dice;
 use drape_collide::{

@@ -273,7 +273,8 @@ fn sheets_that_are_held_too_near_are_named() {
     assert!(part > 0.3 && part <= 0.9 * 0.05 / 0.14 + 1e-9, "{part}");
     assert!((summary.simulated_seconds - 0.2).abs() < 0.01, "{}", summary.simulated_seconds);
     let reason = summary.reason.unwrap();
-    for words in ["\"sheet\" and \"sheet 2\"", "% of the distances that they keep", "near ("] {
+    let fraction = format!("{:.2} % of the distances that they keep", 100.0 * part);
+    for words in ["\"sheet\" and \"sheet 2\"", &fraction, "near ("] {
         assert!(reason.contains(words), "{reason}");
     }
     assert_eq!(summary.contact.intersections, 0);
