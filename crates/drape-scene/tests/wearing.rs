@@ -4,17 +4,7 @@
 use drape_input::Document;
 use drape_scene::Scene;
 
-const FABRIC: &str = r#"name = "plain"
-density = 0.12
-thickness = 0.0003
-shear = { stiffness = 35.0 }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending.rigidity = 1.2e-5
-[weft]
-traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending.rigidity = 0.8e-5
-"#;
+const FABRIC: &str = include_str!("plain.toml");
 
 /// A skirt round a column of 200 mm across: a front, two halves of a back, and a band.
 const SKIRT: &str = r#"length = "mm"
