@@ -195,6 +195,11 @@ fn a_body_that_grows_takes_the_cloth_that_starts_in_it_along() {
     assert!((0.006..0.008).contains(&highest(&frame.positions)), "{}", highest(&frame.positions));
     let energy = simulation.energy().unwrap();
     assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-6 * energy.work_in, "{energy:?}");
+    // Half of the depth is left after half of the time.
+    let mut half = scene("inflate = { depth = 0.01, seconds = 0.3 }");
+    half.scene = half.scene.replace("end = 0.4", "end = 0.15");
+    let top = highest(&run(&half).frame().bodies);
+    assert!((top - 0.001).abs() < 1e-5, "{top}");
     // What is wholly inside would stay there.
     let mut small = scene("inflate = { depth = 0.01, seconds = 0.3 }");
     small.side = 0.02;
