@@ -39,11 +39,9 @@ fn page(folder: &TempDir, size: usize) -> View {
     View::new(&runs, size).expect("a page")
 }
 
-/// Returns the colours that a page gives to the panels of its first run.
-fn colours(html: &str) -> Vec<Value> {
-    let meta: Value = serde_json::from_str(element(html, "run-0")).expect("JSON");
-    let panels = meta["panels"].as_array().expect("a list");
-    panels.iter().map(|panel| panel["colour"].clone()).collect()
+/// Returns what a page says of its first run.
+fn meta(html: &str) -> Value {
+    serde_json::from_str(element(html, "run-0")).expect("JSON")
 }
 
 /// Returns what stands in the element of a page between its opening tag and its end.
@@ -56,7 +54,7 @@ fn element<'a>(html: &'a str, id: &str) -> &'a str {
 fn positions_and_fields_come_back_to_the_fraction_that_is_said() {
     let view = page(&run(5), 20_000_000);
     assert_eq!(view.frames, [[0, 1, 2, 3, 4]]);
-    let meta: Value = serde_json::from_str(element(&view.html, "run-0")).expect("JSON");
+    let meta = meta(&view.html);
     let data = element(&view.html, "data-0");
     let data = base64::engine::general_purpose::STANDARD.decode(data).expect("base64");
     let mut bytes = Vec::new();
@@ -102,10 +100,12 @@ fn each_fabric_has_its_colour() {
     let manifest =
         serde_json::json!({ "format": 1, "guarded": false, "bodies": [], "panels": panels });
     std::fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).expect("writes");
-    let colours = colours(&page(&folder, 20_000_000).html);
+    let meta = meta(&page(&folder, 20_000_000).html);
+    let panels = meta["panels"].as_array().expect("a list").iter();
+    let colours: Vec<&Value> = panels.map(|panel| &panel["colour"]).collect();
     assert_eq!(colours[1], colours[3], "of one fabric");
     let mut three = colours[..3].to_vec();
-    three.sort_by_key(Value::to_string);
+    three.sort_by_key(|colour| colour.to_string());
     three.dedup();
     assert_eq!(three.len(), 3, "{colours:?}");
 }
@@ -114,7 +114,7 @@ fn each_fabric_has_its_colour() {
 fn no_name_ends_its_element() {
     let html = page(&run(2), 20_000_000).html;
     assert!(!html.contains("alert('x')<") && !html.contains("<script>alert"));
-    let meta: Value = serde_json::from_str(element(&html, "run-0")).expect("JSON");
+    let meta = meta(&html);
     assert_eq!((&meta["name"], &meta["panels"][0]["name"]), (&HOSTILE.into(), &HOSTILE.into()));
     // The page loads nothing.
     assert!(!html.contains("src=\"http") && !html.contains("@import"));

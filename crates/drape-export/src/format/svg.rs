@@ -327,7 +327,7 @@ impl Page {
 
 #[cfg(test)]
 mod tests {
-    use roxmltree::Document;
+    use roxmltree::{Document, Node};
 
     use super::*;
     use crate::example;
@@ -356,11 +356,16 @@ mod tests {
         String::from_utf8(text).unwrap()
     }
 
-    #[test]
-    fn a_drawing_has_every_panel_by_name_and_says_range_and_length() {
+    /// Returns the drawing of two panels.
+    fn two_panels() -> String {
         let folder = example::folder(&[0.3]);
         let recording = Recording::open(folder.path()).unwrap();
-        let text = written(&recording, Field::Shear, &[0.5, 1.0, 1.5, 2.0, -2.5, 3.0, 3.5]);
+        written(&recording, Field::Shear, &[0.5, 1.0, 1.5, 2.0, -2.5, 3.0, 3.5])
+    }
+
+    #[test]
+    fn a_drawing_has_every_panel_by_name_and_says_range_and_length() {
+        let text = two_panels();
         let document = Document::parse(&text).unwrap();
         let words: Vec<&str> = document.descendants().filter_map(|node| node.text()).collect();
         for word in ["front", example::HOSTILE, "shear angle, °", "-5.00", "5.00", "100 mm"] {
@@ -369,39 +374,49 @@ mod tests {
         assert!(words.iter().any(|word| word.contains("frame 0, 0.300 s")), "{words:?}");
     }
 
-    /// Returns the numbers of a text.
-    fn numbers(text: &str) -> Vec<f64> {
+    /// Returns the numbers of an attribute.
+    fn numbers(node: Node<'_, '_>, attribute: &str) -> Vec<f64> {
+        let text = node.attribute(attribute).unwrap();
         let words = text.split(|c: char| !"-.0123456789".contains(c));
         words.filter_map(|word| word.parse().ok()).collect()
     }
 
-    #[test]
-    fn all_is_on_the_page_and_nothing_on_anything_else() {
-        let folder = example::folder(&[0.3]);
-        let recording = Recording::open(folder.path()).unwrap();
-        let text = written(&recording, Field::Shear, &[0.5, 1.0, 1.5, 2.0, -2.5, 3.0, 3.5]);
-        let document = Document::parse(&text).unwrap();
+    /// Returns the first element of a name in another one.
+    fn child<'a, 'b>(of: Node<'a, 'b>, name: &str) -> Node<'a, 'b> {
+        of.children().find(|node| node.has_tag_name(name)).unwrap()
+    }
+
+    /// Returns the group of an identifier.
+    fn group<'a, 'b>(document: &'a Document<'b>, identifier: &str) -> Node<'a, 'b> {
+        document.descendants().find(|node| node.attribute("id") == Some(identifier)).unwrap()
+    }
+
+    /// Returns the width and the height of a page and the height of its text, in mm.
+    fn measures(document: &Document<'_>) -> [f64; 3] {
         let page = document.root_element();
-        let [width, height] = numbers(page.attribute("viewBox").unwrap())[2..] else { panic!() };
-        let text: f64 = page.attribute("font-size").unwrap().parse().unwrap();
-        let value =
-            |node: &roxmltree::Node<'_, '_>, key: &str| numbers(node.attribute(key).unwrap())[0];
-        let groups: Vec<_> = document.descendants().filter(|node| node.has_tag_name("g")).collect();
-        // Panels of 100 × 200 and 250 × 500 mm with their names: left, top, right, bottom.
-        let panels = groups.iter().filter(|node| node.attribute("transform").is_some());
-        let sizes = [[100.0, 200.0], [250.0, 500.0]];
+        let size = numbers(page, "viewBox");
+        [size[2], size[3], numbers(page, "font-size")[0]]
+    }
+
+    #[test]
+    fn panels_and_their_names_are_on_the_page_and_not_on_each_other() {
+        let drawing = two_panels();
+        let document = Document::parse(&drawing).unwrap();
+        let [width, height, text] = measures(&document);
+        let panels = document
+            .descendants()
+            .filter(|node| node.has_tag_name("g") && node.attribute("transform").is_some());
         let mut boxes = Vec::new();
-        for (panel, size) in panels.zip(sizes) {
-            let place = numbers(panel.attribute("transform").unwrap());
+        for (panel, size) in panels.zip([[100.0, 200.0], [250.0, 500.0]]) {
+            let place = numbers(panel, "transform");
             let (x, bottom) = (place[0], place[1]);
-            let whole = panel.parent().unwrap();
-            let name = whole.children().find(|node| node.has_tag_name("text")).unwrap();
-            let [name_x, name_y] = ["x", "y"].map(|key| value(&name, key));
-            assert!((x..x + 2.0 * text).contains(&name_x), "{name_x} is not at {x}");
             let top = bottom - size[1];
+            let whole = panel.parent().unwrap();
+            let name = child(whole, "text");
+            let [name_x, name_y] = ["x", "y"].map(|key| numbers(name, key)[0]);
+            assert!((x..x + 2.0 * text).contains(&name_x), "{name_x} is not at {x}");
             assert!((top - text..top).contains(&name_y), "{name_y} is not above {top}");
-            let arrow = whole.children().find(|node| node.has_tag_name("path")).unwrap();
-            let arrow = numbers(arrow.attribute("transform").unwrap());
+            let arrow = numbers(child(whole, "path"), "transform");
             assert!(arrow[0] + 0.5 * text < name_x && (x..name_x).contains(&arrow[0]), "{arrow:?}");
             boxes.push([x, top - text, x + size[0], bottom]);
         }
@@ -411,22 +426,27 @@ mod tests {
         assert!(boxes.iter().all(|own| inside(*own)), "{boxes:?} on {width} × {height}");
         let [a, b] = boxes[..] else { panic!("{boxes:?}") };
         assert!(a[2] < b[0] || b[2] < a[0] || a[3] < b[1] || b[3] < a[1], "{boxes:?}");
-        // The scale bar is at the right and has the length that it says.
-        let scale = groups.iter().find(|node| node.attribute("id") == Some("scale")).unwrap();
-        let bar = scale.children().find(|node| node.has_tag_name("path")).unwrap();
-        let [x, y, down, length, up] = numbers(bar.attribute("d").unwrap())[..] else { panic!() };
+    }
+
+    #[test]
+    fn the_scale_bar_is_as_long_as_it_says_and_right_of_the_legend_of_all_bands() {
+        let drawing = two_panels();
+        let document = Document::parse(&drawing).unwrap();
+        let [width, height, text] = measures(&document);
+        let scale = group(&document, "scale");
+        let [x, y, down, length, up] = numbers(child(scale, "path"), "d")[..] else { panic!() };
         let said = scale.descendants().find_map(|node| node.text()).unwrap();
         assert_eq!((said, down + up), (&format!("{length} mm")[..], 0.0));
         assert!(x > 0.5 * width && x + length < width && x + length > width - 2.0 * text);
         assert!((height - 4.0 * text..height - text).contains(&y), "{y} of {height}");
-        // The legend has the colours of the bands, each once, from the least to the greatest.
-        let legend = groups.iter().find(|node| node.attribute("id") == Some("legend")).unwrap();
+        let legend = group(&document, "legend");
         let bands: Vec<_> = legend.children().filter(|node| node.has_tag_name("rect")).collect();
         let colours: Vec<&str> = bands.iter().filter_map(|band| band.attribute("fill")).collect();
         let middle = |band: usize| scale::colour((band as f64 + 0.5) / BANDS as f64, true);
         assert_eq!(colours, (0..BANDS).map(middle).collect::<Vec<_>>());
-        assert!(bands.windows(2).all(|pair| value(&pair[0], "x") < value(&pair[1], "x")));
-        assert!(value(&bands[BANDS - 1], "x") + value(&bands[BANDS - 1], "width") < x);
+        let lefts: Vec<f64> = bands.iter().map(|band| numbers(*band, "x")[0]).collect();
+        assert!(lefts.is_sorted_by(|a, b| a < b), "{lefts:?}");
+        assert!(lefts[BANDS - 1] + numbers(bands[BANDS - 1], "width")[0] < x);
     }
 
     #[test]

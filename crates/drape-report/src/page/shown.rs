@@ -146,8 +146,8 @@ impl Scaled {
                     format!("[{}, {}]", significant(lower, DIGITS), significant(upper, DIGITS))
                 }
             },
-            Interval::Above { lower, .. } => format!("> {}{power}", write(lower)),
-            Interval::Below { upper, .. } => format!("< {}{power}", write(upper)),
+            Interval::Above { lower, .. } => format!("> {}", notation.whole(scale(lower))),
+            Interval::Below { upper, .. } => format!("< {}", notation.whole(scale(upper))),
             Interval::Unknown { .. } | Interval::Fixed { .. } => String::new(),
         };
         let shown = Shown {
@@ -202,5 +202,8 @@ mod tests {
         let wide = Interval::Between { lower: 0.5, upper: 7.9e47 };
         let parameter = Parameter { interval: wide, standard_error: Some(2.5), ..parameter };
         assert_eq!(ShownParameter::new(&parameter).interval, "[0.5000, 7.900e47]");
+        let far = Interval::Below { upper: 7.9e47, reason: String::new() };
+        let parameter = Parameter { interval: far, ..parameter };
+        assert_eq!(ShownParameter::new(&parameter).interval, "< 7.900e47");
     }
 }

@@ -62,8 +62,8 @@ pub(crate) fn add(scene: &Scene, tessellation: &mut Tessellation) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scene::Surface;
     use super::*;
+    use crate::render::scene::Surface;
 
     #[test]
     fn the_band_faces_away_from_the_cloth() {

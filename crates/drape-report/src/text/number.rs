@@ -50,9 +50,18 @@ impl Notation {
         }
     }
 
-    /// Returns whether a number has few digits before its decimal point in this notation.
+    /// Returns whether a number has at most nine digits before its decimal point in this notation.
     pub(crate) fn suits(&self, number: f64) -> bool {
         shift(number, -self.exponent).abs() < 10f64.powi(MOST_DIGITS)
+    }
+
+    /// Returns a number with its power of ten: in this notation, or with four significant digits
+    /// where that would be too long.
+    pub(crate) fn whole(&self, number: f64) -> String {
+        match self.suits(number) {
+            true => self.mantissa(number) + &self.power(),
+            false => significant(number, DIGITS),
+        }
     }
 
     /// Returns the power of ten as text: "e-5", or nothing.

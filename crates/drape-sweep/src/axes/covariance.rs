@@ -286,10 +286,9 @@ stiffness = 30.0
 
     #[test]
     fn a_number_at_the_end_of_its_scale_is_on_one_that_it_fits() {
-        let scale = |key: &str, value: f64| Scale::of(key, value);
-        assert_eq!(scale("warp.traction.primed.toe_ratio", 0.999), Scale::Logit);
-        assert_eq!(scale("warp.traction.primed.toe_ratio", 1.0), Scale::Log);
-        assert_eq!(scale("shear.stiffness", 0.0), Scale::Linear);
+        assert_eq!(Scale::of("warp.traction.primed.toe_ratio", 0.999), Scale::Logit);
+        assert_eq!(Scale::of("warp.traction.primed.toe_ratio", 1.0), Scale::Log);
+        assert_eq!(Scale::of("shear.stiffness", 0.0), Scale::Linear);
     }
 
     #[test]

@@ -8,8 +8,10 @@ use crate::surface::friction::Stretch;
 use crate::surface::geometry::PinchState;
 use crate::surface::tracked_pairs::TrackedMemory;
 
-/// State of a [`SurfaceContact`](super::SurfaceContact) between two steps: stretches of friction, positions of the bodies,
+/// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
 /// pinched vertices and the fraction of distances that is kept.
+///
+/// [`SurfaceContact`]: super::SurfaceContact
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceMemory {
     pub(super) stretches: Vec<Stretch>,
@@ -18,8 +20,10 @@ pub struct SurfaceMemory {
     pub(super) growth_fraction: f64,
 }
 
-/// All that the next steps of a [`SurfaceContact`](super::SurfaceContact) depend on between two steps, to be written to a
-/// file: its memory, the gaps of its open seams and the pairs at hand.
+/// Contents of a file from which a [`SurfaceContact`] goes on: its memory, the gaps of its open
+/// seams and its candidate pairs.
+///
+/// [`SurfaceContact`]: super::SurfaceContact
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedContact {
     pub(super) memory: SurfaceMemory,
@@ -28,8 +32,8 @@ pub struct SavedContact {
 }
 
 impl SurfaceMemory {
-    /// Checks that this is the memory of a contact with some number of free vertices and of
-    /// coordinates of the bodies.
+    /// Checks that a contact can have this memory, by the numbers of its free vertices and of the
+    /// coordinates of its bodies.
     pub(super) fn check(&self, free: usize, coordinates: usize) -> Result<(), Error> {
         let Self { stretches, bodies, pinch, growth_fraction } = self;
         check_bodies(bodies, coordinates)?;
