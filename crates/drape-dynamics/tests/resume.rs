@@ -163,6 +163,18 @@ fn cloth_carried_from_coarser_grids_goes_on_to_the_same_bits() {
 }
 
 #[test]
+fn a_run_goes_on_after_a_grid_that_is_of_no_use() {
+    // The grid has one cell, whose triangles cut the ball on the next.
+    let scene = || refined("", "[0.28]");
+    let summary = Simulation::new(scene()).unwrap().run(&mut ()).unwrap();
+    assert!(!summary.coarser_grids[0].carried && summary.settled, "{summary:?}");
+    let spacing = 1e3 * summary.coarser_grids[0].spacing;
+    let told = format!("the grid of {spacing:.1} mm is of no use: ");
+    assert!(summary.warnings[0].starts_with(&told), "{:?}", summary.warnings);
+    goes_on(scene, 17);
+}
+
+#[test]
 fn a_run_that_is_interrupted_on_a_coarser_grid_has_a_frame_and_goes_on() {
     /// Watcher that ends a run after three steps.
     #[derive(Default)]
@@ -290,6 +302,18 @@ fn a_checkpoint_of_another_scene_is_refused() {
 }
 
 #[test]
+fn a_checkpoint_whose_end_is_no_time_is_refused() {
+    let scene = "contact.surfaces = true\ntime = { step = 0.004, end = 0.02 }\n";
+    for end in [f64::INFINITY, -1.0] {
+        let mut extended = Simulation::new(over_a_ball(scene, "")).unwrap();
+        assert!(extended.extend(end));
+        let mut resumed = Simulation::new(over_a_ball(scene, "")).unwrap();
+        let refused = resumed.resume(extended.saved()).unwrap_err();
+        assert!(refused.to_string().contains("its clock is wrong"), "{refused}");
+    }
+}
+
+#[test]
 fn a_run_goes_on_beyond_its_end_as_a_longer_one() {
     let until = |end: &str| {
         over_a_ball(
@@ -313,6 +337,10 @@ fn a_run_goes_on_beyond_its_end_as_a_longer_one() {
     // From its end no step is left.
     let again = resumed().run(&mut ()).unwrap();
     assert_eq!((again.steps, again.state_hash), (ended.steps, ended.state_hash));
+    assert!(again.wall_seconds > ended.wall_seconds && ended.wall_seconds > 0.0);
+    assert!(
+        cfg!(not(unix)) || (again.cpu_seconds > ended.cpu_seconds && ended.cpu_seconds > Some(0.0))
+    );
     let mut extended = resumed();
     assert!(extended.extend(0.04));
     let extended = extended.run(&mut ()).unwrap();

@@ -305,3 +305,61 @@ fn two_tests_side_by_side_in_a_file_are_two_curves() {
     tests.sort();
     assert_eq!(tests, [Test::Tensile, Test::Bending], "{}", draft.text);
 }
+
+#[test]
+fn gauge_and_width_in_columns_are_read_in_their_units() {
+    let text = |heads: &str, sizes: &str| {
+        let row = |_, [e, f]: [f64; 2]| format!("{:.5},{:.6},{sizes}", 0.5 * e, 0.049 * f);
+        format!("{heads}\n{}", rows(&tensile(), row))
+    };
+    let warp = text("Extension (mm),Force (N),Gauge length (mm),Width (cm)", "50,5");
+    let weft = text("Extension (mm),Force (N),l0 [cm],Specimen width / mm", "5,50");
+    let folder = folder(&[("warp.csv", warp.as_bytes()), ("weft.csv", weft.as_bytes())]);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open), (2, 0), "{}", draft.text);
+    assert!(draft.text.contains("gauge = \"Gauge length\""), "{}", draft.text);
+    let keys = "deformation = { gauge = \"50 mm\" }\nload = { width = \"50 mm\" }\n";
+    let section = |direction: &str| {
+        format!(
+            "[[curve]]\ntest = \"tensile\"\ndirection = \"{direction}\"\nfile = \"{direction}.csv\"\n{keys}"
+        )
+    };
+    let hand = by_hand(folder.path(), &[section("warp"), section("weft")].concat());
+    for (found, wanted) in sheet.curves.iter().zip(&hand.curves) {
+        let pairs = [(found.deformation(), wanted.deformation()), (found.load(), wanted.load())];
+        for (a, b) in pairs.iter().flat_map(|(found, wanted)| found.iter().zip(*wanted)) {
+            assert!((a - b).abs() <= 1e-12 * b.abs(), "{a} for {b}");
+        }
+    }
+}
+
+#[test]
+fn strips_of_a_laboratory_and_arches_are_told_apart() {
+    let folder_of_curves = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fabrics/cupro-weave");
+    let names =
+        ["loop-bend-up-warp", "loop-bend-down-1-warp", "stretch-2cm-warp", "stretch-8cm-warp"];
+    let files = names.map(|name| format!("{name}.csv"));
+    let bytes = |file: &String| std::fs::read(folder_of_curves.join(file)).expect("a curve");
+    let files: Vec<(&str, Vec<u8>)> = files.iter().map(|file| (&**file, bytes(file))).collect();
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, b)| (*name, b.as_slice())).collect();
+    let folder = folder(&files);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open), (4, 0), "{}", draft.text);
+    let section = |test: &str, file: &str| {
+        format!(
+            "[[curve]]\ntest = \"{test}\"\ndirection = \"warp\"\nfile = \"{file}.csv\"\nslack = {}\n\
+             deformation = {{ column = \"clamp_distance_m\", unit = \"m\", gauge = \"specimen_length_m\" }}\n\
+             load = {{ column = \"force_N\", unit = \"N\", width = \"clamp_width_m\" }}\n",
+            test == "tensile"
+        )
+    };
+    let [up, down, short, long] = names;
+    let hand = [
+        section("loop-bending", down),
+        section("loop-bending", up),
+        section("tensile", short),
+        section("tensile", long),
+    ];
+    assert_same(&sheet, &by_hand(folder.path(), &hand.concat()));
+    assert!(sheet.curves.iter().all(|curve| curve.slack == (curve.test == Test::Tensile)));
+}

@@ -117,6 +117,27 @@ load = { column = 2, unit = "N", width = 0.05 }
 }
 
 #[test]
+fn a_column_of_lengths_is_read_in_its_unit_or_refused() {
+    let sheet = |gauge: &str| {
+        format!(
+            "name = \"strip\"\n[[curve]]\ntest = \"tensile\"\ndirection = \"warp\"\nfile = \"pull.csv\"\n\
+             deformation = {{ column = \"d\", unit = \"mm\", zero = \"extension\", gauge = \"{gauge}\" }}\n"
+        )
+    };
+    let curve = "d,Force (gf/cm),long (cm),weight (g),short (mm)\n0,0,8,1,80\n0.8,2,8,1,-80\n";
+    let strain = read(&sheet("long"), curve).unwrap().curves[0].deformation()[1];
+    assert!((strain - 0.01).abs() < 1e-15, "{strain}");
+    let weight = finding(&sheet("weight"), curve);
+    assert!(weight.message.starts_with("column \"weight\": "), "{weight}");
+    assert!(help(&weight).contains("cm"), "{weight}");
+    let short = finding(&sheet("short"), curve);
+    assert_eq!(
+        (short.message.as_str(), short.line),
+        ("column \"short\" has a length of -80", Some(3))
+    );
+}
+
+#[test]
 fn an_unknown_key_is_named_with_its_line_and_the_key_that_was_meant() {
     let found = finding("name = \"a\"\nW = 10\n[warp]\n2HBB = 0.1\n", GOOD_CURVE);
     assert_eq!(found.line, Some(4));

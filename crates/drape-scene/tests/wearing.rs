@@ -59,9 +59,14 @@ fn pattern(half: f64) -> String {
 
 /// Reads the skirt at a centre, or returns what is said about it.
 fn read(pattern: &str, more: &str) -> Result<Scene, String> {
+    read_at(0.02, pattern, more)
+}
+
+/// Reads the skirt at a spacing, in m, and a centre, or returns what is said about it.
+fn read_at(spacing: f64, pattern: &str, more: &str) -> Result<Scene, String> {
     let documents = [Document::new("plain.toml", FABRIC), Document::new("skirt.toml", pattern)];
     let text = format!(
-        "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n[[garment]]\npattern = \"skirt.toml\"\n\
+        "spacing = {spacing}\nfabric.plain.file = \"plain.toml\"\n[[garment]]\npattern = \"skirt.toml\"\n\
          fabric = \"plain\"\n{more}\n[[collider.cylinder]]\nradius = 0.1\nheight = 1.5\n\
          center = [0, 0.75, 0]\n[contact]\noffset = 0.003\n[time]\nstep = 0.005\nend = 1\n[settle]\n"
     );
@@ -142,6 +147,15 @@ fn a_skirt_that_is_too_narrow_is_answered_with_what_is_missing() {
         notes.contains("\"skirt\" is too narrow") && notes.contains("would stretch by"),
         "{notes}"
     );
+    assert!(!notes.contains("choose a smaller spacing"), "{notes}");
+}
+
+#[test]
+fn a_skirt_whose_polygon_is_too_narrow_fits_at_the_smaller_spacing_that_is_advised() {
+    let notes = |spacing| read_at(spacing, &pattern(162.5), "").unwrap().source.notes;
+    let told = notes(0.05).join("\n");
+    assert!(told.contains(" mm in all, choose a smaller spacing, or start it"), "{told}");
+    assert_eq!(notes(0.02), Vec::<String>::new());
 }
 
 /// Two panels side by side, sewn across a gap, and a third that stands in it.

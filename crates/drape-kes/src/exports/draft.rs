@@ -18,7 +18,7 @@ use crate::tables::grid::Grid;
 use crate::tables::layout::Layout;
 use crate::tables::number::Decimal;
 use crate::tables::series::Series;
-use crate::test::Direction;
+use crate::test::{Direction, Test};
 
 /// Endings of files that hold no tables.
 const OTHER_FILES: [&str; 26] = [
@@ -27,6 +27,8 @@ const OTHER_FILES: [&str; 26] = [
 ];
 /// Deepest folder below the one that is named.
 const DEEPEST: usize = 3;
+/// Difference of the gauges of two curves, over one of them, from which on they are no repeats.
+const REPEAT_GAUGE: f64 = 0.1;
 /// Most files of a folder: more are no exports of one fabric.
 const MOST_FILES: usize = 500;
 
@@ -303,7 +305,8 @@ impl Parts {
         draft
     }
 
-    /// Joins curves of several files that are alike: the repeats of a laboratory.
+    /// Joins curves of several files that are alike: the repeats of a laboratory. Arches are none: they go up or
+    /// down.
     fn join_repeats(&mut self, folder: &Path) {
         let mut joined: Vec<CurveDraft> = Vec::new();
         for curve in std::mem::take(&mut self.curves) {
@@ -313,12 +316,18 @@ impl Parts {
                 told.map(|key| (key.name, key.value.clone())).collect()
             };
             let alike = |other: &&mut CurveDraft| {
-                other.test.value == curve.test.value
+                curve.test.value != Test::LoopBending
+                    && other.test.value == curve.test.value
                     && direction(other) == direction(&curve)
                     && plain(&other.layout) == plain(&curve.layout)
                     && (0..2).all(|axis| plain(&other.axes[axis]) == plain(&curve.axes[axis]))
             };
-            if let Some(other) = joined.iter_mut().find(alike) {
+            let gauge = |draft: &CurveDraft| draft.read(folder).ok()?.first()?.gauge;
+            let is_as_long = |other: &CurveDraft| {
+                let lengths = gauge(other).zip(gauge(&curve));
+                lengths.is_none_or(|(a, b)| (a / b - 1.0).abs() < REPEAT_GAUGE)
+            };
+            if let Some(other) = joined.iter_mut().find(alike).filter(|other| is_as_long(other)) {
                 let mut both = other.clone();
                 both.files.extend(curve.files.clone());
                 if both.layout != curve.layout {

@@ -21,6 +21,8 @@ pub(crate) struct Evidence {
     scopes: Vec<Scope>,
     /// Whether a text names the Kawabata instruments.
     pub(crate) is_kes: bool,
+    /// Whether a text names an arch between two clamps.
+    pub(crate) is_arch: bool,
 }
 
 /// Text with its place, in words.
@@ -67,6 +69,8 @@ const YARN: [&str; 10] =
     ["density", "yarn", "count", "ends", "picks", "thread", "faden", "garn", "密度", "糸"];
 /// Words of the Kawabata instruments.
 const KES: [&str; 7] = ["kes", "kesf", "fb1", "fb2", "fb3", "kato", "カトーテック"];
+/// Words of an arch between two clamps.
+const ARCH: [&str; 4] = ["loop", "arch", "buckling", "ループ"];
 /// Words of the tests that a sheet takes as values.
 const OTHER_TESTS: [(&str, &[&str]); 2] = [
     (
@@ -90,7 +94,7 @@ impl Evidence {
         add(names.clone(), format!("the headings \"{names}\""));
         let title = block.title();
         add(title.clone(), format!("the title \"{title}\""));
-        let mut evidence = Self { scopes, is_kes: false };
+        let mut evidence = Self { scopes, ..Self::default() };
         evidence.add_lines(&block.above);
         evidence.add_place(&block.sheet, stated, path);
         evidence
@@ -115,7 +119,9 @@ impl Evidence {
         }
         let mut words: Vec<String> = self.scopes.iter().map(|scope| normal(&scope.text)).collect();
         words.extend(rows.iter().map(|row| normal(&of_row(row))));
-        self.is_kes = words.iter().any(|text| KES.iter().any(|word| has(text, word)));
+        let names =
+            |known: &[&str]| words.iter().any(|text| known.iter().any(|word| has(text, word)));
+        (self.is_kes, self.is_arch) = (names(&KES), names(&ARCH));
     }
 
     /// Adds the lines that are titles, or that say direction or test by their key.

@@ -20,6 +20,8 @@ use crate::test::{Direction, Test};
 
 /// Tests whose curves are looked for.
 const TESTS: [Test; 3] = [Test::Tensile, Test::Shear, Test::Bending];
+/// Shortening at the start from which on a strip hangs slack.
+const SLACK_MIN: f64 = 1e-3;
 /// Part of its largest value below zero from which on a length is no tensile extension.
 const BOTH_WAYS: f64 = 0.3;
 
@@ -132,21 +134,29 @@ impl Export<'_> {
         let first = place[0].test;
         let (test, item) = match (evidence.test(), place.len()) {
             (Some(told), _) => match fits(told.value) {
-                Some(item) => (Ok(told), item),
+                Some(item) => (Ok(told), item.clone()),
+                None if told.value == Test::Bending
+                    && evidence.is_arch
+                    && fits(Test::Tensile).is_some() =>
+                {
+                    let test = Test::LoopBending;
+                    (Ok(Told { value: test, ..told }), Item { test, ..place[0].clone() })
+                }
                 None => {
                     let (named, test) = (told.value.name(), first.name());
                     let reason = format!(
                         "its columns are those of a {test} test, and {} it is {named}",
                         told.why
                     );
-                    (Err(reason), &place[0])
+                    (Err(reason), place[0].clone())
                 }
             },
             (None, 1) => {
                 let Told { value, why } = Told { value: first, why: place[0].series.columns() };
-                (Ok(Told { value, why: format!("by its columns, {why}") }), &place[0])
+                let test = Ok(Told { value, why: format!("by its columns, {why}") });
+                (test, place[0].clone())
             }
-            (None, _) => (place[0].series.tensile(), &place[0]),
+            (None, _) => (place[0].series.tensile(), place[0].clone()),
         };
         let other = evidence.other_test().filter(|_| evidence.test().is_none());
         let test = match other {
@@ -156,12 +166,7 @@ impl Export<'_> {
             )),
             _ => test,
         };
-        Group {
-            direction: evidence.direction(),
-            is_kes: evidence.is_kes,
-            items: vec![item.clone()],
-            test,
-        }
+        Group { direction: evidence.direction(), is_kes: evidence.is_kes, items: vec![item], test }
     }
 
     /// Drafts a group, and verifies the draft.
@@ -186,6 +191,7 @@ impl Export<'_> {
         let sizes = first.sizes(group.is_kes);
         reasons.extend(sizes.missing);
         draft.axes = sizes.axes;
+        self.add_slack(&mut draft);
         let read = draft.read(self.folder);
         match read {
             Ok(curves) => draft = self.declared(draft, group, &curves),
@@ -198,6 +204,18 @@ impl Export<'_> {
             drafts.good.push(draft);
         } else {
             drafts.open.push(OpenDraft { draft, reason: reasons.join("; ") });
+        }
+    }
+
+    /// Adds that a strip hangs slack, where it begins shorter than its gauge.
+    fn add_slack(&self, draft: &mut CurveDraft) {
+        let mut slack = draft.clone();
+        let why = "at the start the clamps are nearer than the strip is long";
+        slack.layout.push(Key::new("slack", "true", why));
+        let is_short = |curve: &Curve| curve.deformation().first().is_some_and(|q| *q < -SLACK_MIN);
+        let is_tensile = draft.test.value == Test::Tensile;
+        if is_tensile && slack.read(self.folder).is_ok_and(|curves| curves.iter().all(is_short)) {
+            *draft = slack;
         }
     }
 
@@ -266,10 +284,11 @@ impl Item {
         let whole = quantity(series.pair.load, loads(*test)) == Some(loads(*test)[1]);
         let mut axes = [Vec::new(), Vec::new()];
         let mut missing = Vec::new();
-        let gauge =
-            (of_length && stated(&series.stated, &GAUGE).is_none()).then_some(("gauge", "5 cm"));
-        let width =
-            (whole && stated(&series.stated, &WIDTH).is_none()).then_some(("width", "20 cm"));
+        let is_open = |words: &[&str]| {
+            stated(&series.stated, words).is_none() && series.size_column(words).is_none()
+        };
+        let gauge = (of_length && is_open(&GAUGE)).then_some(("gauge", "5 cm"));
+        let width = (whole && is_open(&WIDTH)).then_some(("width", "20 cm"));
         for (axis, needed) in [gauge, width].into_iter().enumerate() {
             let Some((key, usual)) = needed else { continue };
             let why = if is_kes {
@@ -299,8 +318,7 @@ impl Item {
                 keys.push(series.column_key(column));
             }
             let written = heading.and_then(|heading| heading.unit.as_deref());
-            let unit = written.or(series.cell_unit(column));
-            let unit = unit.and_then(|unit| parse_unit(unit, accepted).ok());
+            let unit = series.unit(column).and_then(|unit| parse_unit(unit, accepted).ok());
             if let Some(unit) = unit {
                 let why = match (written, series.block.units_line) {
                     (None, _) => "in the cells".to_owned(),
@@ -312,12 +330,8 @@ impl Item {
             let sized = unit.is_some_and(|unit| {
                 unit.quantity == Quantity::Length || Some(&unit.quantity) == accepted.get(1)
             });
-            if let Some(found) =
-                stated(&series.stated, words).filter(|_| sized && assumed.is_empty())
-            {
-                let length = format!("{} mm", drape_input::figure(1e3 * found.length));
-                let why = format!("\"{}\" on line {}", found.name, found.line);
-                keys.push(Key::new(size, toml_string(&length), why));
+            if sized && assumed.is_empty() {
+                keys.extend(series.size_key(size, words));
             }
             keys.extend_from_slice(assumed);
             keys
@@ -415,6 +429,17 @@ impl Series {
             self.columns()
         );
         Ok(Told { value: Test::Tensile, why })
+    }
+
+    /// Returns the key of the gauge or of the width that the file states.
+    fn size_key(&self, name: &'static str, words: &[&str]) -> Option<Key> {
+        if let Some(found) = stated(&self.stated, words) {
+            let length = format!("{} mm", drape_input::figure(1e3 * found.length));
+            let why = format!("\"{}\" on line {}", found.name, found.line);
+            return Some(Key::new(name, toml_string(&length), why));
+        }
+        let column = self.size_column(words)?;
+        Some(Key { name, why: "of the column".into(), ..self.column_key(column) })
     }
 
     /// Returns a key that names a column: by its name where that is the only one, else by its number.

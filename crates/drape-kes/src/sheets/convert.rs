@@ -79,16 +79,14 @@ pub(crate) fn deformation(
     }
     let (gauge, of_gauge) = match sizes(axis, series, findings)? {
         Some(gauge) => (gauge, String::new()),
-        None => {
-            let Some(found) = stated(&series.stated, &GAUGE) else {
-                let help =
-                    "add gauge = \"5 cm\", or the name of the column that holds it in metres";
+        None => match sizes_of_file(series, &GAUGE, findings)? {
+            Some(found) => found,
+            None => {
+                let help = "add gauge = \"5 cm\", or the name of the column that holds it";
                 findings.error(&axis.size_key, "is missing: a clamp distance needs it", help);
                 return None;
-            };
-            let (name, line) = (found.name, found.line);
-            (vec![found.length; written.numbers.len()], format!(", \"{name}\" on line {line}"))
-        }
+            }
+        },
     };
     let factor = written.unit.factor;
     let first = written.numbers[0] * factor / gauge[0];
@@ -188,17 +186,15 @@ pub(crate) fn load(
     }
     let (width, of_width) = match width {
         Some(width) => (width, String::new()),
-        None => {
-            let Some(found) = stated(&series.stated, &WIDTH) else {
+        None => match sizes_of_file(series, &WIDTH, findings)? {
+            Some(found) => found,
+            None => {
                 let message = format!("is missing: a load in {} needs it", unit.spelling);
-                let help =
-                    "add width = \"20 cm\", or the name of the column that holds it in metres";
+                let help = "add width = \"20 cm\", or the name of the column that holds it";
                 findings.error(&axis.size_key, message, help);
                 return None;
-            };
-            let (name, line) = (found.name, found.line);
-            (vec![found.length; written.numbers.len()], format!(", \"{name}\" on line {line}"))
-        }
+            }
+        },
     };
     let pairs = written.numbers.iter().zip(&width);
     let si = pairs.map(|(&load, &w)| sign * (load * unit.factor / w)).collect();
@@ -219,12 +215,10 @@ fn numbers(
 ) -> Option<Numbers> {
     let AxisColumn { series, column } = *of;
     let heading = series.block.headings.get(column);
-    let of_header = heading.and_then(|heading| heading.unit.as_deref());
-    let of_cells = series.cell_unit(column);
     let unit = match axis.unit {
         Some(unit) => unit,
         None => {
-            let Some(text) = of_header.or(of_cells) else {
+            let Some(text) = series.unit(column) else {
                 let unit = accepted[0].laboratory().spelling;
                 let help = format!("add unit = \"{unit}\", or the unit that was used");
                 let message = "is missing, and the column's header names none";
@@ -266,7 +260,8 @@ fn numbers(
     })
 }
 
-/// Reads a gauge or a width for each row, in metres; the inner `None` where none is given.
+/// Reads the gauge or the width that the sheet gives, for each row, in metres; the inner `None` where it gives
+/// none.
 fn sizes(
     axis: &AxisKeys,
     series: &Series,
@@ -275,23 +270,51 @@ fn sizes(
     match &axis.size {
         None => Some(None),
         Some(ColumnOrLength::Length(length)) => Some(Some(vec![*length; series.block.rows.len()])),
-        Some(ColumnOrLength::Column(column)) => {
-            let column = match named(&series.block, column) {
-                Ok(columns) => columns[0],
-                Err(reason) => {
-                    let finding = Diagnostic::new(&series.path, reason.message).help(reason.help);
-                    findings.errors.push(Diagnostic { line: reason.line, ..finding });
-                    return None;
-                }
-            };
-            let sizes = findings.collect(series.numbers(column))?;
-            if let Some(size) = sizes.iter().find(|&&size| size <= 0.0) {
-                let message = format!("{}: the file has a length of {size} m", axis.size_key);
-                let finding = Diagnostic::new(&series.path, message);
-                findings.errors.push(finding.help("a length is positive"));
-                return None;
+        Some(ColumnOrLength::Column(column)) => match named(&series.block, column) {
+            Ok(columns) => lengths(series, columns[0], findings).map(Some),
+            Err(reason) => {
+                let finding = Diagnostic::new(&series.path, reason.message).help(reason.help);
+                findings.errors.push(Diagnostic { line: reason.line, ..finding });
+                None
             }
-            Some(Some(sizes))
-        }
+        },
     }
+}
+
+/// Reads the gauge or the width that the file states, for each row, in metres, and says where; the inner `None`
+/// where it states none.
+fn sizes_of_file(
+    series: &Series,
+    words: &[&str],
+    findings: &mut Findings<'_>,
+) -> Option<Option<(Vec<f64>, String)>> {
+    if let Some(found) = stated(&series.stated, words) {
+        let place = format!(", \"{}\" on line {}", found.name, found.line);
+        return Some(Some((vec![found.length; series.block.rows.len()], place)));
+    }
+    let Some(column) = series.size_column(words) else { return Some(None) };
+    let place = format!(", column {}", series.block.column_name(column));
+    lengths(series, column, findings).map(|lengths| Some((lengths, place)))
+}
+
+/// Reads the lengths of a column, in metres; a column without a unit is in metres.
+fn lengths(series: &Series, column: usize, findings: &mut Findings<'_>) -> Option<Vec<f64>> {
+    let name = series.block.column_name(column);
+    let unit = match series.unit(column).map(|unit| parse_unit(unit, &[Quantity::Length])) {
+        None => 1.0,
+        Some(Ok(unit)) => unit.factor,
+        Some(Err(error)) => {
+            let message = format!("column {name}: {}", error.message);
+            findings.errors.push(Diagnostic::new(&series.path, message).help(error.help));
+            return None;
+        }
+    };
+    let lengths = findings.collect(series.numbers(column))?;
+    if let Some(wrong) = lengths.iter().position(|&length| length <= 0.0) {
+        let message = format!("column {name} has a length of {}", lengths[wrong]);
+        let finding = Diagnostic::new(&series.path, message).help("a length is positive");
+        findings.errors.push(finding.on_line(series.block.rows[wrong].line));
+        return None;
+    }
+    Some(lengths.into_iter().map(|length| unit * length).collect())
 }

@@ -236,8 +236,8 @@ fn axis(keys: &[&str], description: &str) -> Value {
     let properties = json!({
         "column": described(columns, "Column, by its name or its place from 1, or a list of them with repeats; detected if missing."),
         "unit": { "type": "string", "description": "Unit of the column; that of its header if missing." },
-        "gauge": size("Length of the specimen with its unit, or the column with it; needed for a length only; that of the file if missing."),
-        "width": size("Width of the specimen with its unit, or the column with it, for loads of a whole specimen; that of the file if missing."),
+        "gauge": size("Length of the specimen with its unit, or the column with it, in metres where that has no unit; needed for a length only; that of the file if missing."),
+        "width": size("Width of the specimen with its unit, or the column with it, in metres where that has no unit, for loads of a whole specimen; that of the file if missing."),
         "zero": choice(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
         "reversed": { "type": "boolean", "description": "Whether the sign is the opposite one; `false` if missing." },
     });

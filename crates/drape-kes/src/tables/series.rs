@@ -8,6 +8,7 @@ use crate::tables::block::Block;
 use crate::tables::columns::Pair;
 use crate::tables::grid::{Cell, Row};
 use crate::tables::number::Decimal;
+use crate::tables::stated::size_column;
 
 /// Points of one specimen as they are written.
 #[derive(Clone, Debug)]
@@ -83,6 +84,17 @@ impl Series {
             )
         };
         Diagnostic::new(&self.path, message).on_line(row.line).help(help)
+    }
+
+    /// Returns the unit of a column, of its heading or within its cells.
+    pub(crate) fn unit(&self, column: usize) -> Option<&str> {
+        let heading = self.block.headings.get(column);
+        heading.and_then(|heading| heading.unit.as_deref()).or(self.cell_unit(column))
+    }
+
+    /// Returns the column that holds the gauge or the width, by its names.
+    pub(crate) fn size_column(&self, words: &[&str]) -> Option<usize> {
+        size_column(&self.block, &[self.pair.deformation, self.pair.load], words)
     }
 
     /// Returns the unit within the first cell of a column; `None` where there is none.

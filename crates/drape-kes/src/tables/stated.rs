@@ -1,5 +1,6 @@
-//! Gauge and width that a file states above its numbers.
+//! Gauge and width that a file states: above its numbers, or in a column of them.
 
+use crate::tables::block::Block;
 use crate::tables::grid::{Cell, Row};
 use crate::tables::heading::{Heading, normal};
 use crate::tables::number::{Decimal, parse};
@@ -24,9 +25,10 @@ pub(crate) const GAUGE: [&str; 14] = [
 ];
 
 /// Words of the width of the specimen.
-pub(crate) const WIDTH: [&str; 10] = [
+pub(crate) const WIDTH: [&str; 11] = [
     "specimen width",
     "sample width",
+    "clamp width",
     "probenbreite",
     "breite",
     "largeur",
@@ -54,6 +56,29 @@ pub(crate) fn stated(rows: &[Row], words: &[&str]) -> Option<Stated> {
     all.iter().all(|other| (other.length / first.length - 1.0).abs() < 1e-9).then_some(first)
 }
 
+/// Returns the column of numbers, beside some, that holds the length that goes by one of some names; `None`
+/// where there is none, or several.
+pub(crate) fn size_column(block: &Block, beside: &[usize], words: &[&str]) -> Option<usize> {
+    let of_length = |heading: &Heading| {
+        let unit = heading.unit.as_deref();
+        unit.is_some_and(|unit| parse_unit(unit, &[Quantity::Length]).is_ok())
+    };
+    let is_size = |column: &usize| {
+        let heading = block.headings.get(*column);
+        heading.is_some_and(|heading| is_named(&heading.name, words) && of_length(heading))
+    };
+    let numbers = block.number_columns().into_iter();
+    let mut sizes = numbers.filter(|column| !beside.contains(column)).filter(is_size);
+    sizes.next().filter(|_| sizes.next().is_none())
+}
+
+/// Returns whether a name is one of some, or begins with it.
+fn is_named(name: &str, words: &[&str]) -> bool {
+    let plain = normal(name);
+    let is = |word: &&str| plain.starts_with(*word) || (!word.is_ascii() && plain.contains(*word));
+    words.iter().any(is)
+}
+
 fn of_row(row: &Row, words: &[&str]) -> Option<Stated> {
     let cells: Vec<String> = row.filled().map(|(_, cell)| Cell::text(cell)).collect();
     let (name, value) = match cells.as_slice() {
@@ -62,11 +87,7 @@ fn of_row(row: &Row, words: &[&str]) -> Option<Stated> {
         [] => return None,
     };
     let heading = Heading::parse(name);
-    let plain = normal(&heading.name);
-    if !words
-        .iter()
-        .any(|word| plain.starts_with(word) || (!word.is_ascii() && plain.contains(word)))
-    {
+    if !is_named(&heading.name, words) {
         return None;
     }
     let (number, own) = split_unit(value.trim())?;

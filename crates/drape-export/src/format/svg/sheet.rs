@@ -48,13 +48,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn panels_do_not_overlap() {
+    fn panels_with_their_names_are_a_gap_apart() {
         let extent = |k: usize| {
             let [width, height] = [40.0 + 30.0 * (k % 3) as f64, 200.0 - 20.0 * (k % 5) as f64];
             Extent { width, height }
         };
         let panels: Vec<Extent> = (0..11).map(extent).collect();
-        let Sheet { corners, size } = Sheet::new(&panels, 10.0, 8.0);
+        let (gap, above) = (10.0, 8.0);
+        let Sheet { corners, size } = Sheet::new(&panels, gap, above);
         let ends = |k: usize| {
             let [x, y] = corners[k];
             [x + panels[k].width, y + panels[k].height]
@@ -62,11 +63,11 @@ mod tests {
         for one in 0..11 {
             assert!(ends(one)[0] <= size[0] && ends(one)[1] <= size[1] + 1e-9, "{one}");
             for other in 0..one {
-                let apart = |k: usize| corners[one][k] >= ends(other)[k];
-                assert!(
-                    apart(0) || apart(1) || ends(one)[0] <= corners[other][0],
-                    "{one}, {other}"
-                );
+                let right = corners[one][0] - ends(other)[0];
+                let below = corners[one][1] - above - ends(other)[1];
+                let left = corners[other][0] - ends(one)[0];
+                let apart = right.max(below).max(left);
+                assert!((apart - gap).abs() < 1e-9 || apart > gap, "{one}, {other}: {apart} mm");
             }
         }
         assert!(size[0] / size[1] > 0.8 && size[0] / size[1] < 3.2, "{size:?}");
