@@ -28,7 +28,8 @@ pub(crate) struct SampledOutline {
     pub hard: Vec<bool>,
     /// Nodes of each edge from its start to its end.
     pub edges: Vec<Vec<u32>>,
-    /// Distances of the nodes along the outline, in m.
+    /// Distances of the nodes along the outline, in m, from one to the next: those of nodes beyond the start
+    /// of the first edge are larger than the perimeter.
     distances: Vec<f64>,
 }
 
@@ -104,12 +105,12 @@ impl<'a> Sampler<'a> {
             let length = self.breakpoints.length_after(point);
             for k in 0..self.counts[point] {
                 let distance = start + length * f64::from(k) / f64::from(self.counts[point]);
+                sampled.distances.push(distance);
                 let distance = if distance >= perimeter { distance - perimeter } else { distance };
                 let edge = starts.partition_point(|&s| s <= distance).clamp(1, outline.len()) - 1;
                 let fraction = (distance - starts[edge]) / (starts[edge + 1] - starts[edge]);
                 sampled.nodes.push(outline[edge].at(fraction));
                 sampled.hard.push(k == 0);
-                sampled.distances.push(distance);
             }
         }
         let edge = |e: usize| sampled.chain([starts[e], starts[e + 1]], perimeter);
@@ -263,10 +264,12 @@ impl SampledOutline {
     /// Returns the node nearest to a distance along the outline.
     fn nearest(&self, distance: f64, perimeter: f64) -> usize {
         let n = self.distances.len();
+        let before_first = self.distances.first().is_some_and(|&first| distance < first);
+        let distance = if before_first { distance + perimeter } else { distance };
         let after = self.distances.partition_point(|&d| d < distance);
         let gap = |k: usize| {
-            let apart = (self.distances[k % n] - distance).abs();
-            apart.min(perimeter - apart)
+            let apart = (self.distances[k] - distance).abs();
+            apart.min((perimeter - apart).abs())
         };
         let (before, after) = ((after + n - 1) % n, after % n);
         if gap(before) < gap(after) { before } else { after }
