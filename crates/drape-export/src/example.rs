@@ -118,6 +118,26 @@ pub(crate) fn folder(times: &[f64]) -> TempDir {
     folder
 }
 
+/// Folder of a run with a frame every 0.1 s, in each of which the box has risen so far, in m; the frames of a
+/// box that rests share its file.
+pub(crate) fn folder_of_rising_box(rises: &[f64]) -> TempDir {
+    let times: Vec<f64> = (0..rises.len()).map(|k| 0.1 * k as f64).collect();
+    let folder = folder(&times);
+    let mut list = "number,time,growth,bodies,touched\n".to_owned();
+    let mut file = 0;
+    for (number, rise) in rises.iter().enumerate() {
+        if number > 0 && *rise != rises[number - 1] {
+            file = number;
+            let risen: Vec<[f64; 3]> =
+                cube().0.iter().map(|[x, y, z]| [*x, y + rise, *z]).collect();
+            array(&folder.path().join(format!("bodies-{file:05}.npy")), &risen);
+        }
+        list += &format!("{number},{:?},1.0,{file},{}\n", times[number], usize::from(number > 0));
+    }
+    fs::write(folder.path().join("frames.csv"), list).unwrap();
+    folder
+}
+
 /// Writes rows as an array.
 pub(crate) fn array<T: npyz::AutoSerialize + Copy, const N: usize>(path: &Path, rows: &[[T; N]]) {
     let file = fs::File::create(path).unwrap();

@@ -289,4 +289,35 @@ mod tests {
             assert!((distance - expected).abs() < 1e-9, "{distances:?}");
         }
     }
+
+    #[test]
+    fn distances_are_those_from_the_bodies_of_their_frame() {
+        let folder = example::folder_of_rising_box(&[0.0, 0.25, 0.25]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let mut fields = Fields::new(&recording);
+        for (number, expected) in [(0, 30.0), (1, 20.0), (2, 20.0), (0, 30.0)] {
+            let mut frame = recording.frame(number).unwrap();
+            frame.cloth = vec![[0.5, [-0.03, 0.23][usize::from(number > 0)], 0.5]];
+            let distance = fields.values(Field::Distance, &frame, None).unwrap()[0];
+            assert!((distance - expected).abs() < 1e-9, "frame {number}: {distance} mm");
+        }
+    }
+
+    #[test]
+    fn a_run_of_one_frame_without_bodies_seams_and_contact_has_the_fields_of_its_cloth_alone() {
+        let material = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let folder = example::folder_of_panel(&material, &[[0, 1, 2]]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let fields = Fields::new(&recording);
+        for field in [Field::Pressure, Field::Distance, Field::SeamGap, Field::Speed] {
+            assert!(!fields.has(field), "{field:?}");
+        }
+        assert!(fields.has(Field::Shear) && fields.has(Field::Curvature));
+        let folder = example::folder(&[0.0, 0.1]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let fields = Fields::new(&recording);
+        for field in [Field::Pressure, Field::Distance, Field::SeamGap, Field::Speed] {
+            assert!(fields.has(field), "{field:?}");
+        }
+    }
 }

@@ -165,4 +165,18 @@ mod tests {
         );
         assert_eq!(tracks[2].samples[0].normals.len(), 24);
     }
+
+    #[test]
+    fn a_body_has_the_positions_of_each_frame() {
+        let rises = [0.0, 0.0, 0.25, 0.25, 0.5];
+        let folder = example::folder_of_rising_box(&rises);
+        let recording = Recording::open(folder.path()).unwrap();
+        let clip = Clip::new(&recording, 0..=4, None).unwrap();
+        let meshes = meshes(&recording, &clip.read(0).unwrap());
+        let samples = &Track::read(&clip, &meshes[2..]).unwrap()[0].samples;
+        let lowest = |sample: &Sample| {
+            sample.positions.iter().map(|place| f64::from(place[1])).fold(f64::INFINITY, f64::min)
+        };
+        assert_eq!(samples.iter().map(lowest).collect::<Vec<f64>>(), rises);
+    }
 }

@@ -114,6 +114,8 @@ fn each_fabric_has_its_colour() {
 fn no_name_ends_its_element() {
     let html = page(&run(2), 20_000_000).html;
     assert!(!html.contains("alert('x')<") && !html.contains("<script>alert"));
+    let (_, title) = html.split_once("<title>").expect("a title");
+    assert!(title.starts_with("&lt;/script&gt;&lt;script&gt;alert('x')&lt;/script&gt;&amp;amp;"));
     let meta = meta(&html);
     assert_eq!((&meta["name"], &meta["panels"][0]["name"]), (&HOSTILE.into(), &HOSTILE.into()));
     // The page loads nothing.

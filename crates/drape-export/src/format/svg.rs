@@ -425,7 +425,39 @@ mod tests {
         };
         assert!(boxes.iter().all(|own| inside(*own)), "{boxes:?} on {width} × {height}");
         let [a, b] = boxes[..] else { panic!("{boxes:?}") };
-        assert!(a[2] < b[0] || b[2] < a[0] || a[3] < b[1] || b[3] < a[1], "{boxes:?}");
+        let between = (0..2).map(|k| (b[k] - a[k + 2]).max(a[k] - b[k + 2])).fold(0.0, f64::max);
+        assert!(between > 0.5 * text, "{boxes:?}");
+    }
+
+    #[test]
+    fn narrow_panels_have_room_for_their_names() {
+        let names = ["sleeve, left, upper half", "sleeve, right, upper half"];
+        let strip = [[3.0, 2.0], [3.005, 2.0], [3.0, 2.1]];
+        let folder = example::folder_of_panel(&[strip, strip].concat(), &[[0, 1, 2], [3, 4, 5]]);
+        let panels =
+            names.map(|name| serde_json::json!({ "name": name, "vertices": 3, "triangles": 1 }));
+        let manifest =
+            serde_json::json!({ "format": 2, "guarded": false, "panels": panels, "bodies": [] });
+        std::fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).unwrap();
+        let recording = Recording::open(folder.path()).unwrap();
+        let drawing = written(&recording, Field::Shear, &[0.0; 6]);
+        let document = Document::parse(&drawing).unwrap();
+        let text = measures(&document)[2];
+        let place = |name: &str| {
+            let named =
+                |node: &Node<'_, '_>| node.has_tag_name("text") && node.text() == Some(name);
+            let node = document.descendants().find(named).unwrap();
+            ["x", "y"].map(|key| numbers(node, key)[0])
+        };
+        let [a, b] = names.map(place);
+        let width = LETTER * text * names[0].chars().count() as f64;
+        assert!(b[1] - a[1] > 100.0 || b[0] - a[0] > width, "{a:?}, {b:?}: {width} mm");
+        // The strips lie at 3 m on their pattern, and beside the margin on the page.
+        let page = document.root_element();
+        let strip = page
+            .descendants()
+            .find(|node| node.attribute("transform").is_some_and(|own| own.contains("scale")));
+        assert!(numbers(strip.unwrap(), "transform")[0] < 2.0 * text);
     }
 
     #[test]
@@ -439,6 +471,8 @@ mod tests {
         assert_eq!((said, down + up), (&format!("{length} mm")[..], 0.0));
         assert!(x > 0.5 * width && x + length < width && x + length > width - 2.0 * text);
         assert!((height - 4.0 * text..height - text).contains(&y), "{y} of {height}");
+        let word = numbers(child(scale, "text"), "y")[0];
+        assert!(word > y + 0.7 * text && word < height, "{word} is not below {y}");
         let legend = group(&document, "legend");
         let bands: Vec<_> = legend.children().filter(|node| node.has_tag_name("rect")).collect();
         let colours: Vec<&str> = bands.iter().filter_map(|band| band.attribute("fill")).collect();
@@ -447,6 +481,14 @@ mod tests {
         let lefts: Vec<f64> = bands.iter().map(|band| numbers(*band, "x")[0]).collect();
         assert!(lefts.is_sorted_by(|a, b| a < b), "{lefts:?}");
         assert!(lefts[BANDS - 1] + numbers(bands[BANDS - 1], "width")[0] < x);
+        let top = numbers(bands[0], "y")[0];
+        let words: Vec<f64> = legend
+            .children()
+            .filter(|node| node.has_tag_name("text"))
+            .map(|node| numbers(node, "y")[0])
+            .collect();
+        assert!(words[0] < top && words[0] > height - 6.0 * text, "{words:?}, {top}");
+        assert!(words[1] > top + 1.5 * text && words[1] < height, "{words:?}, {top}");
     }
 
     #[test]

@@ -227,3 +227,18 @@ fn note(recording: &Recording, frames: &[&Frame], bounds: &Bounds) -> String {
     let vertices = recording.topology().material.len();
     format!("{vertices} particles, {shown}, positions to {:.0} µm", 1e6 * size / 65535.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn bodies_have_a_new_state_where_they_have_moved() {
+        let folder = example::folder_of_rising_box(&[0.0, 0.0, 0.25, 0.5, 0.5]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let frames: Vec<Frame> = (0..5).map(|number| recording.frame(number).unwrap()).collect();
+        let frames: Vec<&Frame> = frames.iter().collect();
+        assert_eq!(body_states(&frames), [0, 0, 1, 2, 2]);
+    }
+}
