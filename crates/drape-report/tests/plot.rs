@@ -4,7 +4,10 @@
 
 mod samples;
 
-use drape_report::plot::{UncertaintyPlot, graph_svg, loop_svg, overlay_svg, uncertainty_svg};
+use drape_report::plot::{
+    Correlation, Mark, UncertaintyPlot, correlation_svg, graph_svg, loop_svg, overlay_svg,
+    uncertainty_svg,
+};
 use samples::{a_graph, a_loop, a_page, an_overlay, classes, tree};
 
 /// The pixels of a path's data.
@@ -146,4 +149,111 @@ fn points_of_a_graph_are_drawn_where_they_are_on_logarithmic_axes() {
         }
     }
     assert_eq!(classes(&series[0]), ["line", "exact"]);
+}
+
+/// Returns the places of the texts and rectangles that are not turned, from low to high in x and y.
+fn places(svg: &roxmltree::Document<'_>) -> Vec<[f64; 4]> {
+    let number = |node: &roxmltree::Node<'_, '_>, key: &str| {
+        node.attribute(key).and_then(|text| text.parse::<f64>().ok())
+    };
+    let upright = svg.descendants().filter(|node| node.attribute("transform").is_none());
+    let place = |node: roxmltree::Node<'_, '_>| {
+        let [x, y] = [number(&node, "x")?, number(&node, "y")?];
+        let [width, height] = ["width", "height"].map(|key| number(&node, key).unwrap_or(0.0));
+        Some([x, y, x + width, y + height])
+    };
+    upright.filter_map(place).collect()
+}
+
+#[test]
+fn everything_of_a_plot_is_on_its_page_and_the_page_ends_with_it() {
+    let parameters = a_page().laws[0].parameters.clone();
+    let n = 6;
+    let correlation = Correlation {
+        symbols: (0..n).map(|k| format!("p{k}")).collect(),
+        matrix: (0..n).map(|i| (0..n).map(|j| if i == j { 1.0 } else { 0.1 }).collect()).collect(),
+    };
+    for plot in [
+        loop_svg(&a_loop()),
+        overlay_svg(&an_overlay()),
+        graph_svg(&a_graph()),
+        uncertainty_svg(&UncertaintyPlot { parameters: &parameters }),
+        correlation_svg(&correlation),
+    ] {
+        let plot = plot.unwrap();
+        let svg = tree(&plot);
+        let page = svg.root_element().attribute("viewBox").unwrap();
+        let page: Vec<f64> = page.split(' ').map(|number| number.parse().unwrap()).collect();
+        let [width, height] = [page[2], page[3]];
+        let places = places(&svg);
+        assert!(
+            places.iter().all(|[x, y, right, bottom]| {
+                0.0 <= *x && 0.0 <= *y && *right <= width && *bottom <= height
+            }),
+            "{width} × {height}: {places:?}"
+        );
+        let end = |k: usize| places.iter().map(|place| place[k]).fold(0.0, f64::max);
+        assert!(end(3) > height - 60.0, "{} of {height}", end(3));
+    }
+}
+
+#[test]
+fn cells_of_a_correlation_are_squares_below_the_diagonal() {
+    let matrix = vec![vec![1.0, 0.6, -0.9], vec![0.6, 1.0, 0.2], vec![-0.9, 0.2, 1.0]];
+    let symbols = ["a", "b", "c"].map(str::to_owned).to_vec();
+    let svg = correlation_svg(&Correlation { symbols, matrix }).unwrap();
+    let svg = tree(&svg);
+    let cells: Vec<[f64; 4]> =
+        places(&svg).into_iter().filter(|[x, _, right, _]| right > x).collect();
+    let cells: Vec<[f64; 4]> = cells.into_iter().filter(|[x, ..]| *x > 0.0).collect();
+    let step = cells[0][2] - cells[0][0];
+    let start = [cells[0][0], cells[0][1]];
+    let expected = [[0, 0], [0, 1], [1, 1], [0, 2], [1, 2], [2, 2]];
+    assert_eq!(cells.len(), expected.len(), "{cells:?}");
+    for (cell, place) in cells.iter().zip(expected) {
+        for k in 0..2 {
+            let away = (cell[k] - start[k]) / step;
+            assert!((away - f64::from(place[k])).abs() < 0.3, "{place:?}: {cells:?}");
+        }
+    }
+}
+
+#[test]
+fn a_legend_has_each_series_once() {
+    let mut plot = a_graph();
+    let again = plot.series[1].clone();
+    plot.series.push(again);
+    let svg = graph_svg(&plot).unwrap();
+    let svg = tree(&svg);
+    for label in ["simulated", "h²"] {
+        let texts = svg.descendants().filter(|node| node.is_text() && node.text() == Some(label));
+        assert_eq!(texts.count(), 1, "{label}");
+    }
+}
+
+#[test]
+fn a_mark_has_its_label_beside_its_highest_point_and_residuals_are_below_the_loop() {
+    let mut plot = a_loop();
+    let points = vec![[-200.0, -1e-3], [100.0, 2e-3], [150.0, 1e-3]];
+    plot.marks = vec![Mark { label: "2HB".to_owned(), points }];
+    let svg = loop_svg(&plot).unwrap();
+    let svg = tree(&svg);
+    let mark =
+        svg.descendants().find(|n| n.attribute("data-label") == Some("2HB of the sheet")).unwrap();
+    let drawn = pixels(mark.attribute("d").unwrap());
+    let label = mark.next_siblings().find(|n| n.has_tag_name("text")).unwrap();
+    let [x, y] = ["x", "y"].map(|key| label.attribute(key).unwrap().parse::<f64>().unwrap());
+    assert!((drawn[1][0] - x).abs() < 10.0 && (drawn[1][1] - y).abs() < 10.0, "{x} {y}: {drawn:?}");
+    let ends = |small: bool| -> Vec<f64> {
+        let is_drawn = |n: &roxmltree::Node<'_, '_>| {
+            n.parent().is_some_and(|own| classes(&own).contains(&"series"))
+                && classes(n).contains(&"points")
+                && classes(n).contains(&"small") == small
+                && !classes(n).contains(&"mark")
+        };
+        let points = svg.descendants().filter(is_drawn);
+        points.flat_map(|n| pixels(n.attribute("d").unwrap())).map(|[_, y]| y).collect()
+    };
+    let lowest = ends(false).into_iter().fold(0.0, f64::max);
+    assert!(ends(true).iter().all(|y| *y > lowest), "{lowest}: {:?}", ends(true));
 }

@@ -115,6 +115,14 @@ fn the_text_reads_like_a_fitting_report() {
 }
 
 #[test]
+fn the_page_has_the_residual_in_the_unit_of_its_plot() {
+    let html = a_page().to_html().unwrap();
+    let text = text_of(tree(&html).root());
+    // 6.6e-5 N over 9.80665e-3 N.
+    assert!(text.contains("0.00673 gf·cm/cm"), "{text}");
+}
+
+#[test]
 fn only_values_beyond_the_limit_are_marked() {
     let html = a_page().to_html().unwrap();
     let tree = tree(&html);

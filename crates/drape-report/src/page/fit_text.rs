@@ -241,3 +241,22 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
 fn unit(units: &Units) -> String {
     units.kes.as_ref().map_or(&units.si, |unit| &unit.name).clone()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_as_full_as_their_width_allows() {
+        let words: Vec<String> = (0..200).map(|k| "x".repeat(1 + k * k % 11)).collect();
+        let mut lines = Vec::new();
+        wrap(&mut lines, "  notes    ", &words.join("  "));
+        assert!(lines[0].starts_with("  notes    ") && lines[1].starts_with("           "));
+        let texts: Vec<&str> = lines.iter().map(|line| &line[11..]).collect();
+        assert_eq!(texts.join(" "), words.join(" "));
+        for pair in lines.windows(2) {
+            let next = pair[1].split_whitespace().next().expect("a word");
+            assert!(pair[0].len() <= WIDTH && pair[0].len() + 1 + next.len() > WIDTH, "{pair:?}");
+        }
+    }
+}

@@ -87,4 +87,23 @@ mod tests {
         assert!(texts.contains(&"side <left>") && texts.contains(&"waist"), "{svg}");
         assert!(svg.contains("#ff0000") && svg.contains("#0080ff"), "{svg}");
     }
+
+    #[test]
+    fn names_are_below_the_picture_and_the_page_ends_with_them() {
+        let picture = Picture::new(4, 2, vec![200; 24]);
+        let seam = |k: usize| SeamKey { name: format!("seam {k}"), colour: [0, 0, 0] };
+        let seams: Vec<SeamKey> = (0..2 * COLUMNS + 1).map(seam).collect();
+        let svg = seams_svg(&picture, &seams).expect("a figure");
+        let document = roxmltree::Document::parse(&svg).expect("XML");
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let page = document.root_element().attribute("viewBox").expect("a page");
+        let height = number(page.rsplit(' ').next().expect("four numbers"));
+        let places = document.descendants().filter_map(|node| node.attribute("transform"));
+        let row = |place: &str| number(place.rsplit([' ', ')']).nth(1).expect("a place"));
+        let rows: Vec<f64> = places.map(row).collect();
+        let picture_height = 0.5 * WIDTH;
+        assert_eq!(rows.len(), seams.len());
+        assert!(rows.iter().all(|y| *y > picture_height && *y < height), "{rows:?} of {height}");
+        assert!(rows[2 * COLUMNS] > height - ROW - 2.0 * EDGE, "{rows:?} of {height}");
+    }
 }
