@@ -143,3 +143,35 @@ impl core::fmt::Display for Stop {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_work_of_steps_adds_up_and_the_worst_of_them_stays() {
+        let of = |k: usize, residual: f64| Report {
+            sub_steps: k,
+            rejected: 2 * k,
+            iterations: 3 * k,
+            force_evaluations: 4 * k,
+            potential_evaluations: 5 * k,
+            stiffness_assemblies: 6 * k,
+            linear_solves: 7 * k,
+            linear_iterations: 8 * k,
+            linear_truncations: 9 * k,
+            pivot_shifts: 10 * k,
+            negative_curvatures: 11 * k,
+            backtracks: 12 * k,
+            residual,
+            energy_left: 2.0 * residual,
+            energy: Some(Energy { work: residual, kinetic: 3.0 * residual, ..Energy::default() }),
+        };
+        let mut sum = Report::default();
+        for (k, residual) in [(2, 0.5), (3, 0.25), (4, 0.125)] {
+            sum += &of(k, residual);
+        }
+        let energy = Energy { work: 0.875, kinetic: 2.625, ..Energy::default() };
+        assert_eq!(sum, Report { energy: Some(energy), ..of(9, 0.5) });
+    }
+}

@@ -1,7 +1,8 @@
 //! Explicit steps, and the estimate of a step's error.
 
 use drape_implicit::{
-    Error, ErrorEstimate, Explicit, Integrator, IntegratorState, Settings, Stepper,
+    BlockMatrix, Error, ErrorEstimate, Explicit, Integrator, IntegratorState, Settings, Sparsity,
+    Stepper, Stiffness, System,
 };
 
 use crate::springs::Springs;
@@ -85,4 +86,70 @@ fn the_estimate_is_the_error_of_one_step() {
             assert!(miss < tolerance, "{integrator:?}, ratio {ratio}: {found:e} for {error:e}");
         }
     }
+}
+
+/// A spring in the air whose first end is drawn along x at 0.5 m/s.
+struct Drawn(Springs);
+
+impl System for Drawn {
+    fn particles(&self) -> usize {
+        self.0.particles()
+    }
+
+    fn masses(&self) -> &[f64] {
+        self.0.masses()
+    }
+
+    fn held(&self) -> &[bool] {
+        self.0.held()
+    }
+
+    fn begin(&mut self, _: f64, dt: f64, start: &[f64], target: &mut [f64]) {
+        target[0] = start[0] + 0.5 * dt;
+    }
+
+    fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
+        self.0.forces(positions, forces);
+    }
+
+    fn potential(&mut self, positions: &[f64]) -> f64 {
+        self.0.potential(positions)
+    }
+
+    fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
+        self.0.stiffness(positions, kind, matrix);
+    }
+
+    fn sparsity(&self) -> Sparsity {
+        self.0.sparsity()
+    }
+
+    fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
+        self.0.accept(positions, velocities, dt);
+    }
+}
+
+#[test]
+fn the_work_of_a_hand_that_draws_is_the_energy_of_what_it_draws() {
+    let mut springs = Springs::chain(1, 1.0, 0.1, 40.0);
+    (springs.gravity, springs.held[0]) = (0.0, true);
+    let mut system = Drawn(springs);
+    let mut explicit = Explicit::new(&system);
+    let mut state = IntegratorState::new(
+        vec![0.0, 0.0, 0.0, -1.0, 0.0, 0.0],
+        vec![0.5, 0.0, 0.0, 0.0, 0.0, 0.0],
+    );
+    let [mut work, mut kept, mut lost] = [0.0; 3];
+    let dt = 1e-5;
+    for _ in 0..10_000 {
+        let energy = explicit.advance(&mut system, &mut state, dt).unwrap().energy.unwrap();
+        work += energy.work;
+        kept += energy.kinetic + energy.potential;
+        lost += energy.numerical_dissipation;
+    }
+    // The spring is stretched by v sin(ω t)/ω, and the power of the hand is k v times that.
+    let (omega, speed, mass) = (20.0_f64, 0.5, 0.1);
+    let exact = mass * speed * speed * (1.0 - (omega * state.time).cos());
+    assert!((work / exact - 1.0).abs() < 1e-3, "{work} J for {exact}");
+    assert!((work - kept - lost).abs() < 1e-9 * work && lost.abs() < 1e-2 * work, "{kept} {lost}");
 }

@@ -6,6 +6,7 @@ use drape_implicit::{
 };
 
 use crate::springs::Springs;
+use crate::well::Well;
 
 /// A small generator (Lehmer), so that the random systems are the same everywhere.
 struct Random(u64);
@@ -188,6 +189,17 @@ fn systems_that_produce_nan_are_refused_with_the_particle_named() {
         }
         other => panic!("{other}"),
     }
+}
+
+#[test]
+fn a_stiffness_that_is_no_number_is_refused_with_its_particle() {
+    let mut system = Well::new(|x| [0.5 * x * x, x, f64::NAN]);
+    let mut state = IntegratorState::at_rest(vec![1.0, 0.0, 0.0]);
+    let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
+    let error = stepper.advance(&mut system, &mut state, 0.1).unwrap_err();
+    let is_named =
+        matches!(error, Error::NotFinite { quantity: Quantity::Stiffness, particle: 0, .. });
+    assert!(is_named && state.positions == [1.0, 0.0, 0.0], "{error}");
 }
 
 #[test]
