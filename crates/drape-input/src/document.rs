@@ -443,6 +443,12 @@ mod tests {
     }
 
     #[test]
+    fn texts_come_in_the_order_of_their_keys_from_tables_and_lists() {
+        let text = "b = [\"2\", [\"3\"], 4]\na = \"1\"\n[c]\nd = { e = \"5\", f = true }\n[[g]]\nh = \"6\"";
+        assert_eq!(Document::new("a.toml", text).texts(), ["1", "2", "3", "5", "6"]);
+    }
+
+    #[test]
     fn a_missing_file_names_its_neighbour() {
         let mistakes = Document::read("Cargo.tml").expect_err("there is no such file");
         let help = mistakes.0[0].help.clone().expect("a remedy");

@@ -194,12 +194,13 @@ fn path(key: &str) -> Option<Vec<String>> {
     let mut rest = key;
     loop {
         let name;
+        let is_quoted = rest.starts_with('"');
         (name, rest) = match rest.strip_prefix('"') {
             Some(quoted) => quoted.split_once('"')?,
             None => rest.split_at(rest.find(['.', '[']).unwrap_or(rest.len())),
         };
         let name = name.trim();
-        if name.is_empty() || name.contains(['"', ']', '=']) {
+        if name.is_empty() || (!is_quoted && name.contains(['"', ']', '='])) {
             return None;
         }
         steps.push(name.to_owned());
@@ -238,7 +239,18 @@ mod tests {
         assert!(set("panel[0].size=[3]").contains("size = [3]"));
         assert!(set("settle.speed=1e-3").contains("[settle] speed = 0.001"));
         assert!(set("\"a.b\".c='x=y'").contains("[\"a.b\"] c = \"x=y\""));
+        assert!(set("\"a=b\".\"c]\"=2").contains("[\"a=b\"] \"c]\" = 2"));
         assert!(with(&["a=2", "a=3"]).expect("the last one stays").contains("a = 3"));
+    }
+
+    #[test]
+    fn a_document_keeps_its_settings_in_their_order() {
+        let settings = ["time.step=0.2", "a = 3"].map(|text| text.parse().expect("a setting"));
+        let document = Document::new("s.toml", TEXT);
+        assert!(document.settings().is_empty());
+        let document = document.with_settings(&settings).expect("they can be set");
+        let kept: Vec<String> = document.settings().iter().map(Setting::to_string).collect();
+        assert_eq!(kept, ["time.step=0.2", "a=3"]);
     }
 
     #[test]
@@ -248,6 +260,7 @@ mod tests {
             ("time..step=1", "is no key"),
             ("panel[x].size=1", "is no key"),
             ("=1", "is no key"),
+            ("a]=1", "is no key"),
             ("model=kes", "'model=\"kes\"'"),
             ("a=1\nb=2", "is no value"),
             ("a=", "is no value"),

@@ -405,6 +405,11 @@ mod tests {
             assert_eq!(unit.factor, 100.0, "{text}");
         }
         assert_eq!(parse_unit("°", &[Quantity::Angle]).unwrap().spelling, "deg");
+        // Letters of full width, as Japanese programs write them.
+        for text in ["ｇｆ／ｃｍ", "gf／ｃm", "ＧＦ／ＣＭ"] {
+            let unit = parse_unit(text, &[Quantity::ForcePerWidth]).unwrap();
+            assert_eq!(unit.spelling, "gf/cm", "{text}");
+        }
     }
 
     #[test]

@@ -97,6 +97,61 @@ fn one_mistake_hides_no_other() {
 }
 
 #[test]
+fn a_table_in_the_wrong_place_is_told_with_what_belongs_there() {
+    let name = told(&RIGHT.replace("\"a\"", "{ first = \"a\" }"));
+    assert_eq!(
+        name,
+        ["[1, 1] name: is a table where text in quotes is needed; write text in quotes"]
+    );
+    let size = told(&RIGHT.replace("[1, \"20 cm\"]", "{ x = 1 }"));
+    let expected =
+        "[4, 1] panel[0].size: is a table where a list is needed; write a list such as [1, 2]";
+    assert_eq!(size, [expected]);
+    let panel = told(&RIGHT.replace("[[panel]]", "[panel]"));
+    let brackets = "write [[panel]], with two brackets: there may be several";
+    assert_eq!(panel, [format!("[3, 2] panel: is a table where a list is needed; {brackets}")]);
+}
+
+#[test]
+fn a_reader_that_adds_its_words_to_a_mistake_keeps_those_of_the_mistake() {
+    #[derive(Debug, Deserialize)]
+    struct Scene {
+        #[serde(deserialize_with = "corner")]
+        #[allow(dead_code)]
+        pin: Corner,
+    }
+    #[derive(Debug, Deserialize)]
+    #[allow(dead_code)]
+    struct Corner {
+        edge: Edge,
+    }
+    #[derive(Debug)]
+    struct Edge;
+    impl<'de> Deserialize<'de> for Edge {
+        fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+            match String::deserialize(from)?.as_str() {
+                "left" => Ok(Self),
+                other => Err(serde::de::Error::custom(format!("{other} is no edge"))),
+            }
+        }
+    }
+    fn corner<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Corner, D::Error> {
+        let in_words = |error: D::Error| serde::de::Error::custom(format!("a corner: {error}"));
+        Corner::deserialize(from).map_err(in_words)
+    }
+    let read = |text: &str| Document::new("a.toml", text).decode::<Scene>();
+    assert!(read("pin = { edge = \"left\" }").is_ok());
+    for (text, words) in [
+        ("pin = { edge = \"top\" }", "a corner: top is no edge"),
+        ("[pin]\n", "a corner: edge is missing"),
+    ] {
+        let mistakes = read(text).expect_err("it is wrong").0;
+        let messages: Vec<&str> = mistakes.iter().map(|one| one.message.as_str()).collect();
+        assert_eq!(messages, [words]);
+    }
+}
+
+#[test]
 fn wrong_values_are_left_out_and_their_keys_covered() {
     let text =
         RIGHT.replace("grain = 45", "grain = \"steep\"\nflat = 3") + "[pin.left]\nedge = 1\n";

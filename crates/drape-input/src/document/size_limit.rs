@@ -87,3 +87,19 @@ impl fmt::Display for TooLarge {
 }
 
 impl std::error::Error for TooLarge {}
+
+#[cfg(test)]
+mod tests {
+    use crate::Document;
+
+    #[test]
+    fn a_file_larger_than_its_kind_is_answered_with_its_size_and_the_limit() {
+        let path = std::env::temp_dir().join(format!("drape-large-{}.toml", std::process::id()));
+        std::fs::write(&path, "#".repeat((1 << 20) + 1)).expect("written");
+        let read = Document::read(&path);
+        std::fs::remove_file(&path).expect("it was just written");
+        let mistake = read.expect_err("it is too large").0.remove(0);
+        assert_eq!(mistake.message, "the file has 1048577 bytes, more than 1048576");
+        assert!(mistake.help.is_some_and(|help| help.ends_with("--raise-limits 2 reads it")));
+    }
+}
