@@ -363,3 +363,109 @@ fn strips_of_a_laboratory_and_arches_are_told_apart() {
     assert_same(&sheet, &by_hand(folder.path(), &hand.concat()));
     assert!(sheet.curves.iter().all(|curve| curve.slack == (curve.test == Test::Tensile)));
 }
+
+/// Drafts a folder whose only file is a table of results.
+fn of_results(text: &str) -> Sheet {
+    let folder = folder(&[("results.csv", text.as_bytes())]);
+    drafted(folder.path()).1
+}
+
+#[test]
+fn a_direction_in_brackets_behind_a_symbol_is_no_unit() {
+    let sheet = of_results("Property;Value\nB (warp);0,118\nB (weft);0,1\n2HB [gf.cm/cm];0,2\n");
+    let rigidities = [Direction::Warp, Direction::Weft].map(|of| sheet.values(of).b);
+    assert_eq!(rigidities, [Some(0.118), Some(0.1)]);
+    assert_eq!(sheet.shared, ["2HB"]);
+}
+
+#[test]
+fn units_below_the_symbols_are_those_of_the_values() {
+    let sheet =
+        of_results("Fabric;B;2HB;LT;EM\n;mN.m;mN;-;\nWarp;0,0118;1,2;0,7;4\nWeft;0,01;1;0,6;9\n");
+    let near = |found: Option<f64>, wanted: f64| {
+        let found = found.expect("it is in the sheet");
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}");
+    };
+    near(sheet.warp.bending_rigidity(), 1.18e-5);
+    near(sheet.weft.bending_rigidity(), 1e-5);
+    near(sheet.warp.bending_loop_width(), 1.2e-3);
+    assert_eq!([sheet.warp.lt, sheet.weft.lt], [Some(0.7), Some(0.6)]);
+    // Without a unit a value is in the laboratory's, here percent.
+    assert_eq!([sheet.warp.em, sheet.weft.em], [Some(4.0), Some(9.0)]);
+}
+
+#[test]
+fn rows_that_are_neither_directions_nor_a_mean_are_not_taken_for_one_of_them() {
+    let tables = [
+        "Fabric;B;2HB\nWarp 1;0,118;0,124\nWarp 2;0,13;0,14\nWeft;0,1;0,09\n",
+        "Fabric;B;2HB\nWarp;0,118;0,124\nWeft;0,1;0,09\nOther;0,3;0,4\n",
+    ];
+    for table in tables {
+        let folder = folder(&[("a.csv", table.as_bytes()), ("b.csv", b"Property;Value\nW;12\n")]);
+        let (draft, sheet) = drafted(folder.path());
+        assert_eq!((sheet.w, draft.values), (Some(12.0), 1), "{}", draft.text);
+        assert!(draft.notes.iter().any(|note| note.starts_with("a.csv is left out")), "{table}");
+    }
+    let sheet = of_results(&format!("{}Mean warp;0,124;0,132\n", tables[0]));
+    assert_eq!((sheet.warp.b, sheet.warp.two_hb, sheet.weft.b), (Some(0.124), Some(0.132), None));
+}
+
+/// Compression to 50 gf/cm² and back, along straight lines between few points.
+const COMPRESSION: &str = "Thickness (mm),Pressure (gf/cm2)\n1.0,0\n0.9,0.25\n0.8,1\n0.6,5\n0.5,20\n0.4,50\n\
+                           0.45,20\n0.55,5\n0.75,1\n0.9,0.25\n";
+
+#[test]
+fn a_compression_curve_has_the_values_of_its_trapezoids() {
+    let folder = folder(&[("compression.csv", COMPRESSION.as_bytes())]);
+    let (draft, sheet) = drafted(folder.path());
+    let near = |found: Option<f64>, wanted: f64| {
+        let found = found.unwrap_or(f64::NAN);
+        assert!((found / wanted - 1.0).abs() < 1e-5, "{found}, not {wanted}\n{}", draft.text);
+    };
+    // By hand, at 0.5 gf/cm² between the points of 0.25 and 1.
+    near(sheet.t0, 0.9 - 0.1 / 3.0);
+    near(sheet.tm, 0.4);
+    // 0.75/15 + 3 · 0.2 + 12.5 · 0.1 + 35 · 0.1 in gf/cm² · mm.
+    near(sheet.wc, 0.54);
+    near(sheet.lc, 2.0 * 0.54 / (50.0 * 0.1 * (0.4 + 1.0 / 15.0)));
+    // 35 · 0.05 + 12.5 · 0.1 + 3 · 0.2 comes back down to the last point above 0.5 gf/cm².
+    near(sheet.rc, 100.0 * 3.6 / 5.4);
+}
+
+#[test]
+fn a_compression_curve_without_its_ends_is_answered() {
+    let late = COMPRESSION.replace("1.0,0\n0.9,0.25\n", "");
+    let short = COMPRESSION.replace("0.4,50\n", "");
+    for (text, words) in [
+        (late, "it does not begin below 49 Pa (0.5 gf/cm2), where T0 is measured"),
+        (short, "it reaches 1961 Pa, and TM is the thickness at 4903 Pa (50 gf/cm2)"),
+    ] {
+        let folder = folder(&[("compression.csv", text.as_bytes())]);
+        let error = SheetDraft::of_folder(folder.path(), folder.path()).expect_err("no values");
+        assert!(error.to_string().contains(words), "{error}");
+    }
+}
+
+#[test]
+fn a_length_with_a_force_is_tensile_where_it_goes_one_way_whatever_its_size() {
+    // Lengths of a strip of 50 mm; the clamp may run on a little past its start.
+    let text = |lengths: &[f64]| {
+        let row = |length: &f64| format!("{length},{},50,5\n", length.max(0.0) * length);
+        let rows: String = lengths.iter().map(row).collect();
+        format!("Extension (mm),Force (N),Gauge length (mm),Width (cm)\n{rows}")
+    };
+    for largest in [0.2, 0.5, 2.0, 10.0] {
+        let scaled = |parts: &[f64]| parts.iter().map(|part| largest * part).collect::<Vec<f64>>();
+        let one_way =
+            text(&scaled(&[0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 0.7, 0.4, 0.2, 0.0, -0.1, -0.2]));
+        let both_ways = text(&scaled(&[0.0, 0.5, 1.0, 0.5, 0.0, -0.2, -0.4, -0.2, 0.0]));
+        let folder_of = |text: &str| folder(&[("warp.csv", text.as_bytes())]);
+        let (draft, sheet) = drafted(folder_of(&one_way).path());
+        let tests: Vec<Test> = sheet.curves.iter().map(|curve| curve.test).collect();
+        assert_eq!(tests, [Test::Tensile], "{largest} mm: {}", draft.text);
+        assert!(draft.text.contains("the length goes one way"), "{largest} mm: {}", draft.text);
+        let (draft, _) = drafted(folder_of(&both_ways).path());
+        assert_eq!((draft.curves, draft.open), (0, 1), "{largest} mm: {}", draft.text);
+        assert!(draft.text.contains("and it goes both ways"), "{largest} mm: {}", draft.text);
+    }
+}

@@ -1,5 +1,6 @@
 //! Layouts that differ from those of `exports.rs` in one point each, read to the same curve.
 
+use drape_input::{Diagnostic, Diagnostics};
 use drape_kes::{Error, Sheet};
 
 /// Strip stretched to 4 % and released: strain in percent, load in gf/cm.
@@ -24,18 +25,35 @@ fn newtons(gf: f64) -> f64 {
 }
 
 fn read(bytes: &[u8], keys: &str) -> Result<Sheet, Error> {
+    read_file("strip.csv", bytes, keys)
+}
+
+fn read_file(file: &str, bytes: &[u8], keys: &str) -> Result<Sheet, Error> {
     let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("strip.csv"), bytes).expect("written");
+    std::fs::write(folder.path().join(file), bytes).expect("written");
     let sheet = format!(
-        "name = \"strip\"\n[[curve]]\ntest = \"tensile\"\ndirection = \"warp\"\nfile = \"strip.csv\"\n{keys}\n"
+        "name = \"strip\"\n[[curve]]\ntest = \"tensile\"\ndirection = \"warp\"\nfile = \"{file}\"\n{keys}\n"
     );
     std::fs::write(folder.path().join("sheet.toml"), sheet).expect("written");
     Sheet::read(folder.path())
 }
 
+/// Returns the one mistake of a layout that is not read.
+fn mistake(read: Result<Sheet, Error>) -> Diagnostic {
+    match read {
+        Err(Error::Input(Diagnostics(mut found))) if found.len() == 1 => found.remove(0),
+        other => panic!("not one mistake but {other:?}"),
+    }
+}
+
 /// Reads a layout and compares every point.
 fn assert_read(name: &str, text: &str, keys: &str) {
     let sheet = read(text.as_bytes(), keys).unwrap_or_else(|error| panic!("{name}: {error}"));
+    assert_points(name, &sheet);
+}
+
+/// Compares every point of a sheet.
+fn assert_points(name: &str, sheet: &Sheet) {
     assert_eq!(sheet.warnings(), [], "{name}: {:?}", sheet.readings());
     let [curve] = &sheet.curves[..] else { panic!("{name}: {} curves", sheet.curves.len()) };
     assert_eq!(curve.load().len(), points().len(), "{name}: {:?}", sheet.readings());
@@ -263,4 +281,72 @@ fn layouts_that_are_not_read_are_answered() {
             other => panic!("{name}: {other:?}"),
         }
     }
+}
+
+#[test]
+fn text_under_xls_is_read_and_under_xlsx_refused() {
+    let text =
+        format!("Strain (%)\tForce (gf/cm)\n{}", rows(|_, [e, f]| format!("{e:.6}\t{f:.6}")));
+    let sheet = read_file("strip.XLS", text.as_bytes(), "").expect("text of an old program");
+    assert_points("text under xls", &sheet);
+    let found = mistake(read_file("strip.xlsx", text.as_bytes(), ""));
+    assert!(found.message.starts_with("not a spreadsheet that can be read"), "{found}");
+    let help = "save it again as .xlsx, or each sheet as .csv";
+    assert_eq!(found.help.as_deref(), Some(help));
+}
+
+#[test]
+fn a_sheet_that_is_not_there_is_answered_with_those_that_are() {
+    let text = format!("Strain (%),Force (gf/cm)\n{}", rows(|_, [e, f]| format!("{e:.6},{f:.6}")));
+    let found = mistake(read(text.as_bytes(), "sheet = \"Tensile\""));
+    assert_eq!(found.message, "there is no sheet \"Tensile\"");
+    assert_eq!(found.help.as_deref(), Some("this file is text, without sheets: remove `sheet`"));
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let page = book.add_worksheet().set_name("Zug").expect("a name");
+    page.write(0, 0, "Strain (%)").expect("written").write(0, 1, "Force (gf/cm)").expect("written");
+    for (row, [e, f]) in (1..).zip(points()) {
+        page.write(row, 0, e).expect("written").write(row, 1, f).expect("written");
+    }
+    let bytes = book.save_to_buffer().expect("a workbook");
+    let found = mistake(read_file("strip.xlsx", &bytes, "sheet = \"Tensile\""));
+    assert_eq!(found.help.as_deref(), Some("sheets of the file: \"Zug\""));
+    let sheet = read_file("strip.xlsx", &bytes, "sheet = \"Zug\"").expect("it is there");
+    assert_points("the sheet of the file", &sheet);
+}
+
+#[test]
+fn of_tables_without_a_load_the_largest_is_named_and_the_first_of_equals() {
+    let table = |unit: &str, count: usize| {
+        let rows: String = (0..count).map(|i| format!("{i},{}\n", 3 * i)).collect();
+        format!("Strain (%),Stress ({unit})\n{rows}")
+    };
+    for (counts, line, unit) in [([5, 5], 1, "MPa"), ([5, 6], 7, "kPa"), ([6, 5], 1, "MPa")] {
+        let text = table("MPa", counts[0]) + &table("kPa", counts[1]);
+        let found = mistake(read(text.as_bytes(), ""));
+        let help = found.help.as_deref().unwrap_or_default();
+        let columns = format!("columns of the file: Strain (%), Stress ({unit})");
+        assert!(help.ends_with(&columns), "{counts:?}: {help}");
+        assert_eq!(found.line, Some(line), "{counts:?}");
+    }
+}
+
+#[test]
+fn cells_without_names_between_semicolons_are_no_fractions() {
+    // The same cells between commas may be numbers with decimal commas, and are refused.
+    let text = "Strain (%);Force (gf/cm)\n0;0;1\n1;50;2\n2;200;3\n";
+    let sheet = read(text.as_bytes(), "").expect("the separator is no decimal sign");
+    let curve = &sheet.curves[0];
+    assert_eq!(curve.deformation(), [0.0, 0.01, 0.02]);
+    assert!((curve.load()[2] - 200.0 * 0.980_665).abs() < 1e-12, "{:?}", curve.load());
+    let found = mistake(read(text.replace(';', ",").as_bytes(), ""));
+    assert!(found.message.contains("the comma is both"), "{found}");
+}
+
+#[test]
+fn the_line_that_names_the_separator_is_no_title() {
+    let table = format!("Strain (%);Force (gf/cm)\n{}", rows(|_, [e, f]| format!("{e:.6};{f:.6}")));
+    let text = format!("sep=;\n{table}{table}");
+    let found = mistake(read(text.as_bytes(), ""));
+    assert_eq!(found.message, "2 tables could be the curve: 1 line 3, 2 line 45");
+    assert_read("the first table", &text, "table = 1");
 }

@@ -311,3 +311,30 @@ fn values_may_be_spelt_and_placed_in_many_ways() {
     let found = finding("name = \"a\"\nB = { warp = 0.1 }\n", GOOD_CURVE);
     assert!(help(&found).contains("B_warp"), "{found}");
 }
+
+#[test]
+fn widths_of_the_shear_loop_are_forces_per_width() {
+    let text = "name = \"a\"\n[warp]\nG = 0.6\n2HG = 1.5\n2HG5 = 3\n[weft]\n2HG5 = \"2 N/m\"\n";
+    let sheet = read(text, GOOD_CURVE).expect("a good sheet");
+    let near = |found: Option<f64>, wanted: f64| {
+        let found = found.expect("it is given");
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}");
+    };
+    near(sheet.warp.shear_loop_width(), 1.5 * 0.980665);
+    near(sheet.warp.shear_loop_width_at_five_degrees(), 3.0 * 0.980665);
+    near(sheet.weft.shear_loop_width_at_five_degrees(), 2.0);
+    assert_eq!(sheet.weft.shear_loop_width(), None);
+}
+
+#[test]
+fn a_shear_curve_of_one_direction_takes_the_place_of_the_values_of_both() {
+    let curve = CURVE.replace("tensile", "shear").replace('%', "deg");
+    let values = "G = 0.6\n2HG = 1.5\nLT = 0.7\nB = 0.1\n";
+    let text = format!("name = \"a\"\n[warp]\n{values}[weft]\n{values}{curve}");
+    let loops = "strain,force\n-8,-2.4\n0,1\n8,5.8\n0,-1\n-8,-2.4\n";
+    let sheet = read(&text, loops).expect("a good sheet");
+    let uses: Vec<_> = sheet.listed().iter().map(|one| (one.symbol, one.used_for)).collect();
+    let expected = [("LT", Some("traction")), ("G", None), ("2HG", None), ("B", Some("bending"))];
+    let of_both: Vec<_> = expected.into_iter().flat_map(|one| [one, one]).collect();
+    assert_eq!(uses, of_both);
+}

@@ -117,6 +117,14 @@ mod tests {
     }
 
     #[test]
+    fn a_strip_that_gives_way_at_its_largest_strain_recovers_nothing() {
+        let points = [(0.0, 0.0), (0.01, 5.0), (0.02, 0.0), (0.01, 0.0), (0.0, 0.0)];
+        let values = tensile(points.into_iter()).tensile_values().unwrap();
+        assert!((values.work - 0.05).abs() < 1e-15, "{}", values.work);
+        assert_eq!(values.resilience, Some(0.0));
+    }
+
+    #[test]
     fn another_test_is_refused() {
         let curve =
             Curve::new(Test::Shear, Direction::Warp, vec![0.0, 0.1], vec![0.0, 1.0]).unwrap();
