@@ -105,6 +105,9 @@ fn arches_of_one_fabric_scatter_by_more_than_their_errors() {
                 let fit = fit.expect("identified").swap_remove(0).fit;
                 println!("gauge {:.3} m", curve.gauge.expect("a gauge"));
                 print(&fit);
+                // The band of the law is a load, of the size of what the law leaves.
+                let widest = fit.band.iter().copied().fold(0.0, f64::max);
+                assert!(widest > 0.02 * fit.rms && widest < 5.0 * fit.rms, "{widest}, {}", fit.rms);
                 value(&fit, "rigidity")
             })
             .collect();
