@@ -286,6 +286,7 @@ impl<P: Problem> Profile<'_, P> {
     /// Returns a rise of the loss in standard deviations.
     fn deviation(&self, rise: f64) -> f64 {
         let variance = self.covariance.rise_of_one_deviation();
-        (rise.max(0.0) / variance).sqrt()
+        // An exact fit has no variance: its loss rises beyond every level, or not at all.
+        if rise > 0.0 { (rise / variance).sqrt() } else { 0.0 }
     }
 }

@@ -1,9 +1,10 @@
 //! Profile intervals against those known by other means.
 
 use drape_lm::{
-    Covariance, End, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise,
-    profile, student_quantile,
+    Covariance, End, Interval, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined,
+    minimise, profile, student_quantile,
 };
+use nalgebra::DMatrix;
 
 use crate::{Model, line, model, scatter, starts};
 
@@ -162,4 +163,86 @@ fn a_false_minimum_is_found_out_by_its_profile() {
         panic!("{interval:?} around {report:?}");
     };
     assert!(there[0] < -0.5, "{interval:?}");
+}
+
+/// Returns the profile interval of a fit of one parameter.
+fn interval(problem: &(impl Problem + Sync), parameter: Parameter) -> Interval {
+    let parameters = [parameter];
+    let report = minimise(problem, &parameters, &Settings::default());
+    let mut intervals = profile(problem, &parameters, &report, &ProfileSettings::default());
+    intervals.remove(0).expect("determined")
+}
+
+#[test]
+fn a_model_that_ends_beyond_its_interval_has_both_ends_in_any_unit() {
+    // The residual ⅔((1 + p)^1.5 − 1) has no value below p = −1. The others make its error such that
+    // the level is at ±½: the step of the linear model, ½, is too short below and too long above.
+    let quantile = student_quantile(0.95, 21);
+    for unit in [1e-3, 1.0, 1e3] {
+        let bent = model(22, move |p, r| {
+            r.fill(0.5 / quantile);
+            r[0] = ((1.0 + p[0] / unit).powf(1.5) - 1.0) / 1.5;
+        });
+        let found = interval(&bent, Parameter::new(0.2 * unit));
+        for (end, exact) in [
+            (&found.lower, 0.25_f64.powf(2.0 / 3.0) - 1.0),
+            (&found.upper, 1.75_f64.powf(2.0 / 3.0) - 1.0),
+        ] {
+            let End::At(value) = end else { panic!("unit {unit}: {found:?}") };
+            let part = value / unit / exact;
+            assert!((part - 1.0).abs() < 2e-4, "unit {unit}: {value} for {exact}");
+        }
+    }
+}
+
+#[test]
+fn a_parameter_at_its_bound_has_the_end_of_its_parabola_in_any_unit() {
+    /// Mean in a unit that is not that of the data.
+    struct Mean(f64);
+    impl Problem for Mean {
+        fn residual_count(&self) -> usize {
+            22
+        }
+        fn residuals(&self, p: &[f64], out: &mut [f64]) {
+            for (i, r) in out.iter_mut().enumerate() {
+                *r = p[0] / self.0 - (scatter(i) - 0.2);
+            }
+        }
+        fn jacobian(&self, _: &[f64], out: &mut DMatrix<f64>) -> bool {
+            out.fill(1.0 / self.0);
+            true
+        }
+    }
+    // The mean of the data is −0.2, below the bound at zero: the sum is S₀ + 8.8p + 22p².
+    let squares: f64 = (0..22).map(|i| (scatter(i) - 0.2).powi(2)).sum();
+    let rise = student_quantile(0.95, 22).powi(2) * squares / 22.0;
+    let exact = ((8.8_f64.powi(2) + 88.0 * rise).sqrt() - 8.8) / 44.0;
+    for unit in [1.0, 1e8] {
+        let found = interval(&Mean(unit), Parameter::new(0.0).between(0.0, f64::INFINITY));
+        assert_eq!(found.lower, End::AtBound(0.0));
+        let End::At(value) = found.upper else { panic!("unit {unit}: {found:?}") };
+        assert!((value / unit / exact - 1.0).abs() < 2e-4, "unit {unit}: {value} for {exact}");
+    }
+}
+
+#[test]
+fn an_exact_fit_has_an_interval_as_narrow_as_its_rounding() {
+    // Near a million numbers are 1.2e-10 apart: a shorter move of the parameter changes nothing.
+    let exact = model(3, |p, r| r.fill((1e6 + p[0]) - 1_000_001.0));
+    let found = interval(&exact, Parameter::new(2.0));
+    for end in [&found.lower, &found.upper] {
+        let End::At(value) = end else { panic!("{found:?}") };
+        assert!((value - 1.0).abs() < 2e-10, "{found:?}");
+    }
+    assert!(found.contains(1.0), "{found:?}");
+}
+
+#[test]
+fn an_interval_contains_what_its_known_ends_enclose() {
+    let closed = Interval { lower: End::AtBound(-1.0), upper: End::At(2.0) };
+    let inside = [-1.1, -1.0, 0.0, 2.0, 2.1].map(|value| closed.contains(value));
+    assert_eq!(inside, [false, true, true, true, false]);
+    // An end that was not found excludes nothing on its side.
+    let open = Interval { lower: End::At(-1.0), upper: End::Unbounded(1e9) };
+    assert_eq!([-1.1, 0.0, 1e12].map(|value| open.contains(value)), [false, true, true]);
 }
