@@ -71,3 +71,14 @@ fn a_curve_must_be_given_once() {
     );
     assert_eq!(read(&twice).expect_err("bending twice").0.len(), 1);
 }
+
+#[test]
+fn numbers_that_a_file_may_leave_out_have_those_of_apparel_weaves() {
+    let missing = read(LINEN).expect("the file is right");
+    assert_eq!(missing.surface_friction, 0.2);
+    assert!((missing.thickness_under_pressure() - 2.8e-4).abs() < 1e-15);
+    let measured = "0.0004\nsurface_friction = 0.35\npressed_thickness = 0.0003\n";
+    let given = read(&LINEN.replacen("0.0004\n", measured, 1)).expect("the file is right");
+    assert_eq!(given.surface_friction, 0.35);
+    assert_eq!(given.thickness_under_pressure(), 3e-4);
+}

@@ -243,3 +243,17 @@ fn locking_keeps_the_shear_below_its_limit() {
     assert!(load(2.0).is_finite() && load(2.0) > load(0.9 * limit));
     assert!((load(0.3) + load(-0.3)).abs() < 1e-12, "odd");
 }
+
+#[test]
+fn the_secant_of_breens_curve_is_that_of_its_quadratic_and_its_line() {
+    let law = Piecewise { slope: 1.2e-5, intercept: 4e-4, knot: 40.0 };
+    // L(d) = p·d + q·d² up to the knot, with q = −c/d_k² and p = s + 2c/d_k; beyond it c + s·d.
+    let (p, q) = (1.2e-5 + 2.0 * 4e-4 / 40.0, -4e-4 / 1600.0);
+    for d in [0.0, 1.0, 15.0, 40.0] {
+        assert!((law.secant(d) / (p + q * d) - 1.0).abs() < 1e-12, "at {d}: {}", law.secant(d));
+    }
+    for d in [40.1, 70.0, 250.0] {
+        let exact = 1.2e-5 + 4e-4 / d;
+        assert!((law.secant(d) / exact - 1.0).abs() < 1e-12, "at {d}: {}", law.secant(d));
+    }
+}

@@ -141,6 +141,20 @@ mod tests {
     }
 
     #[test]
+    fn the_response_of_two_elements_is_the_virgin_curve_and_its_slope() {
+        let (f1, f2, ratio, length) = (1.0, 0.4, 0.2, 0.1);
+        let friction = BlimanSorine::second_order(f1, f2, ratio, length);
+        for u in [0.003, 0.02, 0.07, 0.5] {
+            let [fast, slow] = [(-u / (ratio * length)).exp(), (-u / length).exp()];
+            let load = f1 * (1.0 - fast) - f2 * (1.0 - slow);
+            let tangent = f1 / (ratio * length) * fast - f2 / length * slow;
+            let found = friction.respond([0.0, 0.0], u);
+            assert!((found.load - load).abs() < 1e-14, "at {u}: {found:?}, load {load}");
+            assert!((found.tangent - tangent).abs() < 1e-12, "at {u}: {found:?}, slope {tangent}");
+        }
+    }
+
+    #[test]
     fn the_steady_loop_has_the_known_tip_width_and_area() {
         // Closed forms of a Dahl loop between ±q: tip Fc·tanh(q/x), width at p
         // 2Fc(1 − cosh(p/x)/cosh(q/x)), area 4Fc(q − x·tanh(q/x)).

@@ -154,4 +154,22 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_stroke_stores_its_work_less_what_it_dissipates() {
+        // From rest the load is F_c(1 − e), with e = exp(−u/x), and the loss ∫F²/F_c du is
+        // F_c(u − 2x(1 − e) + x(1 − e²)/2).
+        let prepared = PreparedDahl::new(ELEMENT);
+        let Dahl { plateau, length } = ELEMENT;
+        for u in [0.002_f64, 0.03, 0.2] {
+            let e = (-u / length).exp();
+            let lost = plateau * (u - 2.0 * length * (1.0 - e) + 0.5 * length * (1.0 - e * e));
+            for sign in [1.0, -1.0] {
+                let stroke = Stroke { sign, length: u, weight: 1.0, weight_slope: 0.0 };
+                let stored = prepared.stored(prepared.load(0.0, stroke));
+                let kept = prepared.work(0.0, stroke) - lost;
+                assert!((stored - kept).abs() < 1e-15, "{stored} of {kept} over {u}");
+            }
+        }
+    }
 }

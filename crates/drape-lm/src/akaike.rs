@@ -68,6 +68,16 @@ mod tests {
     }
 
     #[test]
+    fn at_a_mean_square_of_one_only_the_parameters_count() {
+        // The logarithm is zero: with k = 4 and n = 20 the rest is 2·4 + 2·4·5/15.
+        let value = akaike(&report(20.0), 20, 3).expect("enough residuals");
+        assert!((value - 32.0 / 3.0).abs() < 1e-12, "{value}");
+        // A mean square of e adds one for each residual.
+        let more = akaike(&report(20.0 * std::f64::consts::E), 20, 3).expect("enough residuals");
+        assert!((more - value - 20.0).abs() < 1e-12, "{more} after {value}");
+    }
+
+    #[test]
     fn too_few_residuals_compare_nothing() {
         assert_eq!(akaike(&report(1.0), 5, 3), None);
         assert!(akaike(&report(1.0), 6, 3).is_some());

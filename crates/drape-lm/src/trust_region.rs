@@ -89,3 +89,19 @@ impl TrustRegion {
         self.singular.max() * f64::EPSILON
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_step_that_is_longer_than_the_radius_is_damped() {
+        // The residual 2 with the slope 4 takes the step 8/(16 + λ).
+        let region = TrustRegion::new(DMatrix::from_element(1, 1, 4.0)).expect("one column");
+        let projected = region.project(&DVector::from_element(1, 2.0));
+        for (radius, exact) in [(0.1, 64.0), (0.4, 4.0), (0.5, 0.0), (0.52, 0.0), (3.0, 0.0)] {
+            let damping = region.damping(&projected, radius);
+            assert!((damping - exact).abs() < 1e-12, "radius {radius}: {damping}");
+        }
+    }
+}

@@ -191,3 +191,86 @@ fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
     // correction; the start and the polish steps cost one each.
     assert!(report.evaluations <= 2 * report.iterations + 3, "{report:?}");
 }
+
+#[test]
+fn a_lower_bound_holds_as_an_upper_one_does() {
+    // The plane of the upper bound with the sign of p changed.
+    let plane = model(3, |p, r| {
+        r[0] = p[0] + 3.0;
+        r[1] = p[1] - p[0] - 5.0;
+        r[2] = p[1] - 4.0;
+    });
+    let bounded = [Parameter::new(0.0).between(-2.0, 1.0), Parameter::new(0.0)];
+    let report = minimise(&plane, &bounded, &Settings::default());
+    assert_eq!(report.parameters[0], -2.0);
+    assert!((report.parameters[1] - 3.5).abs() < 1e-9, "{report:?}");
+    assert!(report.stop.converged(), "{report:?}");
+}
+
+/// Distance of the parabola's points (t, t²) from (0, 3/4): least at t = ±1/2, where undamped steps
+/// gain a factor of two each.
+fn parabola() -> Model<impl Fn(&[f64], &mut [f64])> {
+    model(2, |p, r| {
+        r[0] = p[0];
+        r[1] = p[0] * p[0] - 0.75;
+    })
+}
+
+#[test]
+fn polish_steps_go_on_where_each_gains_a_factor_of_two_only() {
+    let error = |polish: bool| {
+        let settings = Settings { reduction: 1e-6, polish, ..Settings::default() };
+        let report = minimise(&parabola(), &starts(&[1.0]), &settings);
+        assert!(report.stop.converged(), "{report:?}");
+        (report.parameters[0] - 0.5).abs()
+    };
+    let (rough, polished) = (error(false), error(true));
+    // Twelve steps gain 2¹² = 4096.
+    assert!(rough > 1e-6 && polished < rough / 1000.0, "{polished} after {rough}");
+}
+
+/// Checks that a fit which stops as its sum no longer falls needs as many steps as it reports.
+fn check_steps(problem: &impl Problem, reduction: f64) {
+    let fit = |iterations: usize| {
+        let settings = Settings {
+            reduction,
+            iterations,
+            step: 0.0,
+            gradient: 0.0,
+            polish: false,
+            ..Settings::default()
+        };
+        minimise(problem, &starts(&[1.0]), &settings)
+    };
+    let report = fit(300);
+    assert_eq!(report.stop, Stop::Reduction, "{report:?}");
+    assert_eq!(fit(report.iterations), report);
+    let short = fit(report.iterations - 1);
+    assert_eq!(short.stop, Stop::Iterations, "{short:?} before {report:?}");
+}
+
+#[test]
+fn the_number_of_steps_is_the_smallest_limit_with_which_the_fit_converges() {
+    // The last step is accepted: it gains little.
+    check_steps(&parabola(), 1e-6);
+    // The last step is rejected: what it gains is below the rounding of the sum.
+    let floor = model(2, |p, r| {
+        r[0] = p[0].exp() - 2.0;
+        r[1] = 1.0;
+    });
+    check_steps(&floor, 1e-14);
+}
+
+#[test]
+fn a_step_uphill_of_forward_differences_is_tried_again_with_central_ones() {
+    // The scale makes the forward step 0.15, and a slope over it has the wrong sign at the start; the
+    // central formula has the slope of a quadratic exactly.
+    let bowl = model(2, |p, r| {
+        r[0] = 1.0 + 0.25 * p[0] * p[0];
+        r[1] = p[0];
+    });
+    let start = [Parameter::new(-0.02).with_scale(1e9)];
+    let report = minimise(&bowl, &start, &Settings::default());
+    assert!(report.stop.converged(), "{report:?}");
+    assert!(report.parameters[0].abs() < 1e-9, "{report:?}");
+}
