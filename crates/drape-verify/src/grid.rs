@@ -150,4 +150,22 @@ mod tests {
         assert!(expected.len() > 1000, "{}", expected.len());
         assert_eq!(found, expected);
     }
+
+    #[test]
+    fn a_box_is_larger_than_its_triangle_by_the_margin_and_a_rounding() {
+        for margin in [0.0, 1e-20, 1e-9, 1e-4] {
+            for x in [-1.0, -0.7, 0.3, 1.0, 1000.0] {
+                let apart = 0.5 * f64::abs(x);
+                let Aabb { low, high } =
+                    Aabb::around([[x; 3], [x + apart; 3], [x + 0.5 * apart; 3]], margin);
+                for axis in 0..3 {
+                    // Numbers within a factor of two of each other have an exact difference.
+                    for over in [x - low[axis], high[axis] - (x + apart)] {
+                        let most = margin + 4.0 * f64::EPSILON * (f64::abs(x) + margin);
+                        assert!(over >= margin && over <= most, "{x}, {margin}: {over}");
+                    }
+                }
+            }
+        }
+    }
 }

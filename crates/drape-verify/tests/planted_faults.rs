@@ -260,3 +260,81 @@ fn parts_of_a_panel_that_are_close_at_rest_keep_a_quarter_of_their_rest_distance
     assert!(at(3e-4).holds() && at(2.6e-4).holds(), "{:?}", at(3e-4));
     assert!(!at(2.4e-4).holds(), "{:?}", at(2.4e-4));
 }
+
+#[test]
+fn seams_that_meet_in_a_corner_are_joined_there_in_whatever_order_they_are_listed() {
+    // Three panels with their first corners at one point; the first and the last are not sewn directly.
+    let fan = |k: f64| Shape::triangle([[0.0; 3], [0.1, 0.05 * k, 0.1], [0.1, 0.05 * k, -0.1]]);
+    let with = |twins| {
+        let panels = [-1.0, 0.0, 1.0].map(fan).to_vec();
+        Planted { panels, twins, ..Planted::default() }.verify()
+    };
+    for twins in ["[3, 6], [0, 3]", "[0, 3], [3, 6]", "[6, 3], [3, 0]"] {
+        assert!(with(twins).holds(), "{twins}: {:?}", with(twins));
+    }
+    assert_eq!(with("[3, 6]").intersections, 2);
+}
+
+#[test]
+fn a_frame_with_faults_of_several_kinds_does_not_hold() {
+    let corner = |x: f64, y: f64| [[x, y, 0.0], [x + 0.1, y, 0.0], [x, y, 0.1]];
+    let through = [[0.02, -0.05, 0.02], [0.02, 0.05, 0.02], [0.03, 0.05, 0.03]];
+    let crossing = [corner(0.0, 0.0), through];
+    let near = [corner(5.0, 0.0), corner(5.0, 1e-3)];
+    let without_area = [[9.0, 0.0, 0.0], [9.1, 0.0, 0.0], [9.2, 0.0, 0.0]];
+    let faults = |triangles: &[[Point; 3]]| {
+        let panels = triangles.iter().copied().map(Shape::triangle).collect();
+        let verdict = Planted { panels, separation: 1e-3, ..Planted::default() }.verify();
+        assert!(!verdict.holds(), "{verdict:?}");
+        [verdict.intersections, verdict.degenerate, verdict.too_near]
+    };
+    assert_eq!(faults(&[crossing, near].concat()), [1, 0, 1]);
+    assert_eq!(faults(&[&near[..], &[without_area]].concat()), [0, 1, 1]);
+    assert_eq!(faults(&[&crossing[..], &near[..], &[without_area]].concat()), [1, 1, 1]);
+}
+
+#[test]
+fn the_place_of_a_pair_is_midway_between_its_closest_points() {
+    let below = [[-1.0, 0.1, -1.0], [-1.0, 0.1, 2.0], [2.0, 0.1, -1.0]];
+    let above = [[0.2, 0.101, 0.3], [0.3, 0.5, 0.3], [0.2, 0.5, 0.4]];
+    let panels = [below, above].map(Shape::triangle).to_vec();
+    let verdict = Planted { panels, separation: 1e-3, ..Planted::default() }.verify();
+    let [pair] = &verdict.worst[..] else { panic!("{verdict:?}") };
+    assert!((pair.distance - 1e-3).abs() < 1e-12, "{pair:?}");
+    for (found, exact) in pair.point.into_iter().zip([0.2, 0.1005, 0.3]) {
+        assert!((found - exact).abs() < 1e-12, "{pair:?}");
+    }
+}
+
+#[test]
+fn the_pair_with_the_smallest_part_of_its_separation_is_listed_first() {
+    // Two triangles with a slit of 1 mm at rest keep 0.25 mm, and are 0.3 mm apart. A second panel lies
+    // 1 mm over one of them, where 2 mm are promised.
+    let slit = [[0.0, 0.0], [0.1, 0.0], [0.05, 0.1], [0.0, -1e-3], [0.05, -0.1], [0.1, -1e-3]];
+    let at = |&[u, v]: &[f64; 2]| [u, 0.0, if v == -1e-3 { -3e-4 } else { v }];
+    let vertices = slit.iter().map(at).collect();
+    let first = Shape { vertices, triangles: vec![[0, 1, 2], [3, 4, 5]] };
+    let over = [[0.04, 1e-3, 0.05], [0.05, 1e-3, 0.06], [0.06, 1e-3, 0.05]];
+    let panels = vec![first, Shape::triangle(over)];
+    let material = [&slit[..], &[[5.0, 5.0], [5.1, 5.0], [5.0, 5.1]]].concat();
+    let verdict = Planted { panels, separation: 1e-3, material, ..Planted::default() }.verify();
+    let parts: Vec<f64> =
+        verdict.worst.iter().map(|pair| pair.distance / pair.min_separation).collect();
+    let exact = [0.5, 1.2];
+    assert!(parts.len() == 2 && verdict.too_near == 1, "{verdict:?}");
+    assert!(parts.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-9), "{parts:?}");
+}
+
+#[test]
+fn of_pairs_without_a_promise_the_closest_is_listed_first() {
+    // Two open seams, of which the first is wider.
+    let below = |x: f64| [[x, 0.0, 0.0], [x + 0.1, 0.0, 0.0], [x + 0.05, -0.1, 0.0]];
+    let above = |x: f64, gap: f64| [[x, gap, 0.0], [x + 0.1, gap, 0.0], [x + 0.05, 0.1, 0.0]];
+    let panels = [below(0.0), above(0.0, 4e-3), below(1.0), above(1.0, 2e-3)];
+    let panels = panels.map(Shape::triangle).to_vec();
+    let twins = "[0, 3], [1, 4], [6, 9], [7, 10]";
+    let verdict = Planted { panels, twins, separation: 1e-3, ..Planted::default() }.verify();
+    assert!(verdict.holds(), "{verdict:?}");
+    let found = verdict.worst.iter().map(|pair| [pair.distance, pair.min_separation]);
+    assert_eq!(found.collect::<Vec<_>>(), [[2e-3, 0.0], [4e-3, 0.0]]);
+}
