@@ -148,3 +148,33 @@ impl Counts {
         Counts { vertices: sum(|part| part.vertices), triangles: sum(|part| part.triangles) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pattern_points_lie_along_the_weft_and_a_quarter_turn_anticlockwise_from_it() {
+        for weft in [[1.0, 0.0], [0.6, 0.8], [0.0, 1.0], [-0.8, 0.6]] {
+            let part = Part {
+                name: "front".to_owned(),
+                vertices: 3,
+                triangles: 1,
+                half_activation_distance: 0.0,
+                half_min_separation: 0.0,
+                fabric: String::new(),
+                weft,
+            };
+            let [x, y] = weft;
+            assert_eq!(part.pattern_point([1.0, 0.0]), weft);
+            assert_eq!(part.pattern_point([0.0, 1.0]), [-y, x]);
+            let [across, up] = part.pattern_point([3.0, -2.0]);
+            let exact = [3.0 * x + 2.0 * y, 3.0 * y - 2.0 * x];
+            let error = (across - exact[0]).hypot(up - exact[1]);
+            assert!(
+                error < 1e-15 && (across.hypot(up) - 13.0_f64.sqrt()).abs() < 1e-14,
+                "{weft:?}"
+            );
+        }
+    }
+}

@@ -228,3 +228,53 @@ fn arrays_of_another_kind_are_refused_with_what_they_are() {
         assert!(error.contains(words), "{list}: {error}");
     }
 }
+
+#[test]
+fn a_folder_without_a_manifest_is_no_run() {
+    for files in [old(), new()] {
+        let folder = folder(&files);
+        assert!(Recording::exists(folder.path()));
+        std::fs::remove_file(folder.path().join("surfaces.json")).unwrap();
+        assert!(!Recording::exists(folder.path()));
+        assert!(matches!(Recording::open(folder.path()), Err(Error::NotARun { .. })));
+    }
+}
+
+#[test]
+fn a_frame_gives_the_fraction_to_which_its_separation_has_grown() {
+    let folder = folder(&old());
+    let with = |grown: &str| {
+        let frame = format!("# grown: {grown}\n{FRAME}");
+        write(folder.path(), "frame-00000.obj", frame.as_bytes());
+        read(folder.path()).map(|frame| frame.growth)
+    };
+    assert_eq!(
+        [with("0.25").unwrap(), with("1e-3").unwrap(), with("1").unwrap()],
+        [0.25, 1e-3, 1.0]
+    );
+    for wrong in ["0", "-0.25", "1.5", "NaN", "half"] {
+        let error = with(wrong).unwrap_err().to_string();
+        assert!(error.contains("line 1") && error.contains("no fraction"), "{wrong}: {error}");
+    }
+}
+
+#[test]
+fn a_header_may_be_padded_up_to_its_largest_length() {
+    let folder = folder(&new());
+    let exact = read(folder.path()).unwrap();
+    let (name, content) = new().into_iter().find(|(name, _)| *name == "frame-00000.npy").unwrap();
+    let numbers = content.len() - 9 * size_of::<f64>();
+    let text = String::from_utf8(content[10..numbers].to_vec()).unwrap();
+    // A header is the magic string and the version, in 8 bytes, its length in 2, and its text.
+    let padded = |length: usize| {
+        let text = format!("{:<width$}\n", text.trim_end(), width = length - 11);
+        let start = [&content[..8], &((length - 10) as u16).to_le_bytes()].concat();
+        [&start[..], text.as_bytes(), &content[numbers..]].concat()
+    };
+    for length in [512, 1024] {
+        write(folder.path(), name, &padded(length));
+        assert_eq!(read(folder.path()).unwrap(), exact, "{length}");
+    }
+    write(folder.path(), name, &padded(1025));
+    assert!(matches!(read(folder.path()), Err(Error::TooLarge { .. })));
+}

@@ -85,7 +85,10 @@ mod tests {
     #[test]
     fn cylinders_have_one_over_their_radius_whichever_way_they_lie() {
         let triangles = grid([40, 11]);
-        for (radius, turn) in [(0.05, 0.0_f64), (0.2, 0.7)] {
+        // Axes of the cylinders along z, x and y.
+        for (radius, turn, axis) in
+            [(0.05, 0.0_f64, 0), (0.2, 0.7, 0), (0.2, 0.7, 1), (0.2, 0.7, 2)]
+        {
             let place = |k: usize| {
                 let [across, along] = [(k % 40) as f64, (k / 40) as f64].map(|n| 0.1 * radius * n);
                 let (a, b) = (
@@ -93,7 +96,9 @@ mod tests {
                     across * turn.sin() + along * turn.cos(),
                 );
                 let angle = a / radius;
-                [radius * angle.sin(), radius * angle.cos(), b]
+                let mut place = [radius * angle.sin(), radius * angle.cos(), b];
+                place.rotate_right(axis);
+                place
             };
             let positions: Vec<Vector> = (0..440).map(place).collect();
             let found = curvatures(&positions, &triangles);
@@ -101,7 +106,7 @@ mod tests {
             let inner = (0..10).flat_map(|row| (2..37).map(move |column| 2 * (39 * row + column)));
             for triangle in inner.filter(|t| (2 * 39 * 2..2 * 39 * 8).contains(t)) {
                 let error = found[triangle] * radius - 1.0;
-                assert!(error.abs() < 0.03, "radius {radius}: {error}");
+                assert!(error.abs() < 0.03, "radius {radius}, axis {axis}: {error}");
             }
         }
     }
