@@ -148,27 +148,35 @@ mod tests {
     }
 
     #[test]
-    fn every_close_pair_is_found_wherever_it_is() {
+    fn every_close_pair_is_found_wherever_it_is_at_every_spacing() {
+        for spacing in [1e-3, 0.1, 10.0] {
+            finds_every_close_pair(spacing);
+        }
+    }
+
+    /// Finds the pairs of particles in a cube with sides of ten spacings.
+    fn finds_every_close_pair(spacing: f64) {
         let count = 400;
-        let wells = vec![Well { spacing: 0.1, energy: 1.0 }; count];
+        let wells = vec![Well { spacing, energy: 1.0 }; count];
         let mut neighbours = vec![[u32::MAX; 4]; count];
         neighbours[3] = [4, u32::MAX, u32::MAX, u32::MAX];
         neighbours[4] = [u32::MAX, 3, u32::MAX, u32::MAX];
         let mut pairs = ClosePairs::new(&wells, neighbours);
-        let mut positions: Vec<f64> = random(3 * count).iter().map(|x| x - 0.5).collect();
+        let mut positions: Vec<f64> =
+            random(3 * count).iter().map(|x| 10.0 * spacing * (x - 0.5)).collect();
         // Neighbours on a yarn are at one point, and are not listed.
         positions.copy_within(9..12, 12);
         for round in 0..3 {
-            positions.iter_mut().for_each(|x| *x += 0.02 * f64::from(round));
+            positions.iter_mut().for_each(|x| *x += 0.2 * spacing * f64::from(round));
             let found: Vec<[u32; 2]> = pairs.find(&positions).to_vec();
             let distance = |[a, b]: [u32; 2]| {
                 length(subtract(vector_at(&positions, b), vector_at(&positions, a)))
             };
             let all = (0..count as u32).flat_map(|a| (a + 1..count as u32).map(move |b| [a, b]));
-            let exact = all.filter(|&pair| distance(pair) < 0.1 && pair != [3, 4]);
+            let exact = all.filter(|&pair| distance(pair) < spacing && pair != [3, 4]);
             let within: Vec<[u32; 2]> =
-                found.iter().copied().filter(|&pair| distance(pair) < 0.1).collect();
-            assert_eq!(within, exact.collect::<Vec<_>>(), "in round {round}");
+                found.iter().copied().filter(|&pair| distance(pair) < spacing).collect();
+            assert_eq!(within, exact.collect::<Vec<_>>(), "spacing {spacing}, round {round}");
             assert!(found.len() < 4 * within.len() && within.len() > 100, "{}", within.len());
         }
     }

@@ -345,4 +345,22 @@ mod tests {
         assert!(matches!(Lattice::rectangle(1.0, 1.0, 1e-5), Err(Error::TooMany { .. })));
         assert!(matches!(Lattice::disc(0.1, 0.2), Err(Error::Spacing { .. })));
     }
+
+    #[test]
+    fn slivers_of_a_disc_stay_in_their_quarter() {
+        for (radius, spacing) in [(0.15, 0.03), (0.15, 0.01), (0.1, 0.007), (0.21, 0.02)] {
+            let lattice = Lattice::disc(radius, spacing).expect("a disc");
+            let mut quarters = [0.0; 4];
+            for cell in &lattice.cells {
+                // The middle of the disc is a particle, so that each cell is in one quarter.
+                let [u, v] =
+                    lattice.coordinates[cell.corners[0] as usize].map(|x| x > -0.5 * spacing);
+                quarters[2 * usize::from(u) + usize::from(v)] += cell.quadrants.iter().sum::<f64>();
+            }
+            let exact = 0.25 * std::f64::consts::PI * radius * radius;
+            for area in quarters {
+                assert!((area / exact - 1.0).abs() < 1e-12, "{radius}, {spacing}: {quarters:?}");
+            }
+        }
+    }
 }

@@ -113,3 +113,24 @@ impl Lattice {
         areas
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fold_with_the_panel_on_one_side_only_is_refused() {
+        let folded = |ends: [[f64; 2]; 2]| {
+            let strip = Lattice::rectangle(0.2, 0.05, 0.01).expect("a strip");
+            strip.with_folds(&[Fold { ends, angle: 1.0 }]).map(|folded| folded.folds.len())
+        };
+        let across = |u: f64| [[u, -0.01], [u, 0.06]];
+        assert_eq!(folded(across(0.1)), Ok(1));
+        // Along either short side, the same in the other sense, and beyond the panel.
+        let [low, high] = [0.0, 0.2].map(across);
+        for ends in [low, high, [low[1], low[0]], [high[1], high[0]], across(0.3), across(-0.1)] {
+            let refused = Err(Error::Fold { fold: 0, what: "does not cross the panel" });
+            assert_eq!(folded(ends), refused, "{ends:?}");
+        }
+    }
+}

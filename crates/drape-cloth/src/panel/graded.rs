@@ -331,6 +331,7 @@ mod tests {
     use super::*;
     use crate::Allowance;
     use crate::layout::connectors::BendingConnectors;
+    use crate::panel::triangle::twice_area;
     use crate::rim::fits::PanelFits;
     use crate::rim::neighbourhood::Neighbourhoods;
 
@@ -450,6 +451,26 @@ mod tests {
             let curvatures: Vec<f64> = inside.flat_map(|stencil| stencil.folds).collect();
             assert!(curvatures.len() > 50, "{} curvatures of stencils", curvatures.len());
             assert!(curvatures.iter().all(|curvature| curvature.abs() < NO_CURVATURE));
+        }
+    }
+
+    #[test]
+    fn a_corner_between_two_divided_sides_has_one_triangle_of_half_a_small_cell() {
+        // A square with sides of 2, by its corners 0 to 3 and the middles 4 to 7 of its sides.
+        let points = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1]]
+            .map(|point| point.map(f64::from));
+        let twice = |triangle: &[u32; 3]| twice_area(triangle.map(|node| points[node as usize]));
+        for (divided, even) in (0..16_u32).flat_map(|divided| [(divided, true), (divided, false)]) {
+            let middles = [0, 1, 2, 3].map(|side| (divided >> side & 1 == 1).then_some(4 + side));
+            let triangles = triangulated([0, 1, 2, 3], middles, even);
+            assert!(triangles.iter().all(|triangle| twice(triangle) > 0.0), "{triangles:?}");
+            assert_eq!(triangles.iter().map(twice).sum::<f64>(), 8.0, "{triangles:?}");
+            for corner in 0..4 {
+                if let [Some(_), Some(_)] = [middles[(corner + 3) % 4], middles[corner]] {
+                    let own = triangles.iter().filter(|nodes| nodes.contains(&(corner as u32)));
+                    assert_eq!(own.map(twice).collect::<Vec<_>>(), [1.0], "{triangles:?}");
+                }
+            }
         }
     }
 }

@@ -192,4 +192,31 @@ mod tests {
         assert!(far[0] > -0.1 && (0.0..0.1).contains(&far[1]), "{far:?}");
         assert!(fine.coordinates.len() == 21 * 11 && found.len() == 3 * fine.coordinates.len());
     }
+
+    #[test]
+    fn distances_from_a_triangle_are_those_from_its_nearest_side_or_corner() {
+        let lattice = Lattice::rectangle(0.1, 0.1, 0.05).expect("a panel");
+        let bins = Bins::new(&lattice);
+        // The triangle with the corners (0, 0), (0.05, 0) and (0.05, 0.05).
+        let corners = [[0.0, 0.0], [0.05, 0.0], [0.05, 0.05]];
+        let is_own = |point: &[f64; 2]| {
+            corners.iter().any(|c| (c[0] - point[0]).hypot(c[1] - point[1]) < 1e-12)
+        };
+        let at = |triangle: &[u32; 3]| triangle.map(|node| lattice.coordinates[node as usize]);
+        let own = lattice.triangles().iter().position(|triangle| at(triangle).iter().all(is_own));
+        let own = own.expect("the cells are halved") as u32;
+        for (point, exact) in [
+            ([0.04, 0.01], 0.0),
+            ([0.02, -0.01], 0.01),
+            ([0.06, 0.02], 0.01),
+            // The diagonal, whose nearest point is (0.025, 0.025).
+            ([0.01, 0.04], 0.03 / 2.0_f64.sqrt()),
+            ([-0.03, -0.04], 0.05),
+            ([0.09, -0.03], 0.05),
+            ([0.08, 0.09], 0.05),
+        ] {
+            let found = bins.distance(point, own);
+            assert!((found - exact).abs() < 1e-15, "{point:?}: {found}, not {exact}");
+        }
+    }
 }
