@@ -442,7 +442,8 @@ mod tests {
         let recording = Recording::open(folder.path()).unwrap();
         let drawing = written(&recording, Field::Shear, &[0.0; 6]);
         let document = Document::parse(&drawing).unwrap();
-        let text = measures(&document)[2];
+        let [width, height, text] = measures(&document);
+        assert!(width < 400.0 && height < 400.0, "{width} × {height}");
         let place = |name: &str| {
             let named =
                 |node: &Node<'_, '_>| node.has_tag_name("text") && node.text() == Some(name);
@@ -472,7 +473,7 @@ mod tests {
         assert!(x > 0.5 * width && x + length < width && x + length > width - 2.0 * text);
         assert!((height - 4.0 * text..height - text).contains(&y), "{y} of {height}");
         let word = numbers(child(scale, "text"), "y")[0];
-        assert!(word > y + 0.7 * text && word < height, "{word} is not below {y}");
+        assert!(word > y + 0.7 * text && word < height - text, "{word} is not below {y}");
         let legend = group(&document, "legend");
         let bands: Vec<_> = legend.children().filter(|node| node.has_tag_name("rect")).collect();
         let colours: Vec<&str> = bands.iter().filter_map(|band| band.attribute("fill")).collect();
@@ -481,6 +482,7 @@ mod tests {
         let lefts: Vec<f64> = bands.iter().map(|band| numbers(*band, "x")[0]).collect();
         assert!(lefts.is_sorted_by(|a, b| a < b), "{lefts:?}");
         assert!(lefts[BANDS - 1] + numbers(bands[BANDS - 1], "width")[0] < x);
+        assert!(lefts[BANDS - 1] - lefts[0] > 15.0 * text, "{lefts:?}");
         let top = numbers(bands[0], "y")[0];
         let words: Vec<f64> = legend
             .children()
