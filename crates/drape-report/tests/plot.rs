@@ -256,4 +256,10 @@ fn a_mark_has_its_label_beside_its_highest_point_and_residuals_are_below_the_loo
     };
     let lowest = ends(false).into_iter().fold(0.0, f64::max);
     assert!(ends(true).iter().all(|y| *y > lowest), "{lowest}: {:?}", ends(true));
+    let frames = svg.descendants().filter(|n| classes(n) == ["paper"]);
+    let number =
+        |n: &roxmltree::Node<'_, '_>, key: &str| n.attribute(key).unwrap().parse::<f64>().unwrap();
+    let frames: Vec<[f64; 2]> =
+        frames.map(|n| [number(&n, "y"), number(&n, "y") + number(&n, "height")]).collect();
+    assert!(frames.len() == 2 && frames[0][1] < frames[1][0], "{frames:?}");
 }

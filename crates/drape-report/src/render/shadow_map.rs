@@ -175,6 +175,17 @@ mod tests {
     }
 
     #[test]
+    fn half_of_the_light_arrives_at_every_edge_of_a_shadow() {
+        let disc = Disc { radius: 0.5, height: 1.0, pieces: 200 };
+        let map = ShadowMap::new(&scene(&[disc], [0.0, 1.0, 0.0], 0.8), [0.0, 1.0, 0.0], 400);
+        for turn in 0..8 {
+            let (sine, cosine) = (0.125 * std::f64::consts::TAU * f64::from(turn)).sin_cos();
+            let lit = map.visibility([0.5 * cosine, 0.0, 0.5 * sine], [0.0, 1.0, 0.0], 2);
+            assert!((lit - 0.5).abs() < 0.2, "turn {turn}: {lit}");
+        }
+    }
+
+    #[test]
     fn a_tilted_plane_does_not_shade_itself() {
         let disc = Disc { radius: 0.5, height: 0.0, pieces: 60 };
         for sine in [0.99, 0.97, 0.7, 0.1] {
