@@ -376,6 +376,11 @@ fn a_direction_in_brackets_behind_a_symbol_is_no_unit() {
     let rigidities = [Direction::Warp, Direction::Weft].map(|of| sheet.values(of).b);
     assert_eq!(rigidities, [Some(0.118), Some(0.1)]);
     assert_eq!(sheet.shared, ["2HB"]);
+    let sheet = of_results(
+        "Property;Value\nG (gf/(cm.deg)) warp;0,6\nEMT [%] Weft;4\nB (mN.m) WP;0,0118\n",
+    );
+    assert_eq!((sheet.warp.g, sheet.weft.em, sheet.weft.g), (Some(0.6), Some(4.0), None));
+    assert!((sheet.warp.bending_rigidity().expect("it is there") / 1.18e-5 - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -50,12 +50,11 @@ fn symbol(cell: &Cell) -> Option<(spelling::Spelt, Option<String>)> {
     if text.chars().count() > 40 {
         return None;
     }
+    let (text, behind) = split_direction(text);
     let bracket = text.find(['(', '[', '（', '［']);
     let (name, unit) = match bracket {
         Some(place) if place > 0 => {
-            let unit =
-                text[place..].trim_matches(['(', ')', '[', ']', '（', '）', '［', '］', ' ']);
-            (text[..place].trim(), Some(unit.to_owned()))
+            (text[..place].trim(), Some(without_brackets(&text[place..]).to_owned()))
         }
         _ => {
             let heading = Heading::parse(text);
@@ -63,10 +62,30 @@ fn symbol(cell: &Cell) -> Option<(spelling::Spelt, Option<String>)> {
         }
     };
     let spelt = spelling::value(name)?;
+    let spelt = spelling::Spelt { direction: behind.or(spelt.direction), ..spelt };
     // "B (warp)" names a direction where others name a unit.
     match unit.as_deref().and_then(spelling::direction) {
         Some(direction) => Some((spelling::Spelt { direction: Some(direction), ..spelt }, None)),
         None => Some((spelt, unit.filter(|unit| !unit.is_empty() && unit != "-"))),
+    }
+}
+
+/// Returns a unit such as `(gf/(cm.deg))` without the brackets around it.
+fn without_brackets(unit: &str) -> &str {
+    let unit = unit.trim();
+    let inside = unit.strip_prefix(['(', '[', '（', '［']);
+    let inside = inside.and_then(|inside| inside.strip_suffix([')', ']', '）', '］']));
+    inside.map_or(unit, str::trim)
+}
+
+/// Parts a text such as `B (gf.cm2/cm) warp` from the direction behind its bracket.
+fn split_direction(text: &str) -> (&str, Option<Direction>) {
+    let behind = text.rsplit([')', ']', '）', '］']).next().unwrap_or(text);
+    match spelling::direction(behind.trim()) {
+        Some(direction) if behind.len() < text.len() => {
+            (&text[..text.len() - behind.len()], Some(direction))
+        }
+        _ => (text, None),
     }
 }
 
@@ -77,7 +96,7 @@ fn of_row(row: &Row, above: Option<&Row>, given: &Given<'_>) -> Vec<FoundValue> 
     let number = |(column, cell): (usize, &Cell)| Some((column, cell.number(given.decimal)?));
     let numbers: Vec<(usize, f64)> = row.filled().skip(1).filter_map(number).collect();
     let own = row.filled().skip(1).find(|(_, cell)| !cell.is_number()).map(|(_, cell)| cell.text());
-    let unit = unit.or(own).map(|unit| unit.trim_matches(['(', ')', '[', ']']).to_owned());
+    let unit = unit.or(own).map(|unit| without_brackets(&unit).to_owned());
     let value = |number: f64, direction: ColumnOf| FoundValue {
         key: spelt.key,
         direction: direction.or(spelt.direction).or(given.direction),
