@@ -385,8 +385,9 @@ fn a_direction_in_brackets_behind_a_symbol_is_no_unit() {
 
 #[test]
 fn units_below_the_symbols_are_those_of_the_values() {
-    let sheet =
-        of_results("Fabric;B;2HB;LT;EM\n;mN.m;mN;-;\nWarp;0,0118;1,2;0,7;4\nWeft;0,01;1;0,6;9\n");
+    let sheet = of_results(
+        "Fabric;B;2HB;LT;EM;G\n;mN.m;mN;-;;(gf/(cm.deg))\nWarp;0,0118;1,2;0,7;4;0,6\nWeft;0,01;1;0,6;9;0,5\n",
+    );
     let near = |found: Option<f64>, wanted: f64| {
         let found = found.expect("it is in the sheet");
         assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}");
@@ -395,6 +396,7 @@ fn units_below_the_symbols_are_those_of_the_values() {
     near(sheet.weft.bending_rigidity(), 1e-5);
     near(sheet.warp.bending_loop_width(), 1.2e-3);
     assert_eq!([sheet.warp.lt, sheet.weft.lt], [Some(0.7), Some(0.6)]);
+    assert_eq!([sheet.warp.g, sheet.weft.g], [Some(0.6), Some(0.5)]);
     // Without a unit a value is in the laboratory's, here percent.
     assert_eq!([sheet.warp.em, sheet.weft.em], [Some(4.0), Some(9.0)]);
 }

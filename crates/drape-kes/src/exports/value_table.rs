@@ -1,6 +1,7 @@
 //! KES values in tables of results: symbols with numbers, in rows or in columns.
 
 use crate::sheets::spelling;
+use crate::tables::block::unbracketed;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Heading, normal};
 use crate::tables::number::{Decimal, Evidence};
@@ -54,7 +55,7 @@ fn symbol(cell: &Cell) -> Option<(spelling::Spelt, Option<String>)> {
     let bracket = text.find(['(', '[', '（', '［']);
     let (name, unit) = match bracket {
         Some(place) if place > 0 => {
-            (text[..place].trim(), Some(without_brackets(&text[place..]).to_owned()))
+            (text[..place].trim(), Some(unbracketed(&text[place..]).to_owned()))
         }
         _ => {
             let heading = Heading::parse(text);
@@ -68,14 +69,6 @@ fn symbol(cell: &Cell) -> Option<(spelling::Spelt, Option<String>)> {
         Some(direction) => Some((spelling::Spelt { direction: Some(direction), ..spelt }, None)),
         None => Some((spelt, unit.filter(|unit| !unit.is_empty() && unit != "-"))),
     }
-}
-
-/// Returns a unit such as `(gf/(cm.deg))` without the brackets around it.
-fn without_brackets(unit: &str) -> &str {
-    let unit = unit.trim();
-    let inside = unit.strip_prefix(['(', '[', '（', '［']);
-    let inside = inside.and_then(|inside| inside.strip_suffix([')', ']', '）', '］']));
-    inside.map_or(unit, str::trim)
 }
 
 /// Parts a text such as `B (gf.cm2/cm) warp` from the direction behind its bracket.
@@ -96,7 +89,7 @@ fn of_row(row: &Row, above: Option<&Row>, given: &Given<'_>) -> Vec<FoundValue> 
     let number = |(column, cell): (usize, &Cell)| Some((column, cell.number(given.decimal)?));
     let numbers: Vec<(usize, f64)> = row.filled().skip(1).filter_map(number).collect();
     let own = row.filled().skip(1).find(|(_, cell)| !cell.is_number()).map(|(_, cell)| cell.text());
-    let unit = unit.or(own).map(|unit| without_brackets(&unit).to_owned());
+    let unit = unit.or(own).map(|unit| unbracketed(&unit).to_owned());
     let value = |number: f64, direction: ColumnOf| FoundValue {
         key: spelt.key,
         direction: direction.or(spelt.direction).or(given.direction),
@@ -187,6 +180,7 @@ fn below(head: &Row, rows: &[Row], given: &Given<'_>) -> Vec<FoundValue> {
             let number = row.cells.get(*column).and_then(|cell| cell.number(given.decimal));
             let Some(number) = number else { continue };
             let own = units.and_then(|units| units.cells.get(*column)).map(Cell::text);
+            let own = own.map(|unit| unbracketed(&unit).to_owned());
             let own = own.filter(|text| !text.is_empty() && text != "-");
             found.push(FoundValue {
                 key: spelt.key,

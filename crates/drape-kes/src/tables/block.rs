@@ -303,7 +303,10 @@ fn spread(row: &Row, width: usize) -> Vec<String> {
 
 /// Returns a unit without the brackets around it.
 pub(crate) fn unbracketed(text: &str) -> &str {
-    text.trim().trim_matches(['(', ')', '[', ']', '（', '）', '<', '>', '［', '］']).trim()
+    let text = text.trim();
+    let pairs = [('(', ')'), ('[', ']'), ('（', '）'), ('<', '>'), ('［', '］')];
+    let inside = |(open, close)| text.strip_prefix::<char>(open)?.strip_suffix::<char>(close);
+    pairs.into_iter().find_map(inside).map_or(text, str::trim)
 }
 
 /// Returns whether every cell of a row is a unit.
