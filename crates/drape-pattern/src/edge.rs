@@ -408,4 +408,26 @@ mod tests {
         let worst = chords.iter().map(|c| (c / expected - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-5, "{worst}");
     }
+
+    #[test]
+    fn parts_of_edges_of_any_size_end_at_the_distances_asked_for() {
+        for size in [1e-6, 1e-3, 1.0, 1e3] {
+            let scaled = |p: [f64; 2]| p.map(|x| size * x);
+            for curve in [
+                Curve::Line,
+                Curve::Quadratic([1.3, 1.1]),
+                Curve::Cubic([[1.5, 0.2], [0.4, -0.3]]),
+                Curve::Arc { sweep: -5.0 },
+            ] {
+                let edge = edge(curve).mapped(false, scaled);
+                let length = edge.length();
+                let parts = edge.split(&[0.2 * length, 0.7 * length]);
+                for (part, share) in parts.iter().zip([0.2, 0.5, 0.3]) {
+                    let off = part.length() / (share * length) - 1.0;
+                    assert!(off.abs() < 1e-7, "{curve:?} of {size} m: {off}");
+                }
+                assert!(parts.len() == 3 && distance(parts[2].end, edge.end) < 1e-12 * size);
+            }
+        }
+    }
 }

@@ -75,3 +75,152 @@ fn names_are_escaped() {
     let document = roxmltree::Document::parse(&svg).expect("it is XML");
     assert!(document.descendants().any(|n| n.text() == Some("a<b&c")));
 }
+
+/// A panel of 300 by 200 mm, and one of 100 by 240 mm that is sewn to its right side.
+const PAIR: &str = "length = \"mm\"\n[panel.a]\ngrain = 0\nrectangle = [300, 200]\n\
+                    [panel.b]\ngrain = 30\nrectangle = [100, 240]\n\
+                    [seam.s]\nsides = [[\"a.right\"], [\"b.left\"]]\nmax_ease = 1.3\n";
+
+/// The picture of a pattern that is cut at 20 mm.
+fn picture(text: &str) -> String {
+    let pattern = Pattern::parse(&drape_input::Document::new("a.toml", text)).expect("it is sound");
+    let cut = Cutter::new(0.02).cut(&pattern).expect("it can be cut");
+    figure(&pattern, &cut)
+}
+
+/// The numbers in path data.
+fn numbers(path: &str) -> Vec<f64> {
+    let words = path.replace(|c: char| c.is_ascii_alphabetic(), " ");
+    words.split_whitespace().map(|x| x.parse().expect("a number")).collect()
+}
+
+/// Paths of a document that have a value of an attribute.
+fn paths<'a>(document: &'a roxmltree::Document<'_>, key: &str, value: &str) -> Vec<&'a str> {
+    let all = document.descendants().filter(|n| n.attribute(key) == Some(value));
+    all.filter_map(|n| n.attribute("d")).collect()
+}
+
+/// Left, upper, right and lower side of the outlines.
+fn boxes(document: &roxmltree::Document<'_>) -> Vec<[f64; 4]> {
+    let of = |path: &&str| {
+        let all = numbers(path);
+        let start = [f64::MAX, f64::MAX, f64::MIN, f64::MIN];
+        all.chunks(2)
+            .fold(start, |b, p| [b[0].min(p[0]), b[1].min(p[1]), b[2].max(p[0]), b[3].max(p[1])])
+    };
+    paths(document, "fill", "#faf7f2").iter().map(of).collect()
+}
+
+/// Lines of a path of the mesh: both ends.
+fn lines(path: &str) -> Vec<[f64; 4]> {
+    let all = numbers(path);
+    all.chunks(4).map(|l| [l[0], l[1], l[0] + l[2], l[1] + l[3]]).collect()
+}
+
+#[test]
+fn panels_lie_apart_on_the_sheet_at_true_scale() {
+    let svg = picture(PAIR);
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    let view = numbers(document.root_element().attribute("viewBox").expect("it has one"));
+    let [a, b] = boxes(&document)[..] else { panic!("two panels") };
+    for (found, size) in [(a, [300.0, 200.0]), (b, [100.0, 240.0])] {
+        let off = [found[2] - found[0] - size[0], found[3] - found[1] - size[1]];
+        assert!(off.iter().all(|x| x.abs() < 0.11), "{found:?}");
+        assert!(found[0] > 0.0 && found[1] > 0.0 && found[2] < view[2] && found[3] < view[3]);
+    }
+    assert!(a[2] < b[0] || b[2] < a[0] || a[3] < b[1] || b[3] < a[1], "{a:?} {b:?}");
+}
+
+#[test]
+fn lines_of_the_grid_cross_a_rectangle_from_side_to_side() {
+    let svg = picture("length = \"mm\"\n[panel.a]\ngrain = 0\nrectangle = [300, 200]\n");
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    let [left, top, right, bottom] = boxes(&document)[0];
+    // Cells of 20 mm: 15 columns and 10 rows.
+    let mut expected: Vec<[f64; 4]> = (0..=15)
+        .map(|k| left + 20.0 * f64::from(k))
+        .map(|x| [x, bottom, x, top])
+        .chain((0..=10).map(|k| bottom - 20.0 * f64::from(k)).map(|y| [left, y, right, y]))
+        .collect();
+    for line in lines(paths(&document, "stroke", "#9aa5b1")[0]) {
+        let same = |e: &[f64; 4]| e.iter().zip(line).all(|(a, b)| (a - b).abs() < 0.21);
+        let number = expected.iter().position(same).unwrap_or_else(|| panic!("{line:?}"));
+        expected.remove(number);
+    }
+    assert!(expected.is_empty(), "{expected:?} are not drawn");
+}
+
+#[test]
+fn the_rim_is_drawn_within_the_panel_in_lines_as_long_as_the_spacing() {
+    let svg = picture(PAIR);
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    let [left, top, right, bottom] = boxes(&document)[1];
+    let rim = lines(paths(&document, "stroke", "#c9a27a")[1]);
+    // At least one line to each of the 34 nodes of the outline.
+    assert!(rim.len() > 34, "{} lines", rim.len());
+    for line in rim {
+        let length = (line[2] - line[0]).hypot(line[3] - line[1]);
+        assert!((10.0..40.0).contains(&length), "{line:?}");
+        let inside = |x: f64, y: f64| {
+            (left - 0.11..right + 0.11).contains(&x) && (top - 0.11..bottom + 0.11).contains(&y)
+        };
+        assert!(inside(line[0], line[1]) && inside(line[2], line[3]), "{line:?}");
+    }
+}
+
+#[test]
+fn the_arrowhead_of_a_seam_points_away_from_its_first_stitch() {
+    let svg = picture(PAIR);
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    let view = document.root_element();
+    let letter: f64 = numbers(view.attribute("font-size").expect("it has one"))[0];
+    let all = document.descendants().filter_map(|n| n.attribute("d"));
+    let marks: Vec<&str> = all.filter(|d| d.contains('a')).collect();
+    assert_eq!(marks.len(), 2, "one in each panel");
+    // Both sides of the seam start below: at the right side of the first, the left of the second.
+    for (marks, [x, bottom, height]) in
+        marks.iter().zip([(0, 2, 200.0), (1, 0, 240.0)].map(|(panel, side, height)| {
+            let outline = boxes(&document)[panel];
+            [outline[side], outline[3], height]
+        }))
+    {
+        let (dot, arrow) = marks.split_once('Z').expect("it ends");
+        let (dot, arrow) = (numbers(dot), numbers(arrow));
+        let centre = [dot[0] + dot[2], dot[1]];
+        assert!((centre[0] - x).abs() < 0.21 && (centre[1] - bottom).abs() < 0.21, "{centre:?}");
+        let (tip, base) = (&arrow[..2], [2, 3].map(|k| 0.5 * (arrow[k] + arrow[k + 2])));
+        assert!((tip[0] - x).abs() < 0.11 && (base[0] - x).abs() < 0.21, "{arrow:?}");
+        assert!((base[1] - tip[1] - letter).abs() < 0.21, "{arrow:?} points up");
+        // The middle of the seam is between two stitches, or at one.
+        assert!((tip[1] - (bottom - 0.5 * height)).abs() < 20.0, "{arrow:?}");
+    }
+}
+
+#[test]
+fn names_of_edges_stand_beside_the_middle_of_their_edges_inside() {
+    let svg = picture("length = \"mm\"\n[panel.a]\ngrain = 0\nrectangle = [300, 200]\n");
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    let [left, top, right, bottom] = boxes(&document)[0];
+    let view = document.root_element();
+    let letter: f64 = numbers(view.attribute("font-size").expect("it has one"))[0];
+    let middle = [0.5 * (left + right), 0.5 * (top + bottom)];
+    for (name, at, inward) in [
+        ("bottom", [middle[0], bottom], [0.0, -1.0]),
+        ("right", [right, middle[1]], [-1.0, 0.0]),
+        ("top", [middle[0], top], [0.0, 1.0]),
+        ("left", [left, middle[1]], [1.0, 0.0]),
+    ] {
+        let node =
+            document.descendants().find(|n| n.has_tag_name("text") && n.text() == Some(name));
+        let node = node.unwrap_or_else(|| panic!("{name} is not written"));
+        let [x, y, size] = ["x", "y", "font-size"]
+            .map(|key| numbers(node.attribute(key).expect("it is placed"))[0]);
+        // From the line that the letters stand on to the middle of their height.
+        let arm = [x - at[0], y - 0.35 * size - at[1]];
+        let off = arm[0] * inward[0] + arm[1] * inward[1];
+        let along = (arm[0] * inward[1] - arm[1] * inward[0]).abs();
+        assert!(off > 0.5 * letter && off < 1.5 * letter, "{name} is {off} mm inside");
+        // Half a spacing where the middle is a node.
+        assert!(along < 10.2, "{name} is {along} mm from the middle");
+    }
+}

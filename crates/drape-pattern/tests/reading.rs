@@ -469,6 +469,21 @@ fn circles_and_seams_on_the_wrong_side_of_garmentcode() {
 }
 
 #[test]
+fn a_part_of_a_draft_whose_closed_paths_have_no_area_is_left_out() {
+    let text = r#"{"parts":{
+        "band":{"paths":{"seam":{"ops":[{"t":"M","p":[0,0]},{"t":"L","p":[300,0]},
+            {"t":"L","p":[300,80]},{"t":"L","p":[0,80]},{"t":"Z"}]}}},
+        "ruler":{"paths":{"stroke":{"ops":[{"t":"M","p":[0,0]},{"t":"L","p":[100,0]},{"t":"Z"}]}}}
+    }}"#;
+    let pattern = Pattern::parse(&Document::new("d.json", text)).expect("one part is a panel");
+    let [band] = pattern.panels() else { panic!("{:?}", pattern.panels()) };
+    assert!(band.name() == "band" && (band.area() - 0.024).abs() < 1e-12);
+    let notes: Vec<String> = pattern.notes().iter().map(ToString::to_string).collect();
+    let said = |words: &str| notes.iter().any(|note| note.contains(words));
+    assert!(said("part ruler") && said("no closed path among stroke"), "{notes:?}");
+}
+
+#[test]
 fn freesewing_drafts_are_unfolded_and_named_by_their_points() {
     let document = Document::new("teagan.json", shipped("teagan.json"));
     let pattern = Pattern::parse(&document).expect("it is sound");

@@ -155,4 +155,17 @@ mod tests {
         assert_eq!(fitted(&line).len(), 1);
         assert_eq!(fitted(&line)[0].curve, Curve::Line);
     }
+
+    #[test]
+    fn the_curve_through_three_points_passes_the_middle_one_at_its_share_of_the_chords() {
+        // The second chord is three times as long as the first.
+        let points = [[0.3, 0.1], [0.36, 0.18], [0.66, 0.18]];
+        let edges = fitted(&points);
+        let [edge] = &edges[..] else { panic!("{edges:?}") };
+        let Curve::Quadratic(control) = edge.curve else { panic!("{edge:?}") };
+        assert_eq!([edge.start, edge.end], [points[0], points[2]]);
+        let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| 0.75 * a[k] + 0.25 * b[k]);
+        let middle = between(between(edge.start, control), between(control, edge.end));
+        assert!(distance(middle, points[1]) < 1e-12, "{middle:?}");
+    }
 }

@@ -257,3 +257,44 @@ fn text(svg: &mut String, words: &str, place: &Text) {
 fn pair([x, y]: [f64; 2]) -> String {
     format!("{} {}", decimal(x, 1e4), decimal(y, 1e4))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangle with sides of 300, 400 and 500 mm; the circle in it has a radius of 100 mm.
+    const TRIANGLE: [[f64; 2]; 3] = [[50.0, 20.0], [450.0, 20.0], [50.0, 320.0]];
+
+    #[test]
+    fn the_inner_point_is_near_the_centre_of_the_largest_circle_inside() {
+        let (point, clear) = inner_point(&TRIANGLE);
+        // The points that are tried are up to 17 mm apart.
+        assert!(distance(point, [150.0, 120.0]) < 17.0, "{point:?}");
+        assert!(clear > 85.0 && clear <= 100.0, "{clear}");
+        let rectangle = [[50.0, 20.0], [450.0, 20.0], [450.0, 120.0], [50.0, 120.0]];
+        let (point, clear) = inner_point(&rectangle);
+        assert!((point[1] - 70.0).abs() < 5.0 && clear > 45.0 && clear <= 50.0, "{point:?}");
+    }
+
+    #[test]
+    fn the_clearance_of_a_point_is_its_distance_from_the_nearest_side_or_corner() {
+        for (point, expected) in [
+            ([150.0, 120.0], 100.0),
+            ([57.0, 120.0], 7.0),
+            ([150.0, 23.0], 3.0),
+            // 3x + 4y = 1200 from the right angle, at (180, 140) and at (240, 95).
+            ([230.0, 160.0], 20.0),
+            ([290.0, 115.0], 20.0),
+            ([20.0, -20.0], 50.0),
+        ] {
+            let found = clearance(&TRIANGLE, point);
+            assert!((found - expected).abs() < 1e-9, "{point:?}: {found}");
+        }
+    }
+
+    #[test]
+    fn seams_beyond_the_alphabet_have_two_letters_and_then_three() {
+        let names = [0, 25, 26, 27, 51, 52, 701, 702].map(letters);
+        assert_eq!(names, ["A", "Z", "AA", "AB", "AZ", "BA", "ZZ", "AAA"]);
+    }
+}

@@ -195,3 +195,100 @@ fn transforms_shapes_and_lines_drawn_apart_make_outlines() {
     refused("d.svg", "<svg><g></svg>", &["d.svg:1:", "plain SVG"]);
     refused("d.svg", "<html/>", &["no <svg>"]);
 }
+
+/// A band of 300 by 80 mm on a skirt whose waist is two edges, of 200 and of 100 mm.
+const BAND: &str = r#"length = "mm"
+[panel.band]
+grain = 0
+fabric = "shell"
+rectangle = [300, 80]
+[panel.skirt]
+grain = 0
+start = [0, 0]
+outline = [
+    { name = "hem", to = [300, 0] },
+    { name = "side", to = [300, 400] },
+    { name = "long", to = [100, 400] },
+    { name = "short", to = [0, 400] },
+    { name = "centre", to = [0, 0] },
+]
+[seam.waist]
+sides = [["band.bottom"], ["skirt.short", "skirt.long"]]
+"#;
+
+/// Texts of a panel of a drawing: words, middle of the height where they begin, end or are centred,
+/// in the panel's frame, in mm, and size of the letters.
+fn texts(svg: &str, panel: &str) -> Vec<(String, [f64; 2], f64)> {
+    let document = roxmltree::Document::parse(svg).expect("it is XML");
+    let group = document.descendants().find(|n| n.attribute("data-panel") == Some(panel));
+    let group = group.expect("it is drawn");
+    let origin = numbers(group.attribute("data-origin").expect("it has an origin"));
+    let texts = group.children().filter(|n| n.has_tag_name("text")).map(|node| {
+        let [x, y, size] = ["x", "y", "font-size"]
+            .map(|key| numbers(node.attribute(key).expect("it is placed"))[0]);
+        let middle = [x - origin[0], origin[1] - (y - 0.35 * size)];
+        (node.text().expect("it has words").to_owned(), middle, size)
+    });
+    texts.collect()
+}
+
+/// Numbers of path data.
+fn numbers(data: &str) -> Vec<f64> {
+    let words = data.replace(['M', 'L'], " ");
+    words.split_whitespace().map(|x| x.parse().expect("a number")).collect()
+}
+
+#[test]
+fn the_name_of_an_edge_stands_behind_its_ticks_with_its_height_in_the_middle() {
+    let texts = texts(&read("band.toml", BAND).to_svg(None), "band");
+    for (words, middle, inward) in [
+        ("A · bottom", [150.0, 0.0], [0.0, 1.0]),
+        ("right", [300.0, 40.0], [-1.0, 0.0]),
+        ("top", [150.0, 80.0], [0.0, -1.0]),
+        ("left", [0.0, 40.0], [1.0, 0.0]),
+    ] {
+        let found = texts.iter().find(|text| text.0 == words);
+        let (_, at, size) = found.unwrap_or_else(|| panic!("{words}: {texts:?}"));
+        // Ticks are 5 mm long.
+        let off = 5.0 + 0.5 * size;
+        let expected = [0, 1].map(|k| middle[k] + off * inward[k]);
+        assert!((0..2).all(|k| (at[k] - expected[k]).abs() < 0.02), "{words}: {at:?} {expected:?}");
+    }
+}
+
+#[test]
+fn the_fabric_stands_in_smaller_letters_below_the_name_of_its_panel() {
+    let texts = texts(&read("band.toml", BAND).to_svg(None), "band");
+    let find = |words: &str| texts.iter().find(|text| text.0 == words).expect("it is written");
+    let ((_, name, large), (_, fabric, small)) = (find("band"), find("shell"));
+    assert!(small < large && *small > 0.5 * large, "{small} {large}");
+    let apart = name[1] - fabric[1];
+    assert!(
+        name[0] == fabric[0] && apart > 0.5 * (large + small) && apart < 2.0 * large,
+        "{apart}"
+    );
+    assert!(fabric[1] - 0.5 * small > 0.0, "{fabric:?}");
+}
+
+#[test]
+fn ticks_of_a_seam_stand_at_its_middle_and_where_edges_of_the_other_side_end() {
+    let svg = read("band.toml", BAND).to_svg(None);
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    for (panel, height, inward, expected) in
+        [("band", 0.0, 5.0, &[100.0, 150.0][..]), ("skirt", 400.0, -5.0, &[150.0])]
+    {
+        let group = document.descendants().find(|n| n.attribute("data-panel") == Some(panel));
+        let group = group.expect("it is drawn");
+        let origin = numbers(group.attribute("data-origin").expect("it has an origin"));
+        let ticks = group.children().filter(|n| n.attribute("class") == Some("match"));
+        let mut ticks: Vec<Vec<f64>> =
+            ticks.map(|node| numbers(node.attribute("d").expect("a path"))).collect();
+        ticks.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert_eq!(ticks.len(), expected.len(), "{panel}: {ticks:?}");
+        for (tick, x) in ticks.iter().zip(expected) {
+            let ends =
+                [x + origin[0], origin[1] - height, x + origin[0], origin[1] - height - inward];
+            assert!(tick.iter().zip(ends).all(|(a, b)| (a - b).abs() < 1e-3), "{panel}: {tick:?}");
+        }
+    }
+}

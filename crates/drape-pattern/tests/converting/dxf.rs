@@ -203,6 +203,27 @@ fn what_a_dxf_does_not_say_is_asked_for() {
     );
 }
 
+#[test]
+fn lines_and_an_arc_of_dxf_make_an_outline() {
+    // A tab of 200 by 100 mm whose end is half a disc, from 270 to 90 degrees about its centre.
+    let arc = "0\nARC\n8\n1\n10\n200\n20\n50\n40\n50\n50\n270\n51\n90\n";
+    let body = line(1, [0.0, 0.0], [200.0, 0.0])
+        + arc
+        + &line(1, [200.0, 100.0], [0.0, 100.0])
+        + &line(1, [0.0, 100.0], [0.0, 0.0]);
+    let tab = read("a.dxf", &file("", &block("TAB", &body), &text(1, "Units: METRIC")));
+    let [panel] = tab.panels() else { panic!("one panel") };
+    let area = 0.02 + 0.5 * std::f64::consts::PI * 0.05 * 0.05;
+    assert!((panel.area() - area).abs() < 1e-7, "{}", panel.area());
+    let round: Vec<&Edge> =
+        panel.outline().iter().filter(|e| matches!(e.curve, Curve::Arc { .. })).collect();
+    let [round] = round[..] else { panic!("{:?}", panel.outline()) };
+    assert!((round.length() - 0.05 * std::f64::consts::PI).abs() < 1e-6, "{round:?}");
+    let far = round.at(0.5);
+    assert!((far[0] - 0.25).abs() < 1e-6 && (far[1] - 0.05).abs() < 1e-6, "{far:?}");
+    assert_eq!(panel.outline().len(), 4);
+}
+
 proptest! {
     /// No drawing and no DXF panics, whatever was cut out of or put into a good one.
     #[test]

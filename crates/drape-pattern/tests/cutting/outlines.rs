@@ -109,7 +109,15 @@ fn spacings_that_are_none_and_too_small_are_refused() {
         assert!(said.contains("the spacing is"), "{said}");
     }
     for spacing in [1e-5, 5e-4] {
-        let said = Cutter::new(spacing).cut(&pattern).expect_err("it is too small").to_string();
+        let error = Cutter::new(spacing).cut(&pattern).expect_err("it is too small");
+        // The grid that would hold the sail.
+        let grid = (2.0 / spacing).powi(2);
+        let Error::Pattern(all) = &error else { panic!("{error}") };
+        assert!(
+            matches!(&all[..], [Mistake::TooMany { nodes, .. }] if (nodes / grid - 1.0).abs() < 2e-3),
+            "{all:?}"
+        );
+        let said = error.to_string();
         assert!(
             said.contains("panel sail would have") && said.contains("larger spacing"),
             "{said}"

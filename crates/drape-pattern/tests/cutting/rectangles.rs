@@ -116,3 +116,81 @@ fn the_longer_side_of_a_gather_has_a_whole_number_of_arcs_for_each_of_the_shorte
         }
     }
 }
+
+/// A rectangle with a point on its top and one on its bottom, at distances from its left side.
+fn parted(name: &str, [x, y]: [f64; 2], [below, above]: [f64; 2]) -> Panel {
+    let corners = [[0.0, 0.0], [below, 0.0], [x, 0.0], [x, y], [above, y], [0.0, y]];
+    let names = ["bottom 1", "bottom 2", "right", "top 1", "top 2", "left"];
+    let edge = |k: usize| Edge::line(names[k], corners[k], corners[(k + 1) % 6]);
+    Panel::new(name, (0..6).map(edge).collect()).expect("it is sound")
+}
+
+fn sewn(name: &str, sides: [&[(usize, usize)]; 2]) -> Seam {
+    let ids = |side: &[(usize, usize)]| {
+        side.iter().map(|&(panel, edge)| EdgeId { panel, edge }).collect::<Vec<EdgeId>>()
+    };
+    let sides = sides.map(ids);
+    let (name, max_ease) = (name.to_owned(), MAX_EASE);
+    Seam { name, sides, reversed: false, max_ease, angle: 0.0, allowance: 0.0 }
+}
+
+#[test]
+fn short_edges_are_joined_whichever_panel_a_seam_names_first() {
+    // The top of the first meets the bottom of the second; of both the last 4 mm are an edge.
+    let upper: &[(usize, usize)] = &[(1, 0), (1, 1)];
+    let lower: &[(usize, usize)] = &[(0, 4), (0, 3)];
+    let back = |side: &[(usize, usize)]| side.iter().rev().copied().collect::<Vec<_>>();
+    let (from_upper, from_lower) = ([upper, lower], [&back(lower)[..], &back(upper)[..]]);
+    for sides in [from_upper, from_lower] {
+        let panels =
+            ["lower", "upper"].map(|name| parted(name, [0.2, 0.1], [0.196, 0.196])).to_vec();
+        let pattern = Pattern::new(panels, vec![sewn("seam", sides)]).expect("it is sound");
+        let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
+        invariants::check(&pattern, &cut);
+        // Free sides have the spacing as well: 20 by 10 cells.
+        let cells = |k: usize| (cut.panels[k].quads.len(), cut.panels[k].triangles.len());
+        assert_eq!([cells(0), cells(1)], [(200, 0); 2]);
+        let pairs = &cut.seams[0].pairs;
+        assert_eq!(pairs.len(), 21);
+        for (k, pair) in pairs.iter().enumerate() {
+            let steps = if pair[0].panel == 1 { k } else { 20 - k };
+            for id in pair {
+                let [x, y] = cut.panels[id.panel].positions[id.node as usize];
+                let height = if id.panel == 1 { 0.0 } else { 0.1 };
+                assert!(
+                    (x - 0.01 * steps as f64).abs() < 1e-12 && y == height,
+                    "{x} {y}: {pair:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_short_edge_at_the_meeting_of_three_panels_is_not_joined_across_their_seams() {
+    // Each is sewn to both others along its top, and the seams meet in a point on each top. The
+    // first and the second meet over 4 mm only.
+    let panels = vec![
+        parted("a", [0.2, 0.1], [0.1, 0.196]),
+        parted("b", [0.2, 0.1], [0.1, 0.004]),
+        parted("c", [0.392, 0.1], [0.2, 0.196]),
+    ];
+    let seams = vec![
+        sewn("short", [&[(0, 3)], &[(1, 4)]]),
+        sewn("one", [&[(0, 4)], &[(2, 3)]]),
+        sewn("two", [&[(1, 3)], &[(2, 4)]]),
+    ];
+    let pattern = Pattern::new(panels, seams).expect("it is sound");
+    let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
+    invariants::check(&pattern, &cut);
+    for (seam, (panels, pairs)) in cut.seams.iter().zip([([0, 1], 1), ([0, 2], 21), ([1, 2], 21)]) {
+        assert_eq!(seam.pairs.len(), pairs);
+        assert!(
+            seam.pairs.iter().all(|pair| pair.map(|id| id.panel) == panels),
+            "{:?}",
+            seam.pairs
+        );
+    }
+    let notes: Vec<String> = cut.notes.iter().map(ToString::to_string).collect();
+    assert!(notes.len() == 1 && notes[0].contains("its ends are one particle"), "{notes:?}");
+}
