@@ -163,18 +163,6 @@ fn cloth_carried_from_coarser_grids_goes_on_to_the_same_bits() {
 }
 
 #[test]
-fn a_run_goes_on_after_a_grid_that_is_of_no_use() {
-    // The grid has one cell, whose triangles cut the ball on the next.
-    let scene = || refined("", "[0.28]");
-    let summary = Simulation::new(scene()).unwrap().run(&mut ()).unwrap();
-    assert!(!summary.coarser_grids[0].carried && summary.settled, "{summary:?}");
-    let spacing = 1e3 * summary.coarser_grids[0].spacing;
-    let told = format!("the grid of {spacing:.1} mm is of no use: ");
-    assert!(summary.warnings[0].starts_with(&told), "{:?}", summary.warnings);
-    goes_on(scene, 17);
-}
-
-#[test]
 fn a_run_that_is_interrupted_on_a_coarser_grid_has_a_frame_and_goes_on() {
     /// Watcher that ends a run after three steps.
     #[derive(Default)]

@@ -70,3 +70,17 @@ fn the_rest_reached_depends_little_on_the_strides() {
     assert!(fine.steps > 3 * usual.steps);
     assert!(change.abs() < 0.01, "{change}");
 }
+
+#[test]
+fn bodies_move_from_when_the_cloth_is_at_rest() {
+    let ball = "[[collider.sphere]]\nradius = 0.05\ncenter = [0, -2, 0]\n[collider.sphere.motion]\n\
+                times = [0, 0.1]\nshift = [[0, 0, 0], [0, -0.03, 0]]\n";
+    let sheet = hung("", &format!("end = 100\n[motion]\nseconds = 0.05\n{ball}"));
+    let mut simulation = sheet.simulation();
+    let summary = simulation.run(&mut ()).unwrap();
+    assert!(summary.settled && summary.phases.len() == 2, "{summary:?}");
+    // Half of the way in half of its time, however long the cloth took to come to rest.
+    let bodies = simulation.frame().bodies;
+    let height = bodies.iter().skip(1).step_by(3).sum::<f64>() / (bodies.len() / 3) as f64;
+    assert!((height + 2.015).abs() < 1e-6, "{height} m");
+}
