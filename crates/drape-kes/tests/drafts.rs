@@ -334,6 +334,21 @@ fn gauge_and_width_in_columns_are_read_in_their_units() {
 }
 
 #[test]
+fn a_width_that_changes_is_not_that_of_the_specimen() {
+    let text = |sizes: &str| {
+        let row = |_, [e, f]: [f64; 2]| {
+            format!("{:.5},{:.6},{:.5},{sizes}", 0.5 * e, 0.049 * f, -0.1 * e)
+        };
+        let heads = "Extension (mm),Force (N),Width change (mm),l0 (mm)";
+        format!("{heads}\n{}", rows(&tensile(), row))
+    };
+    let folder = folder(&[("warp.csv", text("50").as_bytes())]);
+    let (draft, _) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open), (0, 1), "{}", draft.text);
+    assert!(draft.notes[0].ends_with("the file does not state its width"), "{:?}", draft.notes);
+}
+
+#[test]
 fn strips_of_a_laboratory_and_arches_are_told_apart() {
     let folder_of_curves = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fabrics/cupro-weave");
     let names =

@@ -92,9 +92,11 @@ impl Series {
         heading.and_then(|heading| heading.unit.as_deref()).or(self.cell_unit(column))
     }
 
-    /// Returns the column that holds the gauge or the width, by its names.
+    /// Returns the column that holds the gauge or the width, by its names: one length in all rows.
     pub(crate) fn size_column(&self, words: &[&str]) -> Option<usize> {
-        size_column(&self.block, &[self.pair.deformation, self.pair.load], words)
+        let column = size_column(&self.block, &[self.pair.deformation, self.pair.load], words)?;
+        let is_one = |all: Vec<f64>| all.iter().all(|length| *length > 0.0 && *length == all[0]);
+        self.numbers(column).is_ok_and(is_one).then_some(column)
     }
 
     /// Returns the unit within the first cell of a column; `None` where there is none.
