@@ -218,7 +218,7 @@ impl World {
         surfaces.contact.sewn_placement(positions, &bodies)
     }
 
-    /// Places cloth with closed seams, at a time in s, at positions in m where nothing intersects.
+    /// Sets the cloth, once its seams are closed, to positions in m at which nothing intersects, at a time in s.
     /// Minimum separations are reduced to the distances there, and grow again within a time, in s.
     pub(crate) fn place_sewn(
         &mut self,

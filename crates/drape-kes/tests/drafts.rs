@@ -349,6 +349,22 @@ fn a_width_that_changes_is_not_that_of_the_specimen() {
 }
 
 #[test]
+fn repeats_are_strips_of_one_length_in_whatever_order_they_come() {
+    let text = |gauge: f64| {
+        let row =
+            |_, [e, f]: [f64; 2]| format!("{:.5},{:.6},{gauge},5", 0.01 * gauge * e, 0.049 * f);
+        format!("Extension (mm),Force (N),l0 (mm),Width (cm)\n{}", rows(&tensile(), row))
+    };
+    let [short, long] = [50.0, 100.0].map(text);
+    let names = ["warp 1.csv", "warp 2.csv", "warp 3.csv"];
+    let files = names.iter().zip([&short, &long, &long]);
+    let files: Vec<(&str, &[u8])> = files.map(|(name, text)| (*name, text.as_bytes())).collect();
+    let (draft, sheet) = drafted(folder(&files).path());
+    let repeats: Vec<usize> = sheet.curves.iter().map(|curve| curve.repeats().len()).collect();
+    assert_eq!((draft.open, repeats), (0, vec![0, 2]), "{}", draft.text);
+}
+
+#[test]
 fn strips_of_a_laboratory_and_arches_are_told_apart() {
     let folder_of_curves = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fabrics/cupro-weave");
     let names =

@@ -229,7 +229,7 @@ fn polish_steps_go_on_where_each_gains_a_factor_of_two_only() {
     assert!(rough > 1e-6 && polished < rough / 1000.0, "{polished} after {rough}");
 }
 
-/// Checks that a fit which stops as its sum no longer falls needs as many steps as it reports.
+/// Checks the number of steps that a fit reports when it stops because its sum no longer falls.
 fn check_steps(problem: &impl Problem, reduction: f64) {
     let fit = |iterations: usize| {
         let settings = Settings {

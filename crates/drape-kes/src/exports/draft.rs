@@ -27,7 +27,7 @@ const OTHER_FILES: [&str; 26] = [
 ];
 /// Deepest folder below the one that is named.
 const DEEPEST: usize = 3;
-/// Difference of the gauges of two curves, over one of them, from which on they are no repeats.
+/// Relative difference of the gauges of two curves from which on they are no repeats.
 const REPEAT_GAUGE: f64 = 0.1;
 /// Most files of a folder: more are no exports of one fabric.
 const MOST_FILES: usize = 500;
@@ -305,8 +305,8 @@ impl Parts {
         draft
     }
 
-    /// Joins curves of several files that are alike: the repeats of a laboratory. Arches are none: they go up or
-    /// down.
+    /// Joins curves of several files that are alike: the repeats of a laboratory. Arches are no repeats: they
+    /// buckle up or down.
     fn join_repeats(&mut self, folder: &Path) {
         let mut joined: Vec<CurveDraft> = Vec::new();
         for curve in std::mem::take(&mut self.curves) {
@@ -327,7 +327,8 @@ impl Parts {
                 let lengths = gauge(other).zip(gauge(&curve));
                 lengths.is_none_or(|(a, b)| (a / b - 1.0).abs() < REPEAT_GAUGE)
             };
-            if let Some(other) = joined.iter_mut().find(alike).filter(|other| is_as_long(other)) {
+            let is_repeat = |other: &&mut CurveDraft| alike(other) && is_as_long(other);
+            if let Some(other) = joined.iter_mut().find(is_repeat) {
                 let mut both = other.clone();
                 both.files.extend(curve.files.clone());
                 if both.layout != curve.layout {

@@ -20,7 +20,7 @@ use crate::test::{Direction, Test};
 
 /// Tests whose curves are looked for.
 const TESTS: [Test; 3] = [Test::Tensile, Test::Shear, Test::Bending];
-/// Shortening at the start from which on a strip hangs slack.
+/// Negative strain at the start from which on a strip is slack.
 const SLACK_MIN: f64 = 1e-3;
 /// Part of its largest value below zero from which on a length is no tensile extension.
 const BOTH_WAYS: f64 = 0.3;
@@ -207,7 +207,7 @@ impl Export<'_> {
         }
     }
 
-    /// Adds that a strip hangs slack, where it begins shorter than its gauge.
+    /// Adds the key of a slack strip, where the first length is less than the gauge.
     fn add_slack(&self, draft: &mut CurveDraft) {
         let mut slack = draft.clone();
         let why = "at the start the clamps are nearer than the strip is long";

@@ -71,7 +71,7 @@ fn symbol(cell: &Cell) -> Option<(spelling::Spelt, Option<String>)> {
     }
 }
 
-/// Parts a text such as `B (gf.cm2/cm) warp` from the direction behind its bracket.
+/// Splits a text such as `B (gf.cm2/cm) warp` before the direction behind its bracket.
 fn split_direction(text: &str) -> (&str, Option<Direction>) {
     let behind = text.rsplit([')', ']', '）', '］']).next().unwrap_or(text);
     match spelling::direction(behind.trim()) {

@@ -77,16 +77,11 @@ pub(crate) fn deformation(
         let written = written.as_written(gauge, None);
         return Some(AxisValues { si, written, reading: name });
     }
-    let (gauge, of_gauge) = match sizes(axis, series, findings)? {
-        Some(gauge) => (gauge, String::new()),
-        None => match sizes_of_file(series, &GAUGE, findings)? {
-            Some(found) => found,
-            None => {
-                let help = "add gauge = \"5 cm\", or the name of the column that holds it";
-                findings.error(&axis.size_key, "is missing: a clamp distance needs it", help);
-                return None;
-            }
-        },
+    let given = sizes(axis, series, findings)?;
+    let Some((gauge, of_gauge)) = or_of_file(given, series, &GAUGE, findings)? else {
+        let help = "add gauge = \"5 cm\", or the name of the column that holds it";
+        findings.error(&axis.size_key, "is missing: a clamp distance needs it", help);
+        return None;
     };
     let factor = written.unit.factor;
     let first = written.numbers[0] * factor / gauge[0];
@@ -184,17 +179,11 @@ pub(crate) fn load(
         let si = written.numbers.iter().map(|&load| sign * (load * unit.factor)).collect();
         return Some(AxisValues { si, written: written.as_written(None, None), reading: name });
     }
-    let (width, of_width) = match width {
-        Some(width) => (width, String::new()),
-        None => match sizes_of_file(series, &WIDTH, findings)? {
-            Some(found) => found,
-            None => {
-                let message = format!("is missing: a load in {} needs it", unit.spelling);
-                let help = "add width = \"20 cm\", or the name of the column that holds it";
-                findings.error(&axis.size_key, message, help);
-                return None;
-            }
-        },
+    let Some((width, of_width)) = or_of_file(width, series, &WIDTH, findings)? else {
+        let message = format!("is missing: a load in {} needs it", unit.spelling);
+        let help = "add width = \"20 cm\", or the name of the column that holds it";
+        findings.error(&axis.size_key, message, help);
+        return None;
     };
     let pairs = written.numbers.iter().zip(&width);
     let si = pairs.map(|(&load, &w)| sign * (load * unit.factor / w)).collect();
@@ -281,13 +270,17 @@ fn sizes(
     }
 }
 
-/// Reads the gauge or the width that the file states, for each row, in metres, and says where; the inner `None`
-/// where it states none.
-fn sizes_of_file(
+/// Returns the gauge or the width that the sheet gives, or reads that of the file and says its place: for each
+/// row, in metres; the inner `None` where neither has one.
+fn or_of_file(
+    given: Option<Vec<f64>>,
     series: &Series,
     words: &[&str],
     findings: &mut Findings<'_>,
 ) -> Option<Option<(Vec<f64>, String)>> {
+    if let Some(sizes) = given {
+        return Some(Some((sizes, String::new())));
+    }
     if let Some(found) = stated(&series.stated, words) {
         let place = format!(", \"{}\" on line {}", found.name, found.line);
         return Some(Some((vec![found.length; series.block.rows.len()], place)));

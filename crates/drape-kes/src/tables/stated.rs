@@ -1,6 +1,6 @@
 //! Gauge and width that a file states: above its numbers, or in a column of them.
 
-use crate::tables::block::Block;
+use crate::tables::block::{Block, unbracketed};
 use crate::tables::grid::{Cell, Row};
 use crate::tables::heading::{Heading, normal};
 use crate::tables::number::{Decimal, parse};
@@ -56,9 +56,9 @@ pub(crate) fn stated(rows: &[Row], words: &[&str]) -> Option<Stated> {
     all.iter().all(|other| (other.length / first.length - 1.0).abs() < 1e-9).then_some(first)
 }
 
-/// Returns the column of numbers, beside some, that holds the length that goes by one of some names; `None`
+/// Returns the column of lengths whose heading is one of some names, other than the columns of the curve; `None`
 /// where there is none, or several.
-pub(crate) fn size_column(block: &Block, beside: &[usize], words: &[&str]) -> Option<usize> {
+pub(crate) fn size_column(block: &Block, of_curve: &[usize], words: &[&str]) -> Option<usize> {
     let of_length = |heading: &Heading| {
         let unit = heading.unit.as_deref();
         unit.is_some_and(|unit| parse_unit(unit, &[Quantity::Length]).is_ok())
@@ -68,7 +68,7 @@ pub(crate) fn size_column(block: &Block, beside: &[usize], words: &[&str]) -> Op
         heading.is_some_and(|heading| is_named(&heading.name, words) && of_length(heading))
     };
     let numbers = block.number_columns().into_iter();
-    let mut sizes = numbers.filter(|column| !beside.contains(column)).filter(is_size);
+    let mut sizes = numbers.filter(|column| !of_curve.contains(column)).filter(is_size);
     sizes.next().filter(|_| sizes.next().is_none())
 }
 
@@ -92,7 +92,7 @@ fn of_row(row: &Row, words: &[&str]) -> Option<Stated> {
     }
     let (number, own) = split_unit(value.trim())?;
     let unit = own.or_else(|| heading.unit.clone()).or_else(|| cells.get(2).cloned())?;
-    let unit = parse_unit(unit.trim_matches(['(', ')', '[', ']']), &[Quantity::Length]).ok()?;
+    let unit = parse_unit(unbracketed(&unit), &[Quantity::Length]).ok()?;
     let length = number * unit.factor;
     (length > 0.0).then_some(Stated { length, line: row.line, name: heading.name })
 }

@@ -20,7 +20,7 @@ pub struct SurfaceMemory {
     pub(super) growth_fraction: f64,
 }
 
-/// Contents of a file from which a [`SurfaceContact`] goes on: its memory, the gaps of its open
+/// Saved state of a [`SurfaceContact`], from which it is resumed: its memory, the gaps of its open
 /// seams and its candidate pairs.
 ///
 /// [`SurfaceContact`]: super::SurfaceContact
