@@ -27,7 +27,7 @@ pub use particle::{NearestParticle, ParticleContact, ParticleSettings, ParticleS
 pub use surface::{
     CandidatePairs, CcdFilter, ContactDistances, Detector, FrictionEnergy, Gap, GaussNewton,
     Gradient, Hessian, Intersection, Pair, PairDistance, PairKind, PinchPolicy, PinchedVertices,
-    SavedContact, SewnPlacement, StepFraction, StepLimit, Surface, SurfaceContact, SurfaceMemory,
-    SurfaceParts, SurfaceSettings, SurfaceStep, SurfaceSummary, Sweep, Truncation,
-    equivalence_classes, intersections, segment_meets_triangle,
+    SavedContact, SeamIntersections, SewnPlacement, StepFraction, StepLimit, Surface,
+    SurfaceContact, SurfaceMemory, SurfaceParts, SurfaceSettings, SurfaceStep, SurfaceSummary,
+    Sweep, Truncation, equivalence_classes, intersections, segment_meets_triangle,
 };

@@ -33,8 +33,8 @@ mod tracked_pairs;
 pub use barrier::{Gap, GaussNewton, Gradient, Hessian};
 pub use broad_phase::{CandidatePairs, Sweep};
 pub use contact::{
-    PairDistance, PinchPolicy, PinchedVertices, SavedContact, SewnPlacement, SurfaceContact,
-    SurfaceMemory, SurfaceSettings, SurfaceSummary,
+    PairDistance, PinchPolicy, PinchedVertices, SavedContact, SeamIntersections, SewnPlacement,
+    SurfaceContact, SurfaceMemory, SurfaceSettings, SurfaceSummary,
 };
 pub use contact_surface::Surface;
 pub use detector::Detector;

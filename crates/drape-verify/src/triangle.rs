@@ -3,7 +3,7 @@
 //! `mesh` makes the vertices, `distance` and `verdict` leave out the features that are joined.
 
 /// Vertex of a triangle; vertices that are sewn together have the same number.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Vertex {
     pub(crate) number: u32,
     /// Numbers of the two vertices between which it lies, if it is tied to an edge.

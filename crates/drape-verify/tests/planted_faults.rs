@@ -235,11 +235,17 @@ fn sides_of_an_open_seam_that_cross_are_found() {
         let verdict = sewn(apart(-0.05, -depth), [0.05, -0.05, 0.1]);
         assert_eq!(verdict.intersections, 1, "{depth}: {verdict:?}");
     }
-    // Within the gap of a seam that counts as closed its sides may intersect, beyond it not.
-    let across = |gap: f64| {
-        sewn([[0.0, -gap, -0.1 * gap], [0.1, -gap, 0.1 * gap]], [0.05, 0.1, 0.0]).intersections
-    };
-    assert_eq!([5e-5, 2e-4].map(across), [0, 1]);
+    // Within the gap of a seam that counts as closed its sides may intersect, which is counted, and
+    // beyond it not.
+    let across =
+        |gap: f64| sewn([[0.0, -gap, -0.1 * gap], [0.1, -gap, 0.1 * gap]], [0.05, 0.1, 0.0]);
+    let within = across(5e-5);
+    assert!(within.holds() && (within.intersections, within.exempt) == (0, 1), "{within:?}");
+    let gap = 5e-5 * 1.0_f64.hypot(0.1);
+    assert!((within.exempt_depth - gap).abs() < 1e-12 * gap, "{within:?}");
+    let beyond = across(2e-4);
+    assert_eq!((beyond.intersections, beyond.exempt, beyond.exempt_depth), (1, 0, 0.0));
+    assert_eq!(across(0.0).exempt, 0, "its sides are joined");
     // One pair of twins has met, and the other side goes through.
     let verdict = sewn([[0.0, 0.0, 0.0], [0.06, -0.05, -0.01]], [0.05, -0.04, 0.1]);
     assert_eq!(verdict.intersections, 1, "{verdict:?}");

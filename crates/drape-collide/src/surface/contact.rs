@@ -25,6 +25,7 @@ mod surface_contact;
 #[cfg(test)]
 mod thrown_sheet;
 
+pub use open_seams::SeamIntersections;
 pub use pinch::PinchedVertices;
 pub use placing::SewnPlacement;
 pub use saved::{SavedContact, SurfaceMemory};

@@ -11,7 +11,7 @@ mod intersections;
 mod predicate;
 mod winding;
 
-pub(crate) use intersections::IntersectionTest;
 pub use intersections::{Intersection, intersections};
+pub(crate) use intersections::{IntersectionTest, exempt_intersections};
 pub use predicate::segment_meets_triangle;
 pub(crate) use winding::encloses;

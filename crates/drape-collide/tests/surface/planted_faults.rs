@@ -1,8 +1,8 @@
 //! Faults that are planted in a surface: the exact test finds each, and the step filter leads to none.
 
 use drape_collide::{
-    ContactDistances, PinchPolicy, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
-    SurfaceStep,
+    ContactDistances, PinchPolicy, SeamIntersections, Surface, SurfaceContact, SurfaceParts,
+    SurfaceSettings, SurfaceStep,
 };
 
 type Point = [f64; 3];
@@ -178,6 +178,53 @@ fn sides_of_a_seam_cross_where_it_is_open_and_not_where_it_is_closed() {
     assert_eq!(contact.intersections(&apart).unwrap(), []);
     contact.close_seams();
     assert_eq!(contact.intersections(&positions).unwrap(), []);
+}
+
+#[test]
+fn intersections_within_the_gap_of_a_seam_that_counts_as_closed_are_counted_with_their_depth() {
+    // The edge of the second goes through the first, at its corners to the front and to the back.
+    let across = |gap: f64| {
+        let [first, mut second] = sewn([-gap, 0.0], [0.05, 0.1, 0.0]);
+        (second[0][2], second[1][2]) = (-0.1 * gap, 0.1 * gap);
+        flat(&[first, second])
+    };
+    let mut contact = contact(cloth(&sewn([8e-3, 0.0], [0.05, 0.1, 0.0]), &TWINS), Vec::new());
+    let gaps = |gap: f64| [gap, gap, f64::INFINITY, gap, gap, f64::INFINITY];
+    contact.open_seams(&gaps(8e-3), &flat(&sewn([8e-3, 0.0], [0.05, 0.1, 0.0]))).unwrap();
+    let none = SeamIntersections::default();
+    assert_eq!(contact.seam_intersections(&across(5e-5)), Ok(none), "they are found by the test");
+    assert!(!contact.intersections(&across(5e-5)).unwrap().is_empty());
+    contact.set_seam_gaps(&gaps(0.0));
+    assert_eq!(contact.intersections(&across(5e-5)).unwrap(), []);
+    for gap in [5e-5, 5e-4] {
+        let found = contact.seam_intersections(&across(gap)).unwrap();
+        let depth = gap * 1.0_f64.hypot(0.1);
+        assert!(found.count > 0 && (found.depth - depth).abs() < 1e-9 * depth, "{found:?}");
+    }
+    assert_eq!(contact.seam_intersections(&across(0.0)), Ok(none), "they are one edge");
+    contact.close_seams();
+    assert_eq!(contact.seam_intersections(&across(5e-5)), Ok(none));
+    assert!(contact.seam_intersections(&[f64::NAN; 18]).is_ok(), "no seam is open");
+    contact.open_seams(&gaps(0.0), &across(0.0)).unwrap();
+    assert!(contact.seam_intersections(&[f64::NAN; 18]).is_err());
+}
+
+#[test]
+fn intersections_of_a_tied_vertex_are_as_deep_as_it_is_from_its_edge() {
+    // The first corner of the second comes to lie on the upper edge of the first, and is behind it.
+    let at = |y: f64, z: f64| {
+        let first = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, -0.1, 0.0]];
+        flat(&[first, [[0.05, y, z], [0.05, 0.1, 0.05], [0.06, 0.1, 0.05]]])
+    };
+    let mut parts = cloth(&[LOWER, LOWER], &[]);
+    parts.ties.push([3, 0, 1]);
+    let mut contact = contact(parts, Vec::new());
+    let gaps = [f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0, f64::INFINITY, f64::INFINITY];
+    contact.open_seams(&gaps, &at(1e-3, 0.0)).unwrap();
+    let found = contact.seam_intersections(&at(-4e-5, -1e-5)).unwrap();
+    let depth = 4e-5_f64.hypot(1e-5);
+    assert!(found.count > 0 && (found.depth - depth).abs() < 1e-9 * depth, "{found:?}");
+    assert_eq!(contact.seam_intersections(&at(-4e-5, 1e-5)).unwrap().count, 0, "before it");
 }
 
 #[test]

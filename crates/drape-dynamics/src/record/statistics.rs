@@ -20,6 +20,10 @@ pub(crate) struct Statistics {
     /// Largest numbers of particles that were thinned, and that were released, after a step.
     thinned_max: usize,
     released_max: usize,
+    /// Largest number of exempt intersections after a step.
+    exempt_max: usize,
+    /// Deepest exempt intersection after a step, in m.
+    exempt_depth_max: f64,
     /// Smallest distance of two surfaces after a step, in m.
     min_distance: f64,
     /// Hashes after the steps, where they are asked for.
@@ -35,6 +39,8 @@ impl Statistics {
             pairs_max: 0,
             thinned_max: 0,
             released_max: 0,
+            exempt_max: 0,
+            exempt_depth_max: 0.0,
             min_distance: f64::INFINITY,
             hashes: None,
         }
@@ -49,6 +55,9 @@ impl Statistics {
                 let pinched = surfaces.contact.pinched_vertices();
                 self.thinned_max = self.thinned_max.max(pinched.thinned);
                 self.released_max = self.released_max.max(pinched.released);
+                let exempt = surfaces.exempt(&world.state.positions);
+                self.exempt_max = self.exempt_max.max(exempt.count);
+                self.exempt_depth_max = self.exempt_depth_max.max(exempt.depth);
                 near.touching
             }
             Contact::Particles(bodies) => bodies.contact.touching_particles(&world.state.positions),
@@ -100,6 +109,8 @@ impl Statistics {
             pairs_max: self.pairs_max,
             thinned_max: self.thinned_max,
             released_max: self.released_max,
+            exempt_max: self.exempt_max,
+            exempt_depth_max: self.exempt_depth_max,
             start_growth_fraction: 1.0,
             growth_fraction: world.contact.growth_fraction(),
             ..Contacts::default()
@@ -112,6 +123,7 @@ impl Statistics {
                     min_distance: finite(self.min_distance),
                     intersections: found.map_or(usize::MAX, |found| found.len()),
                     intersections_found: surfaces.intersections_found,
+                    exempt: surfaces.exempt(positions).count,
                     start_growth_fraction: surfaces.start_growth_fraction,
                     ..contacts
                 }

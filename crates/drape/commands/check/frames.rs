@@ -105,6 +105,13 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         verdict.intersections,
         verdict.min_distance.map_or("beyond the activation distance".to_owned(), millimetres),
     );
+    if verdict.exempt > 0 {
+        text += &format!(
+            ", {} intersections at most {} deep within the gap of a seam that closes",
+            verdict.exempt,
+            millimetres(verdict.exempt_depth)
+        );
+    }
     if verdict.growth < 1.0 {
         text += &format!(", minimum separations grown to {:.2} %", 100.0 * verdict.growth);
     }

@@ -24,7 +24,7 @@ pub(crate) fn describe(summary: &Summary) -> String {
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; \
          99 of 100 curvatures below {:.0} 1/m\n\
-         contact: smallest distance {smallest}, {} intersections or particles inside{}{}{}",
+         contact: smallest distance {smallest}, {} intersections or particles inside{}{}{}{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,
@@ -35,9 +35,24 @@ pub(crate) fn describe(summary: &Summary) -> String {
         strain.shear_max.to_degrees(),
         strain.curvature_p99,
         contact.intersections,
+        exempt(contact),
         pinched(contact),
         grown(contact),
         energy.as_ref().map_or(String::new(), balance),
+    )
+}
+
+/// Describes intersections of closing seams.
+fn exempt(contact: &Contacts) -> String {
+    if contact.exempt_max == 0 {
+        return String::new();
+    }
+    format!(
+        "; while seams closed, up to {} intersections of their sides, at most {:.4} mm deep, and {} \
+         at the end",
+        contact.exempt_max,
+        1e3 * contact.exempt_depth_max,
+        contact.exempt
     )
 }
 

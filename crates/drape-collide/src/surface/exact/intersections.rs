@@ -39,6 +39,20 @@ pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Interse
     Ok(test.found)
 }
 
+/// Returns the same of edges and triangles without a common vertex that a seam exempts, sorted.
+///
+/// # Errors
+///
+/// The same.
+pub(crate) fn exempt_intersections(
+    surface: &Surface,
+    positions: &[f64],
+) -> Result<Vec<Intersection>, Error> {
+    let mut test = IntersectionTest { of_exempt: true, ..IntersectionTest::default() };
+    test.run(surface, positions, None)?;
+    Ok(test.found)
+}
+
 /// Intersection test with its tree and lists, which allocate only when they grow.
 #[derive(Debug, Default)]
 pub(crate) struct IntersectionTest {
@@ -47,6 +61,8 @@ pub(crate) struct IntersectionTest {
     /// Revision of the bodies' positions that their boxes are of; none if they are not to be kept.
     fitted: Option<u64>,
     chunks: Vec<Vec<Intersection>>,
+    /// Whether pairs are tested that a seam exempts, instead of the others.
+    of_exempt: bool,
     /// Intersections of the last run, sorted.
     pub(crate) found: Vec<Intersection>,
 }
@@ -84,7 +100,7 @@ impl IntersectionTest {
             Bounds::around(primitives.edges[edge as usize].map(point), 0.0)
         });
         let free = self.tree.free_bounds(order);
-        let (tree, body_edges) = (&self.tree, &self.body_edges);
+        let (tree, body_edges, of_exempt) = (&self.tree, &self.body_edges, self.of_exempt);
         let scan = |(chunk, runs): (usize, &[Run]), found: &mut Vec<Intersection>| {
             found.clear();
             if !body_edges.may_meet(chunk, &free) {
@@ -107,7 +123,8 @@ impl IntersectionTest {
                     let vertices = [&ends(k)[..], &primitives.triangles[triangle as usize]];
                     let classes = [&classes[k][..], &primitives.triangle_classes[slot]];
                     let exempt = surface.separations.exempt(&primitives.seams, vertices, classes);
-                    if !exempt && segment_meets_triangle(segment(k), corners) {
+                    let is_tested = exempt == of_exempt && !(exempt && share_vertex(vertices));
+                    if is_tested && segment_meets_triangle(segment(k), corners) {
                         found.push(Intersection { edge: run.first + k as u32, triangle });
                     }
                 });
@@ -121,4 +138,9 @@ impl IntersectionTest {
         self.chunks.iter().for_each(|found| self.found.extend_from_slice(found));
         Ok(())
     }
+}
+
+/// Returns whether two primitives, given by their vertices, share one.
+fn share_vertex([one, other]: [&[u32]; 2]) -> bool {
+    one.iter().any(|vertex| other.contains(vertex))
 }

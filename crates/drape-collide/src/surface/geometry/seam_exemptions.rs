@@ -77,7 +77,12 @@ impl SeamExemptions {
 
     /// Returns whether the vertices of a class are tied to two of a primitive's.
     fn lies_on(&self, class: &u32, primitive: &[u32]) -> bool {
-        let Ok(place) = self.ties.binary_search_by_key(class, |tie| tie.own) else { return false };
-        self.ties[place].ends.iter().all(|end| primitive.contains(end))
+        self.ends(*class).is_some_and(|ends| ends.iter().all(|end| primitive.contains(end)))
+    }
+
+    /// Returns the classes between which the vertices of a class are tied, if they are.
+    pub(crate) fn ends(&self, class: u32) -> Option<[u32; 2]> {
+        let place = self.ties.binary_search_by_key(&class, |tie| tie.own).ok()?;
+        Some(self.ties[place].ends)
     }
 }

@@ -6,7 +6,9 @@
 
 use std::ops::Range;
 
-use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep, Triangulation};
+use drape_collide::{
+    Body, Error, PairDistance, SeamIntersections, Shape, SurfaceContact, SurfaceStep, Triangulation,
+};
 use drape_implicit::{StepLimit, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 use serde::{Deserialize, Serialize};
@@ -336,6 +338,13 @@ impl Surfaces {
             }
             Err(_) => false,
         }
+    }
+
+    /// Intersections at some positions, in m, that are exempt: those of the sides of seams that count
+    /// as closed while their vertices are not one point yet.
+    pub(crate) fn exempt(&self, positions: &[f64]) -> SeamIntersections {
+        // Positions that are not finite have no intersections; the test of the step reports them.
+        self.contact.seam_intersections(positions).unwrap_or_default()
     }
 
     /// Description of the place where surfaces are closest to their minimum separation, with the
