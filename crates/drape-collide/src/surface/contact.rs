@@ -19,16 +19,17 @@ mod open_seams;
 mod pinch;
 mod placing;
 mod saved;
+mod seam_intersections;
 mod settings;
 mod summary;
 mod surface_contact;
 #[cfg(test)]
 mod thrown_sheet;
 
-pub use open_seams::SeamIntersections;
 pub use pinch::PinchedVertices;
 pub use placing::SewnPlacement;
 pub use saved::{SavedContact, SurfaceMemory};
+pub use seam_intersections::SeamIntersections;
 pub use settings::{PinchPolicy, SurfaceSettings};
 pub use summary::{PairDistance, SurfaceSummary};
 pub use surface_contact::SurfaceContact;
