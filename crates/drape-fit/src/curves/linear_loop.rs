@@ -364,3 +364,54 @@ impl<'a> MeasuredLoop<'a> {
         named
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_kes::{Direction, Test};
+
+    use super::*;
+
+    #[test]
+    fn a_guess_follows_a_loop_of_two_elements_with_lengths_of_the_grid() {
+        // In 1/m, from 0 to 250, back to -250 and to 250 again.
+        let history: Vec<f64> = (0..=200)
+            .map(|k| match k {
+                0..=40 => 6.25 * f64::from(k),
+                41..=120 => 250.0 - 6.25 * f64::from(k - 40),
+                _ => -250.0 + 6.25 * f64::from(k - 120),
+            })
+            .collect();
+        let [fast, slow] = [3, 10];
+        let lengths: [f64; LENGTHS] =
+            geometric_grid(LENGTH_RANGE[0] * 250.0, LENGTH_RANGE[1] * 250.0);
+        let path = FrictionPath::new(&history);
+        for (part, order) in [(0.4, FrictionOrder::Parallel), (-0.3, FrictionOrder::Second)] {
+            for growth in [0.0, 0.002] {
+                let [one, other] = [fast, slow].map(|i| {
+                    let UnitFriction { constant, growing, .. } = path.unit_friction(lengths[i]);
+                    let unit = constant.iter().zip(&growing).map(|(c, g)| c + growth * g);
+                    unit.collect::<Vec<f64>>()
+                });
+                let load = (0..history.len())
+                    .map(|i| 1e-5 * history[i] + 2e-4 + 3e-4 * (one[i] + part * other[i]))
+                    .collect();
+                let curve = Curve::new(Test::Bending, Direction::Warp, history.clone(), load);
+                let curve = curve.expect("a loop");
+                let measured = MeasuredLoop::new(&curve, "rigidity", &history).expect("it bends");
+                let plateau = if growth > 0.0 { Plateau::Growing } else { Plateau::Constant };
+                let starts = measured.pairs(LoopForm { order, plateau });
+                let best = starts
+                    .into_iter()
+                    .min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
+                    .expect("a guess");
+                let found = [&[best.stiffness, best.zero][..], &best.friction].concat();
+                let ratio = lengths[fast] / lengths[slow];
+                let exact = [1e-5, 2e-4, 3e-4, lengths[slow], part, ratio];
+                for (found, exact) in found.iter().zip(exact) {
+                    assert!((found / exact - 1.0).abs() < 1e-6, "{found} is not {exact}");
+                }
+                assert!((best.growth - growth).abs() < 1e-6 * 0.002, "{}", best.growth);
+            }
+        }
+    }
+}

@@ -308,3 +308,51 @@ fn taut(curve: &Curve, loading: &Range<usize>) -> Zeros {
     let before = &load[loading.start..=taut];
     Zeros { strain: strain[taut], load: before.iter().sum::<f64>() / before.len() as f64 }
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_kes::{Direction, Test};
+
+    use super::*;
+    use crate::curves::tensile_form::StripKind;
+
+    #[test]
+    fn a_guess_follows_a_curve_whose_toe_and_friction_are_of_the_grid() {
+        let top = 0.04;
+        // The recovery ends before the strip is slack. Friction of a guess has the toe ratio DEEP.
+        let strain: Vec<f64> =
+            (0..=80).map(|k| 0.02 * top * f64::from(if k <= 50 { k } else { 100 - k })).collect();
+        for (toe, growth) in [(TOES[2], 1.0), (TOES[1], GROWTHS[1])] {
+            let law = TractionLaw {
+                backbone: TractionBackbone::Primed(Primed {
+                    stiffness: 20_000.0,
+                    toe_ratio: DEEP,
+                    toe_strain: toe * top,
+                    toe_strain_after: growth * toe * top,
+                }),
+                friction: BlimanSorine::first_order(12.0, LENGTHS[2] * top),
+                buckling: Buckling::default(),
+            };
+            let mut load = vec![0.0; strain.len()];
+            drive_strip(&law, strain.iter().copied(), &mut load);
+            let curve = Curve::new(Test::Tensile, Direction::Warp, strain.clone(), load);
+            let guess = InitialGuess::new(&curve.expect("a curve")).expect("it rises");
+            let strip = StripKind { slack: false, recovers: true };
+            let moves = growth > 1.0;
+            let toe_form = if moves { Toe::Moving } else { Toe::Still };
+            let form = TensileForm { model: TractionModel::Primed, toe: toe_form, strip };
+            let growths = if moves { &GROWTHS[..] } else { &[1.0] };
+            let starts = guess.primed(&form, growths);
+            let best = starts.iter().min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum));
+            let best = best.expect("a guess");
+            let found = [&best.backbone[..], &[best.plateau, best.length]].concat();
+            let mut exact = vec![20_000.0, DEEP, toe * top];
+            exact.extend(moves.then_some(growth));
+            exact.extend([12.0, LENGTHS[2] * top]);
+            assert_eq!(found.len(), exact.len());
+            for (found, exact) in found.iter().zip(exact) {
+                assert!((found / exact - 1.0).abs() < 1e-6, "{found} is not {exact}");
+            }
+        }
+    }
+}
