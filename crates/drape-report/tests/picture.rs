@@ -229,6 +229,23 @@ fn front_and_back_differ_and_so_do_warp_and_weft() {
 }
 
 #[test]
+fn a_hem_is_as_wide_as_a_line_however_large_its_facets_are() {
+    let view = View { azimuth_deg: 0.0, elevation_deg: 90.0, width: 1200, height: 900, ..SMALL };
+    for cells in [1, 20] {
+        let (shape, _) = square(0.5, 0.0, cells);
+        let scene = Scene { cloths: vec![cloth(&shape)], ..Scene::default() };
+        let picture = render(&scene, &view).unwrap();
+        let row = |x: u32| u32::from(picture.pixel(x, 433).unwrap()[1]);
+        let plain = row(600);
+        let edge = (0..600).find(|&x| row(x) < 255).unwrap();
+        // 1.6 pixels that the hem covers by half.
+        let dark = (edge..600).filter(|&x| row(x) + 8 < plain).count();
+        assert!((1..=3).contains(&dark), "{cells} cells: {dark} pixels");
+        assert!((edge + 4..600).all(|x| row(x).abs_diff(plain) <= 8), "{cells} cells");
+    }
+}
+
+#[test]
 fn lines_too_close_to_be_seen_leave_an_even_tone() {
     let (shape, coordinates) = square(0.5, 0.0, 20);
     let scene =
@@ -276,6 +293,10 @@ fn the_floor_shows_shadow_and_nothing_else() {
         }
     }
     assert!(darker > 1000, "the shadow has {darker} pixels");
+    // A shadow takes at most three quarters of the light, as numbers of sRGB.
+    let darkest = shaded.pixels().iter().zip(bare.pixels()).filter(|(_, b)| **b == 255);
+    let darkest = darkest.map(|(a, _)| *a).min().unwrap();
+    assert!((137..200).contains(&darkest), "{darkest}");
     assert_eq!(shaded.pixel(3, 3), Some([255; 3]), "the page is white");
 }
 
