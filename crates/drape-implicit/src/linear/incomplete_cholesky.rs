@@ -227,6 +227,24 @@ mod tests {
     }
 
     #[test]
+    fn the_factor_of_a_matrix_in_other_units_is_that_factor_in_these_units() {
+        let b: Vec<f64> = (0..60).map(|k| (k as f64).cos()).collect();
+        let solution = |unit: f64| {
+            let mut matrix = chain(20, 3.0, -1.0);
+            matrix.values_mut().iter_mut().for_each(|x| *x *= unit);
+            let mut factored = factorise(&matrix);
+            assert_eq!(factored.failed, Ok(0), "in units of {unit:e}");
+            apply(&mut factored, &b)
+        };
+        let own = solution(1.0);
+        // Powers of two: no digit changes.
+        for unit in [2f64.powi(-30), 2f64.powi(30)] {
+            let scaled: Vec<f64> = solution(unit).into_iter().map(|x| x * unit).collect();
+            assert_eq!(scaled, own, "in units of {unit:e}");
+        }
+    }
+
+    #[test]
     fn batches_may_lead_beyond_the_last_row_with_zeros() {
         // Runs of many batches of which one couples to the last particle, another to the first of
         // the last.

@@ -135,6 +135,10 @@ impl Newton {
             if search.current.obstacle_time < 1.0 {
                 advance_obstacles(search, equations)?;
                 self.least_residual = search.current.norm;
+                if search.current.solves(equations.limit) {
+                    // Without a residual there is no direction.
+                    continue;
+                }
             }
             let before = search.current.norm;
             self.least_residual = self.least_residual.min(before);

@@ -18,6 +18,8 @@ struct Floor {
     now: f64,
     /// Least distance ever evaluated.
     nearest: f64,
+    /// Largest advance of the floor in a trial step, as a part of its motion.
+    advance_max: f64,
     /// Longest step whose solution is certified.
     certified: f64,
     /// Whether the floor tells its work.
@@ -33,6 +35,7 @@ impl Floor {
             ends: [0.0; 2],
             now: 0.0,
             nearest: f64::INFINITY,
+            advance_max: 1.0,
             certified: f64::INFINITY,
             tells_work: true,
             dt: 0.0,
@@ -118,7 +121,10 @@ impl StepFilter for Floor {
         let closing = (self.ends[1] - self.ends[0]) * step.obstacle_advance - step.displacements[1];
         let room = 0.9 * (step.start[1] - self.now);
         if closing <= room {
-            return StepLimit::Whole;
+            return match step.obstacle_advance <= self.advance_max {
+                true => StepLimit::Whole,
+                false => StepLimit::Shortened { obstacle_advance: self.advance_max },
+            };
         }
         let part = room / closing;
         step.displacements.iter_mut().for_each(|displacement| *displacement *= part);
@@ -200,6 +206,18 @@ fn a_floor_that_rises_by_many_times_its_activation_distance_carries_the_particle
     assert!(floor.nearest > 0.0);
     // It flies at most as an elastic collision would throw it.
     assert!(state.velocities[1] <= 2.0 + 1e-9, "{:?}", state.velocities);
+}
+
+#[test]
+fn a_step_ends_only_when_the_floor_has_arrived_however_slowly_it_is_let_on() {
+    for advance_max in [0.3, 0.1] {
+        // It never comes near the particle, whose forces balance all the while.
+        let mut floor = Floor { advance_max, ..Floor::new(1.0) };
+        let mut stepper = Stepper::new(&floor, settings()).unwrap();
+        let mut state = falling(10.0, 0.0);
+        stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
+        assert_eq!((floor.now, &floor.accepted[..]), (0.01, &[0.01][..]));
+    }
 }
 
 #[test]
