@@ -143,6 +143,7 @@ impl StepFilter for Floor {
     }
 
     fn is_intersection_free(&mut self, _: &[f64]) -> bool {
+        assert!(self.now == self.ends[1], "a solution is one with the floor at its end");
         self.dt <= self.certified
     }
 }
