@@ -206,8 +206,16 @@ fn motions_that_do_not_fit_are_refused_with_what_would() {
     let error = one.lead_body("ball", &BodyTarget::Vertices(point), 1.0).unwrap_err().to_string();
     assert!(error.contains("triangle 0 has no area"), "{error}");
     // The time that it advises is enough.
-    let needed = needed.parse::<f64>().unwrap() * 1.001;
-    one.lead_body("ball", &up(10.0), needed).unwrap();
+    one.lead_body("ball", &up(10.0), needed.parse().unwrap()).unwrap();
+    // So is the stiffness that it advises, at whatever speed.
+    for height in [0.05, 0.06, 0.07, 0.08, 0.09] {
+        let target = up(height);
+        let fast = simulation("", &ball("")).lead_body("ball", &target, 0.002).unwrap_err();
+        let fast = fast.to_string();
+        let stiffness = fast.split(" or the scene ").nth(1).unwrap();
+        let mut stiffer = simulation(stiffness, &ball(""));
+        stiffer.lead_body("ball", &target, 0.002).unwrap_or_else(|error| panic!("{fast}: {error}"));
+    }
     let mut particles = simulation("contact.surfaces = false", &ball(""));
     let vertices = particles.bodies()[0].1.vertices.clone();
     let target = BodyTarget::Vertices(vertices);

@@ -37,13 +37,35 @@ pub fn figure(value: f64) -> String {
 /// ```
 #[must_use]
 pub fn figure_below(value: f64) -> String {
+    two_digits(value, -1.0)
+}
+
+/// Returns a number no smaller than a value, with two digits: for advice to reach it.
+///
+/// ```
+/// use drape_input::figure_above;
+///
+/// assert_eq!(figure_above(0.00191), "0.002");
+/// assert_eq!(figure_above(1.12e11), "1.2e11");
+/// assert_eq!(figure_above(0.05), "0.05");
+/// ```
+#[must_use]
+pub fn figure_above(value: f64) -> String {
+    two_digits(value, 1.0)
+}
+
+/// Returns the nearest number with two digits that does not fall short of a value in a direction: -1 for
+/// down, 1 for up.
+fn two_digits(value: f64, direction: f64) -> String {
     let rounded = |value: f64| format!("{value:.1e}").parse().unwrap_or(value);
-    let mut below: f64 = rounded(value);
-    if below > value {
-        // Half of the last digit, and less than a whole one: the next number below.
-        below = rounded(below - 0.55 * 10_f64.powf(below.abs().log10().floor() - 1.0));
+    let falls_short = |number: f64| direction * (number - value) < 0.0;
+    let mut number: f64 = rounded(value);
+    if falls_short(number) {
+        // Half of the last digit, and less than a whole one: the next number.
+        let digit = 10_f64.powf(number.abs().log10().floor() - 1.0);
+        number = rounded(number + direction * 0.55 * digit);
     }
-    figure(if below > value { value } else { below })
+    figure(if falls_short(number) { value } else { number })
 }
 
 /// Returns a text in which numbers have the digits that [`figure`] gives them: for messages of

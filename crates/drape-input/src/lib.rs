@@ -35,7 +35,7 @@ pub use decode::Faults;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
 pub use document::{Document, nearest_file};
-pub use figure::{excerpt, figure, figure_below, figures, tidy};
+pub use figure::{excerpt, figure, figure_above, figure_below, figures, tidy};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,

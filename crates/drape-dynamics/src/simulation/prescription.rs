@@ -5,6 +5,7 @@
 //! prescribes.
 
 use drape_collide::{Shape, Triangulation};
+use drape_input::figure_above;
 use drape_scene::{BodyMotion, MotionKey, RigidMotion, ShapeMotion};
 
 use super::Simulation;
@@ -149,12 +150,12 @@ impl Simulation {
             }
             let most = surfaces.speed_max();
             if !(speed <= most) {
-                let needed = seconds * speed / most;
-                let stiffness = surfaces.stiffness_of_speed(speed);
+                let needed = figure_above(seconds * speed / most);
+                let stiffness = figure_above(surfaces.stiffness_of_speed(speed));
                 return Err(unsuited(format!(
                     "the body \"{name}\" moves at {speed:.3} m/s; contact keeps these fabrics apart up \
-                     to {most:.3} m/s: give it {needed:.4} s or more, or the scene \
-                     contact.stiffness = {stiffness:.1e}"
+                     to {most:.3} m/s: give it {needed} s or more, or the scene \
+                     contact.stiffness = {stiffness}"
                 )));
             }
         }
