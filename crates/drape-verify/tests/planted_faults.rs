@@ -90,6 +90,7 @@ struct Planted {
     panels: Vec<Shape>,
     body: Option<Shape>,
     twins: &'static str,
+    ties: &'static str,
     /// Half of the minimum separation, in m.
     separation: f64,
     /// Material coordinates, in m; metres apart if empty.
@@ -114,9 +115,10 @@ impl Planted {
         };
         let panels: Vec<String> = self.panels.iter().map(part).collect();
         let bodies: Vec<String> = self.body.iter().map(part).collect();
-        let (panels, bodies, twins) = (panels.join(", "), bodies.join(", "), self.twins);
+        let (panels, bodies) = (panels.join(", "), bodies.join(", "));
+        let Planted { twins, ties, .. } = self;
         let manifest = format!(
-            r#"{{ "format": 1, "guarded": true, "panels": [{panels}], "bodies": [{bodies}], "twins": [{twins}] }}"#
+            r#"{{ "format": 1, "guarded": true, "panels": [{panels}], "bodies": [{bodies}], "twins": [{twins}], "ties": [{ties}] }}"#
         );
         std::fs::write(folder.join("surfaces.json"), manifest + "\n").unwrap();
         let mut all = Shape { vertices: Vec::new(), triangles: Vec::new() };
@@ -249,6 +251,25 @@ fn sides_of_an_open_seam_that_cross_are_found() {
     // One pair of twins has met, and the other side goes through.
     let verdict = sewn([[0.0, 0.0, 0.0], [0.06, -0.05, -0.01]], [0.05, -0.04, 0.1]);
     assert_eq!(verdict.intersections, 1, "{verdict:?}");
+}
+
+#[test]
+fn a_tied_vertex_beyond_its_edge_is_counted_with_its_distance_from_it() {
+    // The first corner of the second panel comes to lie on the upper edge of the first.
+    let first = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, -0.1, 0.0]];
+    let tied = |y: f64, z: f64| {
+        let second = [[0.05, y, z], [0.05, 0.1, 0.05], [0.06, 0.1, 0.05]];
+        let panels = vec![Shape::triangle(first), Shape::triangle(second)];
+        Planted { panels, ties: "[3, 0, 1]", separation: 1e-3, ..Planted::default() }.verify()
+    };
+    let behind = tied(-4e-5, -1e-5);
+    assert!(behind.holds() && (behind.intersections, behind.exempt) == (0, 1), "{behind:?}");
+    let depth = 4e-5_f64.hypot(1e-5);
+    assert!((behind.exempt_depth - depth).abs() < 1e-9 * depth, "{behind:?}");
+    for [y, z] in [[-4e-5, 1e-5], [0.0, 0.0]] {
+        assert_eq!((tied(y, z).intersections, tied(y, z).exempt), (0, 0), "{y} {z}");
+    }
+    assert_eq!(tied(-1.2e-4, -1e-5).intersections, 1);
 }
 
 #[test]

@@ -24,5 +24,7 @@ mod topology;
 pub(crate) use order::{Order, Run, WIDTH};
 pub use parts::{ContactDistances, SurfaceParts};
 pub(crate) use primitives::Primitives;
-pub(crate) use separations::{PinchState, RestProximity, Separations, THINNED_FRACTION};
+pub(crate) use separations::{
+    PinchState, RestProximity, Separations, THINNED_FRACTION, share_vertex,
+};
 pub use topology::equivalence_classes;

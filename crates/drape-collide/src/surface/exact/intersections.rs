@@ -6,7 +6,7 @@ use super::predicate::segment_meets_triangle;
 use crate::error::Error;
 use crate::surface::broad_phase::{BodyBoxes, Bounds, Probe, Tree, array};
 use crate::surface::contact_surface::Surface;
-use crate::surface::geometry::Run;
+use crate::surface::geometry::{Run, share_vertex};
 use crate::surface::placement::Placement;
 use crate::vector::at;
 
@@ -39,11 +39,12 @@ pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Interse
     Ok(test.found)
 }
 
-/// Returns the same of edges and triangles without a common vertex that a seam exempts, sorted.
+/// Returns the intersections of edges and triangles that a seam exempts from contact, sorted; those with
+/// a common vertex are left out.
 ///
 /// # Errors
 ///
-/// The same.
+/// As [`intersections`].
 pub(crate) fn exempt_intersections(
     surface: &Surface,
     positions: &[f64],
@@ -61,7 +62,7 @@ pub(crate) struct IntersectionTest {
     /// Revision of the bodies' positions that their boxes are of; none if they are not to be kept.
     fitted: Option<u64>,
     chunks: Vec<Vec<Intersection>>,
-    /// Whether pairs are tested that a seam exempts, instead of the others.
+    /// Whether the pairs are tested that a seam exempts, instead of the others.
     of_exempt: bool,
     /// Intersections of the last run, sorted.
     pub(crate) found: Vec<Intersection>,
@@ -138,9 +139,4 @@ impl IntersectionTest {
         self.chunks.iter().for_each(|found| self.found.extend_from_slice(found));
         Ok(())
     }
-}
-
-/// Returns whether two primitives, given by their vertices, share one.
-fn share_vertex([one, other]: [&[u32]; 2]) -> bool {
-    one.iter().any(|vertex| other.contains(vertex))
 }

@@ -94,12 +94,12 @@ impl Separations {
     pub(crate) fn exempt(
         &self,
         seams: &SeamExemptions,
-        [one, other]: [&[u32]; 2],
+        vertices: [&[u32]; 2],
         classes: [&[u32]; 2],
     ) -> bool {
         seams.join(classes[0], classes[1])
             && (self.seam_gaps.is_empty()
-                || one.iter().any(|vertex| other.contains(vertex))
+                || share_vertex(vertices)
                 || self.seam_gap(seams, classes) == 0.0)
     }
 
@@ -146,4 +146,10 @@ impl Separations {
         }
         Some(fraction)
     }
+}
+
+/// Returns whether two primitives, given by their vertices, share one.
+#[inline]
+pub(crate) fn share_vertex([one, other]: [&[u32]; 2]) -> bool {
+    one.iter().any(|vertex| other.contains(vertex))
 }
