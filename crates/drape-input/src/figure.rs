@@ -54,8 +54,8 @@ pub fn figure_above(value: f64) -> String {
     two_digits(value, 1.0)
 }
 
-/// Returns the nearest number with two digits that does not fall short of a value in a direction: -1 for
-/// down, 1 for up.
+/// Returns the nearest number with two digits that is not below a value, with the direction 1, or not
+/// above it, with the direction -1.
 fn two_digits(value: f64, direction: f64) -> String {
     let rounded = |value: f64| format!("{value:.1e}").parse().unwrap_or(value);
     let falls_short = |number: f64| direction * (number - value) < 0.0;

@@ -58,12 +58,12 @@ pub struct Verdict {
     /// Number of pairs that intersect where they are not joined. Touching counts, and so do the two sides
     /// of a seam that is open by more than 0.1 mm.
     pub intersections: usize,
-    /// Number of pairs that intersect and are exempt: they are of the two sides of a seam that counts as
-    /// closed, within 0.1 mm, and whose vertices are not one point yet.
+    /// Number of exempt pairs that intersect: they are of the two sides of a seam that counts as closed,
+    /// within 0.1 mm, before its vertices are one point.
     #[serde(rename = "exempt_intersections")]
     pub exempt: usize,
-    /// Widest gap of the seam at such a pair, in m; its sides are nowhere deeper in each other. 0 without
-    /// one.
+    /// Widest gap of the seams at these pairs, in m; no side is deeper in the other. 0 without such a
+    /// pair.
     pub exempt_depth: f64,
     /// Pieces of cloth that lie wholly inside a body.
     pub enclosed: Vec<EnclosedPiece>,

@@ -201,15 +201,15 @@ pub struct Contacts {
     /// Number of intersections that were found after steps, which were then taken back.
     #[serde(rename = "crossings_found")]
     pub intersections_found: usize,
-    /// Number of intersections at the end that are exempt: those of the two sides of a seam whose
-    /// gap counts as closed, while its vertices are not merged yet. 0 once a garment is sewn.
+    /// Number of exempt intersections at the end: those of the two sides of a seam that counts as
+    /// closed before its vertices are merged. 0 once a garment is sewn.
     #[serde(rename = "exempt_intersections")]
     pub exempt: usize,
-    /// Largest number of such intersections after a step.
+    /// Largest number of exempt intersections after a step.
     #[serde(rename = "exempt_intersections_max")]
     pub exempt_max: usize,
-    /// Widest gap of the seams at such intersections after any step, in m; their sides are nowhere
-    /// deeper in each other.
+    /// Widest gap of the seams at exempt intersections after any step, in m; no side is deeper in the
+    /// other.
     pub exempt_depth_max: f64,
     /// Largest number of particles that bodies pinched after a step, and that kept less of their
     /// distance from them.

@@ -270,8 +270,8 @@ fn sizes(
     }
 }
 
-/// Returns the gauge or the width that the sheet gives, or reads that of the file and says its place: for each
-/// row, in metres; the inner `None` where neither has one.
+/// Returns the gauge or the width of each row, in metres, with its place in the file; that of the sheet has no
+/// place, and goes before that of the file. The inner `None` says that neither gives one.
 fn or_of_file(
     given: Option<Vec<f64>>,
     series: &Series,

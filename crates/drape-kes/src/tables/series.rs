@@ -92,7 +92,8 @@ impl Series {
         heading.and_then(|heading| heading.unit.as_deref()).or(self.cell_unit(column))
     }
 
-    /// Returns the column that holds the gauge or the width, by its names: one length in all rows.
+    /// Returns the column of the gauge or the width: its heading is one of some names, and all its rows hold
+    /// the same length.
     pub(crate) fn size_column(&self, words: &[&str]) -> Option<usize> {
         let column = size_column(&self.block, &[self.pair.deformation, self.pair.load], words)?;
         let is_one = |all: Vec<f64>| all.iter().all(|length| *length > 0.0 && *length == all[0]);

@@ -341,16 +341,20 @@ impl SurfaceContact {
         &self,
         positions: &[f64],
     ) -> Result<Vec<Intersection>, Error> {
+        intersections(&self.surface, &self.placed(positions))
+    }
+
+    /// Returns the placement of all vertices with the free ones at positions, in m.
+    pub(super) fn placed(&self, positions: &[f64]) -> Placement {
         let mut all = Placement::default();
         self.obstacles.place(positions, self.obstacles.time, &mut all);
-        intersections(&self.surface, &all)
+        all
     }
 
     /// Returns whether a free vertex is inside a body, for the free vertices' positions, in m.
     #[must_use]
     pub fn is_inside_body(&self, vertex: usize, positions: &[f64]) -> bool {
-        let mut all = Placement::default();
-        self.obstacles.place(positions, self.obstacles.time, &mut all);
+        let all = self.placed(positions);
         let bodies = self.surface.free_count()..self.surface.vertex_count();
         let mut groups: Vec<u32> = bodies.map(|v| self.surface.group(v as u32)).collect();
         groups.dedup();

@@ -39,8 +39,8 @@ pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Interse
     Ok(test.found)
 }
 
-/// Returns the intersections of edges and triangles that a seam exempts from contact, sorted; those with
-/// a common vertex are left out.
+/// Returns the intersections, sorted, of edges with triangles that are exempt from contact because a
+/// seam joins them; pairs with a common vertex are left out.
 ///
 /// # Errors
 ///
@@ -62,7 +62,7 @@ pub(crate) struct IntersectionTest {
     /// Revision of the bodies' positions that their boxes are of; none if they are not to be kept.
     fitted: Option<u64>,
     chunks: Vec<Vec<Intersection>>,
-    /// Whether the pairs are tested that a seam exempts, instead of the others.
+    /// Whether exempt pairs are tested, instead of all others.
     of_exempt: bool,
     /// Intersections of the last run, sorted.
     pub(crate) found: Vec<Intersection>,

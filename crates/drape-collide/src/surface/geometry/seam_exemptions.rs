@@ -80,7 +80,8 @@ impl SeamExemptions {
         self.ends(*class).is_some_and(|ends| ends.iter().all(|end| primitive.contains(end)))
     }
 
-    /// Returns the classes between which the vertices of a class are tied, if they are.
+    /// Returns the classes of the two vertices between which the vertices of a class are tied; none if
+    /// they are not tied.
     pub(crate) fn ends(&self, class: u32) -> Option<[u32; 2]> {
         let place = self.ties.binary_search_by_key(&class, |tie| tie.own).ok()?;
         Some(self.ties[place].ends)

@@ -340,8 +340,7 @@ impl Surfaces {
         }
     }
 
-    /// Intersections at some positions, in m, that are exempt: those of the sides of seams that count
-    /// as closed while their vertices are not one point yet.
+    /// Exempt intersections at some positions, in m.
     pub(crate) fn exempt(&self, positions: &[f64]) -> SeamIntersections {
         // Positions that are not finite have no intersections; the test of the step reports them.
         self.contact.seam_intersections(positions).unwrap_or_default()
