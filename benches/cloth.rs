@@ -28,7 +28,7 @@ fn fabric() -> Fabric {
                 toe_strain: 0.015,
                 toe_strain_after: 0.02,
             }),
-            friction: BlimanSorine::first_order(3.0, 0.001),
+            friction: BlimanSorine::first_order(3.0, 0.001).into(),
             buckling: Buckling::default(),
         },
         bending: BendingLaw {

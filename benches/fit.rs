@@ -111,7 +111,7 @@ fn sheet(seed: u64) -> Sheet {
                 toe_strain: 0.016,
                 toe_strain_after: 0.021,
             }),
-            friction: BlimanSorine::first_order(18.0, 0.0012),
+            friction: BlimanSorine::first_order(18.0, 0.0012).into(),
             buckling: Buckling::default(),
         };
         let shear = ShearLaw {

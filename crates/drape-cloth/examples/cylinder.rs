@@ -16,7 +16,7 @@ fn fabric() -> Fabric {
     let laws = YarnLaws {
         traction: TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic: 8.4e4, quartic: 1.2e7 }),
-            friction: BlimanSorine::none(),
+            friction: BlimanSorine::none().into(),
             buckling: Buckling::default(),
         },
         bending: BendingLaw {

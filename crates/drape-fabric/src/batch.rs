@@ -16,8 +16,8 @@
 //! ([`Law`](crate::Law)), a batch adds contributions.
 //!
 //! `lanes` holds the arrays, `memories` the connectors' memories in columns, `friction` the prepared
-//! elements, `batch_law` the interface and all that the laws share, `traction`, `bending` and `shear`
-//! the rest. `tests/batch.rs` holds each to its scalar law.
+//! elements, `batch_law` the interface, `weighted_law` all that laws with a plateau share, `traction`,
+//! `bending` and `shear` the rest. `tests/batch.rs` holds each to its scalar law.
 
 pub(crate) mod batch_law;
 pub(crate) mod bending;
@@ -26,3 +26,4 @@ pub(crate) mod lanes;
 pub(crate) mod memories;
 pub(crate) mod shear;
 pub(crate) mod traction;
+pub(crate) mod weighted_law;

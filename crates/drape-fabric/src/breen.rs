@@ -8,6 +8,7 @@ use drape_hysteresis::BlimanSorine;
 use crate::laws::bending::{BendingBackbone, BendingLaw};
 use crate::laws::piecewise::Piecewise;
 use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
+use crate::laws::varying::Varying;
 
 /// Shear angle at which the work has its pole, in rad: it keeps the shear below about 60°.
 const SHEAR_LIMIT: f64 = 1.05;
@@ -95,11 +96,13 @@ impl BreenWork {
     pub fn from_laws(bending: &BendingLaw, shear: &ShearLaw) -> Self {
         let backbone = match bending.backbone {
             BendingBackbone::Linear { rigidity } => Asymptote::line(rigidity),
+            BendingBackbone::Varying(varying) => Asymptote::varying(&varying),
             BendingBackbone::Piecewise(piecewise) => Asymptote::piecewise(&piecewise),
         };
         let bending = branch(backbone, &bending.friction, 0.0);
         let backbone = match shear.backbone {
             ShearBackbone::Linear { stiffness } => Asymptote::line(stiffness),
+            ShearBackbone::Varying(varying) => Asymptote::varying(&varying),
             ShearBackbone::Piecewise(piecewise) => Asymptote::piecewise(&piecewise),
         };
         let end = shear.locking.unwrap_or_default().onset.min(Locking::default().limit);
@@ -202,6 +205,16 @@ impl Asymptote {
     fn piecewise(curve: &Piecewise) -> Self {
         let Piecewise { slope, intercept, knot } = *curve;
         Self { slope, intercept, deficit: intercept * knot / 3.0 }
+    }
+
+    /// Returns the asymptote of a stiffness that changes: the line of its final stiffness.
+    ///
+    /// The load is below it by `$(k_0 - k_\infty)(q_t - q/\sqrt{1 + (q/q_t)^2})$`, whose integral over
+    /// all deformations is `$(k_0 - k_\infty)\,q_t^2$`.
+    fn varying(curve: &Varying) -> Self {
+        let Varying { initial_stiffness, final_stiffness, transition } = *curve;
+        let intercept = (initial_stiffness - final_stiffness) * transition;
+        Self { slope: final_stiffness, intercept, deficit: intercept * transition }
     }
 }
 

@@ -10,7 +10,12 @@ use crate::fabric::Fabric;
 use crate::laws::bending::{BendingBackbone, BendingLaw};
 use crate::laws::piecewise::Piecewise;
 use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
-use crate::laws::traction::{TOE_RATIO_MIN, TractionBackbone, TractionLaw};
+use crate::laws::traction::buckling::Buckling;
+use crate::laws::traction::exponential::{ExponentialToe, STEEPNESS_MIN};
+use crate::laws::traction::primed::TOE_RATIO_MIN;
+use crate::laws::traction::proportional::{FRICTION_RATIO_MAX, ProportionalFriction};
+use crate::laws::traction::{TractionBackbone, TractionFriction, TractionLaw};
+use crate::laws::varying::Varying;
 
 /// Number of a fabric outside its admissible range.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -113,6 +118,9 @@ impl Check {
                     "from toe_strain to twice toe_strain",
                 );
             }
+            TractionBackbone::Exponential(toe) => {
+                self.exponential(&format!("{key}.exponential"), toe)
+            }
             TractionBackbone::Polynomial(polynomial) => {
                 let key = format!("{key}.polynomial");
                 let help = "in N/m, not negative, so that the curve rises";
@@ -121,10 +129,81 @@ impl Check {
             }
         }
         let buckling = &law.buckling;
-        self.within(&format!("{key}.buckling.strain"), buckling.strain, 1e-5..=0.1, "a ratio");
+        self.within(&format!("{key}.buckling.strain"), buckling.strain, 1e-5..=0.5, "a ratio");
         let help = "in N/m, not negative";
         self.within(&format!("{key}.buckling.stiffness"), buckling.stiffness, 0.0..=1e6, help);
-        self.friction(&format!("{key}.friction"), &law.friction);
+        self.traction_friction(key, law);
+    }
+
+    fn exponential(&mut self, key: &str, toe: &ExponentialToe) {
+        let ExponentialToe { base_stiffness, stiffness, steepness, toe_strain, toe_strain_after } =
+            *toe;
+        let help = "tension per width and strain in N/m; woven fabrics have 0 to 1e5";
+        self.within(&format!("{key}.base_stiffness"), base_stiffness, 0.0..=1e7, help);
+        let help = "tension per width and strain in N/m; woven fabrics have 1e3 to 1e6";
+        self.within(&format!("{key}.stiffness"), stiffness, 1.0..=1e10, help);
+        let help = "logarithm of the growth of the stiffness over the toe, 1 to 6 as a rule";
+        self.within(&format!("{key}.steepness"), steepness, STEEPNESS_MIN..=60.0, help);
+        let help = "a ratio; 1.5 % is 0.015";
+        self.within(&format!("{key}.toe_strain"), toe_strain, 1e-6..=3.0, help);
+        let range = toe_strain..=2.0 * toe_strain;
+        let help = "from toe_strain to twice toe_strain";
+        self.within(&format!("{key}.toe_strain_after"), toe_strain_after, range, help);
+    }
+
+    fn traction_friction(&mut self, key: &str, law: &TractionLaw) {
+        match (&law.backbone, &law.friction) {
+            (TractionBackbone::Exponential(toe), TractionFriction::Proportional(friction)) => {
+                self.proportional(key, toe, friction, &law.buckling);
+            }
+            (TractionBackbone::Exponential(_), TractionFriction::Plateau(friction)) => {
+                self.friction(&format!("{key}.friction"), friction);
+                if friction.elements[1].plateau != 0.0 {
+                    self.fail(
+                        &format!("{key}.friction"),
+                        "an exponential toe has one friction element".into(),
+                        "leave out the second, or write the table `proportional_friction`",
+                    );
+                }
+            }
+            (_, TractionFriction::Plateau(friction)) => {
+                self.friction(&format!("{key}.friction"), friction);
+            }
+            (_, TractionFriction::Proportional(_)) => self.fail(
+                &format!("{key}.proportional_friction"),
+                "this friction needs an exponential toe".into(),
+                "write the table `exponential`, or `friction` with plateaus",
+            ),
+        }
+    }
+
+    fn proportional(
+        &mut self,
+        key: &str,
+        toe: &ExponentialToe,
+        friction: &ProportionalFriction,
+        buckling: &Buckling,
+    ) {
+        let friction_key = format!("{key}.proportional_friction");
+        let help =
+            "friction over elastic load; with more the cloth has no stiffness when it is unloaded";
+        self.within(
+            &format!("{friction_key}.ratio"),
+            friction.ratio,
+            0.0..=FRICTION_RATIO_MAX,
+            help,
+        );
+        let help = "in N/m, not negative";
+        self.within(&format!("{friction_key}.plateau"), friction.plateau, 0.0..=1e5, help);
+        let help = "a strain, greater than 0";
+        self.positive(&format!("{friction_key}.length"), friction.length, help);
+        let least = friction.plateau / toe.rest_stiffness();
+        if buckling.strain < least * (1.0 - 1e-9) {
+            let message = format!("{} is less than {}", figure(buckling.strain), figure(least));
+            let help = "at least the plateau over the stiffness at rest, so that the load rises with \
+                        the strain in compression";
+            self.fail(&format!("{key}.buckling.strain"), message, help);
+        }
     }
 
     fn bending(&mut self, key: &str, law: &BendingLaw) {
@@ -139,6 +218,13 @@ impl Check {
         match &law.backbone {
             BendingBackbone::Linear { rigidity: value } => {
                 rigidity(self, &format!("{key}.rigidity"), *value);
+            }
+            BendingBackbone::Varying(varying) => {
+                let key = format!("{key}.varying");
+                rigidity(self, &format!("{key}.initial_stiffness"), varying.initial_stiffness);
+                rigidity(self, &format!("{key}.final_stiffness"), varying.final_stiffness);
+                let help = "a curvature in 1/m, greater than 0";
+                self.positive(&format!("{key}.transition"), varying.transition, help);
             }
             BendingBackbone::Piecewise(piecewise) => {
                 rigidity(self, &format!("{key}.piecewise.slope"), piecewise.slope);
@@ -155,6 +241,16 @@ impl Check {
             ShearBackbone::Linear { stiffness } => {
                 let help = "in N/m: 35, or KES G with its unit, \"0.6 gf/(cm.deg)\"";
                 self.within("shear.stiffness", *stiffness, 0.01..=1e5, help);
+            }
+            ShearBackbone::Varying(varying) => {
+                let help = "in N/m: 35, or KES G with its unit, \"0.6 gf/(cm.deg)\"";
+                let Varying { initial_stiffness, final_stiffness, transition } = *varying;
+                let range = 0.01..=1e5;
+                let key = "shear.varying.initial_stiffness";
+                self.within(key, initial_stiffness, range.clone(), help);
+                self.within("shear.varying.final_stiffness", final_stiffness, range, help);
+                let help = "a sine, greater than 0";
+                self.positive("shear.varying.transition", transition, help);
             }
             ShearBackbone::Piecewise(piecewise) => {
                 self.piecewise("shear.piecewise", piecewise);

@@ -6,7 +6,7 @@ use drape_hysteresis::BlimanSorine;
 
 use crate::laws::bending::BendingLaw;
 use crate::laws::shear::ShearLaw;
-use crate::laws::traction::TractionLaw;
+use crate::laws::traction::{TractionFriction, TractionLaw};
 
 /// Coefficient of friction of a surface that was not measured, a ratio. KES MIU of apparel fabrics
 /// lies between about 0.1 and 0.3.
@@ -115,7 +115,7 @@ impl Fabric {
     pub fn without_friction(&self) -> Self {
         let mut fabric = self.clone();
         for laws in [&mut fabric.warp, &mut fabric.weft] {
-            laws.traction.friction = BlimanSorine::default();
+            laws.traction.friction = TractionFriction::none();
             laws.bending.friction = BlimanSorine::default();
         }
         fabric.shear.friction = BlimanSorine::default();

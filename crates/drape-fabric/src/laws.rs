@@ -8,8 +8,8 @@
 //!
 //! in SI units, per width of cloth. Traction depends on the strain, bending on the signed curvature,
 //! shear on the sine of the shear angle. `law` defines the interface and the memory, `traction`,
-//! `bending` and `shear` the three laws, `piecewise` a backbone that two of them share, `path` the
-//! pieces of a path along which the weight of the friction is linear. The laws know nothing of
+//! `bending` and `shear` the three laws, `piecewise` and `varying` backbones that two of them share, `path`
+//! the pieces of a path along which the weight of the friction is linear. The laws know nothing of
 //! particles; a trial never changes a memory.
 
 pub(crate) mod bending;
@@ -18,3 +18,4 @@ pub(crate) mod path;
 pub(crate) mod piecewise;
 pub(crate) mod shear;
 pub(crate) mod traction;
+pub(crate) mod varying;

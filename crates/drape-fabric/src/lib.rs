@@ -25,11 +25,10 @@ mod file;
 // Another model of the same fabric.
 mod breen;
 
-pub use batch::batch_law::{BatchLaw, Knot, Responses};
+pub use batch::batch_law::{BatchLaw, Responses};
 pub use batch::bending::BendingBatch;
-pub use batch::friction::PreparedFriction;
 pub use batch::lanes::{LANES, Lanes};
-pub use batch::memories::{LaneMemory, Memories, MemoriesMut, MemoryBatch, Toe};
+pub use batch::memories::{Memories, MemoriesMut, MemoryBatch};
 pub use batch::shear::ShearBatch;
 pub use batch::traction::TractionBatch;
 pub use breen::{BreenWork, Work, breen_curvature};
@@ -42,7 +41,10 @@ pub use laws::bending::{BendingBackbone, BendingLaw};
 pub use laws::law::{Law, Memory, drive};
 pub use laws::piecewise::Piecewise;
 pub use laws::shear::{Locking, ShearBackbone, ShearLaw};
-pub use laws::traction::{
-    BUCKLING_STRAIN, Buckling, POST_BUCKLING_STIFFNESS, Polynomial, Primed, TOE_RATIO_MIN,
-    TractionBackbone, TractionLaw,
-};
+pub use laws::traction::buckling::{BUCKLING_STRAIN, Buckling, POST_BUCKLING_STIFFNESS};
+pub use laws::traction::exponential::{ExponentialToe, STEEPNESS_MIN};
+pub use laws::traction::polynomial::Polynomial;
+pub use laws::traction::primed::{Primed, TOE_RATIO_MIN};
+pub use laws::traction::proportional::{FRICTION_RATIO_MAX, ProportionalFriction};
+pub use laws::traction::{TractionBackbone, TractionFriction, TractionLaw};
+pub use laws::varying::Varying;

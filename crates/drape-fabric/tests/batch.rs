@@ -1,9 +1,10 @@
 //! Laws side by side against the same laws one by one.
 
 use drape_fabric::{
-    BatchLaw, BendingBackbone, BendingBatch, BendingLaw, BlimanSorine, Buckling, Dahl, LANES,
-    Lanes, Law, Locking, Memory, Piecewise, Polynomial, Primed, Responses, ShearBackbone,
-    ShearBatch, ShearLaw, TractionBackbone, TractionBatch, TractionLaw,
+    BatchLaw, BendingBackbone, BendingBatch, BendingLaw, BlimanSorine, Buckling, Dahl,
+    ExponentialToe, LANES, Lanes, Law, Locking, Memory, Piecewise, Polynomial, Primed,
+    ProportionalFriction, Responses, ShearBackbone, ShearBatch, ShearLaw, TractionBackbone,
+    TractionBatch, TractionFriction, TractionLaw, Varying,
 };
 
 /// Rounding of a dozen operations and of the exponential, on the scale of what is compared.
@@ -98,7 +99,7 @@ fn traction_side_by_side_is_traction_one_by_one() {
                     toe_strain: 0.015,
                     toe_strain_after,
                 }),
-                friction,
+                friction: friction.into(),
                 buckling: Buckling::default(),
             };
             let places = [-0.01, -0.002, 0.0, 0.015, 0.03];
@@ -106,7 +107,7 @@ fn traction_side_by_side_is_traction_one_by_one() {
         }
         let law = TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic: 8.4e4, quartic: 1.2e7 }),
-            friction,
+            friction: friction.into(),
             buckling: Buckling::default(),
         };
         compare(&law, &TractionBatch::new(law), (-0.02, 0.06), &[-0.002, 0.0]);
@@ -114,9 +115,40 @@ fn traction_side_by_side_is_traction_one_by_one() {
 }
 
 #[test]
+fn traction_with_an_exponential_toe_side_by_side_is_that_law_one_by_one() {
+    for (steepness, toe_strain_after) in [(0.01, 0.02), (3.0, 0.015), (6.0, 0.028)] {
+        for (ratio, plateau, length) in [(0.0, 0.0, 1.0), (0.8, 0.0, 0.005), (0.98, 2.0, 0.03)] {
+            let toe = ExponentialToe {
+                base_stiffness: 300.0,
+                stiffness: 4000.0,
+                steepness,
+                toe_strain: 0.015,
+                toe_strain_after,
+            };
+            let friction = ProportionalFriction { ratio, plateau, length };
+            let law = TractionLaw {
+                backbone: TractionBackbone::Exponential(toe),
+                friction: TractionFriction::Proportional(friction),
+                buckling: Buckling {
+                    strain: friction.buckling_strain(&toe),
+                    ..Buckling::default()
+                },
+            };
+            let places = [-0.01, -0.002, 0.0, 0.015, 0.03];
+            compare(&law, &TractionBatch::new(law), (-0.02, 0.06), &places);
+        }
+    }
+}
+
+#[test]
 fn shear_side_by_side_is_shear_one_by_one() {
     let breen = Piecewise { slope: 30.0, intercept: 0.6, knot: 0.02 };
-    let backbones = [ShearBackbone::Linear { stiffness: 35.0 }, ShearBackbone::Piecewise(breen)];
+    let varying = Varying { initial_stiffness: 20.0, final_stiffness: 90.0, transition: 0.1 };
+    let backbones = [
+        ShearBackbone::Linear { stiffness: 35.0 },
+        ShearBackbone::Piecewise(breen),
+        ShearBackbone::Varying(varying),
+    ];
     for backbone in backbones {
         for (growth, locking) in [(0.0, None), (11.0, Some(Locking::default()))] {
             let friction = BlimanSorine::parallel(Dahl::new(0.5, 0.004), Dahl::new(0.3, 0.05));
@@ -131,8 +163,12 @@ fn shear_side_by_side_is_shear_one_by_one() {
 #[test]
 fn bending_side_by_side_is_bending_one_by_one() {
     let breen = Piecewise { slope: 1.2e-5, intercept: 4e-4, knot: 40.0 };
-    let backbones =
-        [BendingBackbone::Linear { rigidity: 1.2e-5 }, BendingBackbone::Piecewise(breen)];
+    let varying = Varying { initial_stiffness: 1.8e-5, final_stiffness: 6e-6, transition: 80.0 };
+    let backbones = [
+        BendingBackbone::Linear { rigidity: 1.2e-5 },
+        BendingBackbone::Piecewise(breen),
+        BendingBackbone::Varying(varying),
+    ];
     for backbone in backbones {
         for friction in [BlimanSorine::none(), BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0)] {
             let law = BendingLaw { backbone, rest_curvature: 12.0, friction };

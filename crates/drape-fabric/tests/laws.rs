@@ -1,8 +1,9 @@
 //! The laws against finite differences, against the closed forms of their loops, and as energy.
 
 use drape_fabric::{
-    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Dahl, Law, Locking, Memory, Piecewise,
-    Polynomial, Primed, ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, drive,
+    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Dahl, ExponentialToe, Law, Locking,
+    Memory, Piecewise, Polynomial, Primed, ProportionalFriction, ShearBackbone, ShearLaw,
+    TractionBackbone, TractionFriction, TractionLaw, Varying, drive,
 };
 
 fn primed(toe_ratio: f64, after: f64) -> TractionLaw {
@@ -13,15 +14,44 @@ fn primed(toe_ratio: f64, after: f64) -> TractionLaw {
             toe_strain: 0.015,
             toe_strain_after: after,
         }),
-        friction: BlimanSorine::first_order(3.0, 0.001),
+        friction: BlimanSorine::first_order(3.0, 0.001).into(),
         buckling: Buckling::default(),
     }
+}
+
+fn exponential(steepness: f64, after: f64, friction: ProportionalFriction) -> TractionLaw {
+    let toe = ExponentialToe {
+        base_stiffness: 400.0,
+        stiffness: 4000.0,
+        steepness,
+        toe_strain: 0.015,
+        toe_strain_after: after,
+    };
+    let strain = friction.buckling_strain(&toe);
+    TractionLaw {
+        backbone: TractionBackbone::Exponential(toe),
+        friction: friction.into(),
+        buckling: Buckling { strain, ..Buckling::default() },
+    }
+}
+
+/// Laws with an exponential toe, with friction of each kind, and with the three resonances of the
+/// work: the rate of the toe is the rate of the friction, or of the toe that moves.
+fn exponentials() -> Vec<TractionLaw> {
+    let friction = |ratio, plateau, length| ProportionalFriction { ratio, plateau, length };
+    vec![
+        exponential(0.01, 0.015, friction(0.5, 0.0, 0.002)),
+        exponential(3.0, 0.015, friction(0.98, 0.0, 0.015 / 3.0)),
+        exponential(3.0, 0.025, friction(0.9, 4.0, 0.01)),
+        exponential(6.0, 0.03, friction(0.7, 3.0, 0.015)),
+        exponential(12.0, 0.02, friction(0.0, 3.0, 0.001)),
+    ]
 }
 
 fn polynomial() -> TractionLaw {
     TractionLaw {
         backbone: TractionBackbone::Polynomial(Polynomial { quadratic: 8.4e4, quartic: 1.2e7 }),
-        friction: BlimanSorine::none(),
+        friction: TractionFriction::none(),
         buckling: Buckling::default(),
     }
 }
@@ -34,6 +64,10 @@ fn shear(backbone: ShearBackbone, growth: f64) -> ShearLaw {
     let friction = BlimanSorine::parallel(Dahl::new(0.5, 0.004), Dahl::new(0.3, 0.05));
     ShearLaw { backbone, friction, growth, locking: Some(Locking::default()) }
 }
+
+/// Rigidity that falls to a third.
+const SOFTENING: Varying =
+    Varying { initial_stiffness: 1.8e-5, final_stiffness: 0.6e-5, transition: 80.0 };
 
 /// Memories that a random walk over the given range leaves, with trials from each of them.
 fn walk(law: &impl Law, low: f64, high: f64) -> Vec<(Memory, f64)> {
@@ -104,6 +138,13 @@ fn traction_load_and_tangent_are_derivatives_of_the_work() {
         check_derivatives(&law, (-0.01, 0.06), &kinks);
     }
     check_derivatives(&polynomial(), (-0.01, 0.06), &[0.0]);
+    for law in exponentials() {
+        let TractionBackbone::Exponential(backbone) = law.backbone else { continue };
+        let places: Vec<f64> =
+            walk(&law, -0.01, 0.06).iter().map(|(m, _)| backbone.toe(m.peak)).collect();
+        let kinks = [&places[..1], &places[places.len() - 1..], &[0.0, 0.015]].concat();
+        check_derivatives(&law, (-0.01, 0.06), &kinks);
+    }
 }
 
 #[test]
@@ -114,6 +155,7 @@ fn bending_load_and_tangent_are_derivatives_of_the_work() {
         bending(linear, BlimanSorine::first_order(6e-4, 4.0)),
         bending(linear, BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0)),
         bending(BendingBackbone::Piecewise(breen), BlimanSorine::none()),
+        bending(BendingBackbone::Varying(SOFTENING), BlimanSorine::first_order(6e-4, 4.0)),
     ] {
         check_derivatives(&law, (-250.0, 250.0), &[12.0, 52.0, -28.0]);
     }
@@ -124,7 +166,12 @@ fn shear_load_and_tangent_are_derivatives_of_the_work() {
     let locking = Locking::default();
     let straight = locking.onset + 0.95 * (locking.limit - locking.onset);
     let breen = Piecewise { slope: 30.0, intercept: 0.6, knot: 0.02 };
-    for backbone in [ShearBackbone::Linear { stiffness: 35.0 }, ShearBackbone::Piecewise(breen)] {
+    let stiffening = Varying { initial_stiffness: 20.0, final_stiffness: 90.0, transition: 0.1 };
+    for backbone in [
+        ShearBackbone::Linear { stiffness: 35.0 },
+        ShearBackbone::Piecewise(breen),
+        ShearBackbone::Varying(stiffening),
+    ] {
         for (growth, range) in [(0.0, 0.14), (11.0, 0.14), (11.0, 0.95)] {
             let kinks = [0.0, 0.02, -0.02, locking.onset, -locking.onset, straight, -straight];
             check_derivatives(&shear(backbone, growth), (-range, range), &kinks);
@@ -183,6 +230,11 @@ fn closed_loops_of_every_law_dissipate() {
     for after in [0.015, 0.025] {
         for (low, high) in [(0.0, 0.04), (0.01, 0.012), (-0.005, 0.03)] {
             cycle(&primed(0.6, after), low, high);
+        }
+    }
+    for law in exponentials() {
+        for (low, high) in [(0.0, 0.04), (0.01, 0.012), (-0.005, 0.03)] {
+            cycle(&law, low, high);
         }
     }
     let friction = BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0);
@@ -255,5 +307,26 @@ fn the_secant_of_breens_curve_is_that_of_its_quadratic_and_its_line() {
     for d in [40.1, 70.0, 250.0] {
         let exact = 1.2e-5 + 4e-4 / d;
         assert!((law.secant(d) / exact - 1.0).abs() < 1e-12, "at {d}: {}", law.secant(d));
+    }
+}
+
+#[test]
+fn a_varying_stiffness_has_its_two_ends_and_the_secant_of_its_load() {
+    let Varying { initial_stiffness, final_stiffness, transition } = SOFTENING;
+    let tangent = |q: f64| SOFTENING.respond(q).tangent;
+    assert_eq!(tangent(0.0), initial_stiffness);
+    // A hundred transitions away (1 + u²)^{-3/2} is a millionth.
+    assert!((tangent(100.0 * transition) / final_stiffness - 1.0).abs() < 3e-6);
+    for q in [1e-6, 3.0, 80.0, 400.0] {
+        let response = SOFTENING.respond(q);
+        let secant = SOFTENING.secant(q * q);
+        assert!((response.load / (q * secant) - 1.0).abs() < 1e-12, "at {q}");
+        let excess = SOFTENING.excess(q * q) * q * q;
+        assert!((response.tangent - secant - excess).abs() < 1e-12 * secant, "at {q}");
+        assert!((SOFTENING.respond(-q).load + response.load).abs() == 0.0, "odd at {q}");
+        // Connectors that take a third of the curvature have a third of the moment, there.
+        let third = SOFTENING.of_fraction(1.0 / 3.0);
+        let exact = response.load / 3.0;
+        assert!((third.respond(3.0 * q).load / exact - 1.0).abs() < 1e-12, "at {q}");
     }
 }

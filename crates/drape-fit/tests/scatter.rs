@@ -81,7 +81,10 @@ fn tensile_errors_are_those_of_many_sheets() {
             let drape_fabric::TractionBackbone::Primed(primed) = law.backbone else {
                 panic!("not primed")
             };
-            [primed.stiffness, law.friction.plateau()]
+            let drape_fabric::TractionFriction::Plateau(friction) = law.friction else {
+                panic!("without a plateau")
+            };
+            [primed.stiffness, friction.plateau()]
         })
         .collect();
     for (index, key) in ["primed.stiffness", "friction[0].plateau"].into_iter().enumerate() {

@@ -129,11 +129,12 @@ pub fn positive(schema: &mut Schema) {
     bound(schema, "exclusiveMinimum", 0.0);
 }
 
-/// Returns what gives a schema of a table two keys of which one is there, and not both.
-pub fn one_of(first: &'static str, second: &'static str) -> impl Fn(&mut Schema) {
+/// Returns a transform that makes a schema of a table require exactly one of `keys`, which are
+/// separated by commas.
+pub fn one_of(keys: &'static str) -> impl Fn(&mut Schema) {
     move |schema| {
-        let each = [first, second].map(|key| json!({ "required": [key] }));
-        schema.insert("oneOf".into(), each.to_vec().into());
+        let each = keys.split(", ").map(|key| json!({ "required": [key] }));
+        schema.insert("oneOf".into(), each.collect());
     }
 }
 

@@ -48,9 +48,12 @@ impl Laws {
     fn settings(&self) -> PyResult<Settings> {
         let traction = match self.traction.as_deref() {
             None => None,
+            Some("exponential") => Some(TractionModel::Exponential),
             Some("primed") => Some(TractionModel::Primed),
             Some("polynomial") => Some(TractionModel::Polynomial),
-            Some(other) => return Err(unknown("traction", other, "primed, polynomial")),
+            Some(other) => {
+                return Err(unknown("traction", other, "exponential, primed, polynomial"));
+            }
         };
         Ok(Settings {
             traction,

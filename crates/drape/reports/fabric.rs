@@ -3,6 +3,7 @@
 
 use crate::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
+    TractionFriction, Varying,
 };
 use crate::fit::parameter_key;
 use crate::kes::{Curve, Direction, Sheet, Test};
@@ -132,6 +133,13 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedVal
     let (mut all, friction) = match test {
         Test::Tensile => {
             let backbone = match laws.traction.backbone {
+                TractionBackbone::Exponential(toe) => named([
+                    ("toe_stiffness", toe.stiffness),
+                    ("steepness", toe.steepness),
+                    ("toe_end", toe.toe_strain),
+                    ("toe_growth", toe.toe_strain_after / toe.toe_strain),
+                    ("base_stiffness", toe.base_stiffness),
+                ]),
                 TractionBackbone::Primed(primed) => named([
                     ("stiffness", primed.stiffness),
                     ("toe_ratio", primed.toe_ratio),
@@ -142,26 +150,47 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedVal
                     named([("quadratic", p.quadratic), ("quartic", p.quartic)])
                 }
             };
-            (backbone, &laws.traction.friction)
+            (backbone, traction_friction(&laws.traction.friction))
         }
         Test::Bending | Test::LoopBending => {
             let backbone = match laws.bending.backbone {
                 BendingBackbone::Linear { rigidity } => named([("rigidity", rigidity)]),
+                BendingBackbone::Varying(varying) => varying_stiffness(&varying),
                 BendingBackbone::Piecewise(p) => piecewise(&p),
             };
-            (backbone, &laws.bending.friction)
+            (backbone, elements(&laws.bending.friction))
         }
         Test::Shear => {
             let mut backbone = match fabric.shear.backbone {
                 ShearBackbone::Linear { stiffness } => named([("stiffness", stiffness)]),
+                ShearBackbone::Varying(varying) => varying_stiffness(&varying),
                 ShearBackbone::Piecewise(p) => piecewise(&p),
             };
             backbone.push(NamedValue { name: "growth", value: fabric.shear.growth });
-            (backbone, &fabric.shear.friction)
+            (backbone, elements(&fabric.shear.friction))
         }
     };
-    all.extend(elements(friction));
+    all.extend(friction);
     all
+}
+
+fn traction_friction(friction: &TractionFriction) -> Vec<NamedValue> {
+    match friction {
+        TractionFriction::Plateau(friction) => elements(friction),
+        TractionFriction::Proportional(friction) => named([
+            ("friction_ratio", friction.ratio),
+            ("friction_plateau", friction.plateau),
+            ("friction_length", friction.length),
+        ]),
+    }
+}
+
+fn varying_stiffness(law: &Varying) -> Vec<NamedValue> {
+    named([
+        ("initial_stiffness", law.initial_stiffness),
+        ("final_stiffness", law.final_stiffness),
+        ("transition", law.transition),
+    ])
 }
 
 fn piecewise(law: &Piecewise) -> Vec<NamedValue> {

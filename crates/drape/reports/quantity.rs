@@ -79,6 +79,15 @@ fn load(test: Test) -> Units {
     if test == Test::Bending { moment() } else { tension() }
 }
 
+/// Units of the stiffness of a test's law.
+fn stiffness_of(test: Test) -> Units {
+    match test {
+        Test::Tensile => tension(),
+        Test::Shear => shear_stiffness(),
+        Test::Bending | Test::LoopBending => rigidity(),
+    }
+}
+
 /// Describes a parameter of a test's law by its name in the fit; an unknown name stands for itself.
 pub fn parameter(test: Test, name: &'static str) -> Quantity {
     let incidental = matches!(name, "zero" | "free strain" | "drift" | "state");
@@ -97,6 +106,16 @@ pub fn parameter(test: Test, name: &'static str) -> Quantity {
         "toe_ratio" => of("r_1", "toe ratio, F₁/(k ε₁)", ratio()),
         "toe_strain" => of("ε_1", "end of the toe, virgin", percent()),
         "toe_growth" => of("ε_1'", "end of the toe once stretched, over the virgin one", ratio()),
+        "toe_stiffness" => of("k_e", "stiffness that the toe adds at its end", tension()),
+        "steepness" => of("b", "logarithm of the growth of that stiffness over the toe", ratio()),
+        "toe_end" => of("ε_c", "end of the toe, virgin", percent()),
+        "base_stiffness" => of("k_0", "stiffness at every strain", tension()),
+        "friction_ratio" => of("μ", "friction over elastic load", ratio()),
+        "friction_length" => of("x_f", "friction length", length),
+        "friction_plateau" => of("c", "friction of yarns without tension", tension()),
+        "initial_stiffness" => of("k_i", "stiffness at rest", stiffness_of(test)),
+        "final_stiffness" => of("k_f", "stiffness far from rest", stiffness_of(test)),
+        "transition" => of("q_t", "where the stiffness changes", length),
         "quadratic" => of("a_2", "coefficient of ε²", tension()),
         "quartic" => of("a_4", "coefficient of ε⁴", tension()),
         "plateau" => of("F_c", "friction plateau", friction),

@@ -85,6 +85,9 @@ impl BendingLanes<'_> {
     pub(crate) fn moments(&self, memory: &MemoryBatch<'_>, factor: f64) -> VectorLanes {
         match self.yarns.bending.law().backbone {
             BendingBackbone::Linear { rigidity } => self.moments_with(memory, factor, |_| rigidity),
+            BendingBackbone::Varying(varying) => {
+                self.moments_with(memory, factor, |square| varying.secant(square))
+            }
             BendingBackbone::Piecewise(piecewise) => {
                 self.moments_with(memory, factor, |square| piecewise.secant(square.sqrt()))
             }
@@ -136,6 +139,12 @@ impl BendingLanes<'_> {
             BendingBackbone::Linear { rigidity } => {
                 let constant = Stiffness { secant: rigidity, excess: 0.0 };
                 self.blocks_with(memory, factor, definite, |_| constant)
+            }
+            BendingBackbone::Varying(varying) => {
+                self.blocks_with(memory, factor, definite, |square| Stiffness {
+                    secant: varying.secant(square),
+                    excess: varying.excess(square),
+                })
             }
             BendingBackbone::Piecewise(piecewise) => {
                 self.blocks_with(memory, factor, definite, |square| {
@@ -212,6 +221,11 @@ impl BendingLanes<'_> {
             BendingBackbone::Linear { rigidity } => {
                 for lane in 0..LANES {
                     energies[lane] = 0.5 * rigidity * square(lane);
+                }
+            }
+            BendingBackbone::Varying(varying) => {
+                for lane in 0..LANES {
+                    energies[lane] = varying.energy(square(lane));
                 }
             }
             BendingBackbone::Piecewise(piecewise) => {

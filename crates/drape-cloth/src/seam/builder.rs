@@ -321,6 +321,9 @@ fn law_of_fraction(law: BendingLaw, fraction: f64) -> BendingLaw {
         BendingBackbone::Linear { rigidity } => {
             BendingBackbone::Linear { rigidity: fraction * fraction * rigidity }
         }
+        BendingBackbone::Varying(varying) => {
+            BendingBackbone::Varying(varying.of_fraction(fraction))
+        }
         BendingBackbone::Piecewise(Piecewise { slope, intercept, knot }) => {
             BendingBackbone::Piecewise(Piecewise {
                 slope: fraction * fraction * slope,

@@ -1,10 +1,11 @@
 //! The law of bending for a batch. Its friction has no varying weight, hence no knots.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
-use crate::batch::batch_law::{BatchLaw, Knot, Responses};
+use crate::batch::batch_law::Responses;
 use crate::batch::friction::PreparedFriction;
 use crate::batch::lanes::{LANES, Lanes};
 use crate::batch::memories::{LaneMemory, MemoryBatch, Toe};
+use crate::batch::weighted_law::{Knot, WeightedLaw};
 use crate::laws::bending::BendingLaw;
 
 /// A [`BendingLaw`] for many connectors side by side.
@@ -29,7 +30,7 @@ impl BendingBatch {
     }
 }
 
-impl BatchLaw for BendingBatch {
+impl WeightedLaw for BendingBatch {
     const KNOTS: usize = 0;
     const DEPENDS_ON_PEAK: bool = false;
 

@@ -1,10 +1,11 @@
 //! The law of shear for a batch. The weight of its friction has one knot, at zero shear.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
-use crate::batch::batch_law::{BatchLaw, Knot, Responses};
+use crate::batch::batch_law::Responses;
 use crate::batch::friction::PreparedFriction;
 use crate::batch::lanes::{LANES, Lanes, any};
 use crate::batch::memories::{LaneMemory, MemoryBatch, Toe};
+use crate::batch::weighted_law::{Knot, WeightedLaw};
 use crate::laws::shear::{Elastic, Locking, ShearBackbone, ShearLaw};
 
 /// A [`ShearLaw`] for many connectors side by side.
@@ -29,7 +30,7 @@ impl ShearBatch {
     }
 }
 
-impl BatchLaw for ShearBatch {
+impl WeightedLaw for ShearBatch {
     const KNOTS: usize = 1;
     const DEPENDS_ON_PEAK: bool = false;
 
@@ -78,6 +79,15 @@ impl BatchLaw for ShearBatch {
                     load[lane] += stiffness * trial[lane];
                     if TANGENT {
                         tangent[lane] += stiffness;
+                    }
+                }
+            }
+            ShearBackbone::Varying(varying) => {
+                for lane in 0..LANES {
+                    let response = varying.respond(trial[lane]);
+                    load[lane] += response.load;
+                    if TANGENT {
+                        tangent[lane] += response.tangent;
                     }
                 }
             }

@@ -1,242 +1,130 @@
-//! The law of traction for a batch. The weight of its friction has three knots: the ends of buckling
-//! and of the priming zone, and zero strain.
-#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
+//! The law of traction for a batch.
+//!
+//! `exponential` is the law with an exponential toe, `weighted` are the laws of the papers; `toe` and
+//! `compression` serve both.
 
-use drape_hysteresis::exp_m1;
+pub(crate) mod compression;
+pub(crate) mod exponential;
+pub(crate) mod toe;
+pub(crate) mod weighted;
 
-use crate::batch::batch_law::{BatchLaw, Knot, Responses};
-use crate::batch::friction::PreparedFriction;
-use crate::batch::lanes::{LANES, Lanes, any, positive};
-use crate::batch::memories::{LaneMemory, MemoryBatch, Toe};
-use crate::laws::traction::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
+use crate::batch::batch_law::{BatchLaw, Responses};
+use crate::batch::lanes::Lanes;
+use crate::batch::memories::{Memories, MemoriesMut, MemoryBatch};
+use crate::batch::traction::exponential::ExponentialBatch;
+use crate::batch::traction::weighted::{WeightedBackbone, WeightedTraction};
+use crate::laws::traction::{TractionBackbone, TractionLaw};
 
 /// A [`TractionLaw`] for many connectors side by side.
-///
-/// The end of the priming zone is kept with the memory ([`Toe`]). A law without one has it at a strain
-/// of 1, which no weight depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TractionBatch {
-    law: TractionLaw,
-    friction: PreparedFriction,
-    /// Weight of the friction at rest.
-    at_rest: f64,
-    /// Derivative of the weight with respect to the strain of a buckled yarn.
-    buckled_slope: f64,
+pub struct TractionBatch(Kind);
+
+/// Law that was prepared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Exponential(ExponentialBatch),
+    Weighted(WeightedTraction),
 }
 
 impl TractionBatch {
     /// Prepares a law.
     #[must_use]
     pub fn new(law: TractionLaw) -> Self {
-        let at_rest = match &law.backbone {
-            TractionBackbone::Primed(primed) => 2.0 - 1.0 / primed.toe_ratio,
-            TractionBackbone::Polynomial(_) => 1.0,
+        let TractionLaw { backbone, buckling, .. } = law;
+        let weighted = |weighted: WeightedBackbone| {
+            let rest = backbone.rest_stiffness();
+            Kind::Weighted(WeightedTraction::new(weighted, rest, &law.plateau(), buckling))
         };
-        Self {
-            law,
-            friction: PreparedFriction::new(&law.friction),
-            at_rest,
-            buckled_slope: at_rest / law.buckling.strain,
-        }
-    }
-
-    /// Adds the elastic load in tension of a law with a priming zone.
-    #[inline(always)]
-    fn add_tension<const TANGENT: bool>(
-        &self,
-        primed: &Primed,
-        memory: &MemoryBatch<'_>,
-        trial: &Lanes,
-        responses: &mut Responses,
-    ) {
-        let Responses { load, tangent } = responses;
-        let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
-        let deficit = 1.0 - toe_ratio;
-        for lane in 0..LANES {
-            let (strain, toe) = (positive(trial[lane]), memory.lane(lane).toe);
-            // The slope of the weight in the priming zone is (1 − r)/(r ε_c).
-            let bend = toe_ratio * toe.weight_slope * strain;
-            let within = stiffness * strain * (bend + 2.0 * toe_ratio - 1.0);
-            let beyond = stiffness * (strain - deficit * toe.end);
-            let bends = strain <= toe.end;
-            load[lane] += if bends { within } else { beyond };
-            if TANGENT {
-                let slope = stiffness * (2.0 * bend + 2.0 * toe_ratio - 1.0);
-                tangent[lane] += if bends { slope } else { stiffness };
+        Self(match backbone {
+            TractionBackbone::Exponential(toe) => {
+                Kind::Exponential(ExponentialBatch::new(toe, law.proportional(), buckling))
             }
-        }
-        if self.extends_toe(primed, memory, trial) {
-            for lane in 0..LANES {
-                let strain = trial[lane];
-                let new = strain > memory.lane(lane).peak.max(toe_strain);
-                // The priming zone moves with the strain: it replaces the remembered one.
-                let toe = toe_after(primed, strain);
-                let softer = stiffness * deficit * (memory.lane(lane).toe.end - toe);
-                load[lane] += if new { softer } else { 0.0 };
-                if TANGENT {
-                    let growth = (toe_strain_after - toe) / toe_strain;
-                    tangent[lane] -= if new { stiffness * deficit * growth } else { 0.0 };
-                }
+            TractionBackbone::Primed(primed) => weighted(WeightedBackbone::Primed(primed)),
+            TractionBackbone::Polynomial(polynomial) => {
+                weighted(WeightedBackbone::Polynomial(polynomial))
             }
-        }
+        })
     }
-
-    /// Returns whether some lane is stretched beyond its largest elongation, which moves its toe.
-    #[inline(always)]
-    fn extends_toe(&self, primed: &Primed, memory: &MemoryBatch<'_>, trial: &Lanes) -> bool {
-        any(|lane| trial[lane] > memory.lane(lane).peak.max(primed.toe_strain))
-    }
-
-    /// Adds the elastic load in compression.
-    #[inline(always)]
-    fn add_compression<const TANGENT: bool>(&self, trial: &Lanes, responses: &mut Responses) {
-        let Responses { load, tangent } = responses;
-        let rest = self.law.backbone.rest_stiffness();
-        let Buckling { strain, stiffness } = self.law.buckling;
-        for lane in 0..LANES {
-            let squeeze = -positive(-trial[lane]);
-            let lost = exp_m1(squeeze / strain);
-            load[lane] += rest * strain * lost - 0.5 * stiffness * squeeze * squeeze;
-            if TANGENT {
-                // The branch of tension has added the slope at rest.
-                let slope = rest * (1.0 + lost) - stiffness * squeeze;
-                let at_rest = rest;
-                tangent[lane] += if squeeze < 0.0 { slope - at_rest } else { 0.0 };
-            }
-        }
-    }
-}
-
-/// Returns [`Primed::toe`], in straight arithmetic.
-#[inline(always)]
-fn toe_after(primed: &Primed, peak: f64) -> f64 {
-    let beyond = positive(peak - primed.toe_strain) / primed.toe_strain;
-    primed.toe_strain - (primed.toe_strain_after - primed.toe_strain) * exp_m1(-beyond)
 }
 
 impl BatchLaw for TractionBatch {
-    const KNOTS: usize = 3;
-    const DEPENDS_ON_PEAK: bool = true;
-
-    #[inline(always)]
-    fn friction(&self) -> &PreparedFriction {
-        &self.friction
+    fn append_memories(&self, memories: &mut Memories, count: usize) {
+        match &self.0 {
+            Kind::Exponential(law) => law.append_memories(memories, count),
+            Kind::Weighted(law) => law.append_memories(memories, count),
+        }
     }
 
-    #[inline(always)]
-    fn toe(&self, peak: f64) -> Toe {
-        match &self.law.backbone {
-            TractionBackbone::Primed(primed) => {
-                let end = toe_after(primed, peak);
-                Toe { end, weight_slope: (1.0 - self.at_rest) / end }
-            }
-            TractionBackbone::Polynomial(_) => Toe { end: 1.0, weight_slope: 0.0 },
+    fn start(&self, memories: &mut Memories, start: usize, deformations: &Lanes) {
+        match &self.0 {
+            Kind::Exponential(law) => law.start(memories, start, deformations),
+            Kind::Weighted(law) => law.start(memories, start, deformations),
         }
     }
 
     #[inline(always)]
-    fn peak(&self, peak: f64, trial: f64) -> f64 {
-        peak.max(trial)
-    }
-
-    #[inline(always)]
-    fn weight(&self, lane: LaneMemory, strain: f64) -> f64 {
-        let toe = lane.toe;
-        let stretched = self.at_rest + toe.weight_slope * strain;
-        let squeezed = positive(self.at_rest + self.buckled_slope * strain);
-        let within = if strain >= 0.0 { stretched } else { squeezed };
-        if strain >= toe.end { 1.0 } else { within }
-    }
-
-    #[inline(always)]
-    fn weight_slope(&self, lane: LaneMemory, rising: bool) -> f64 {
-        let at = lane.position;
-        let below = |knot: f64| (at < knot) | (!rising & (at == knot));
-        let toe = lane.toe;
-        let mut slope = if below(toe.end) { toe.weight_slope } else { 0.0 };
-        slope = if below(0.0) { self.buckled_slope } else { slope };
-        if below(-self.law.buckling.strain) { 0.0 } else { slope }
-    }
-
-    #[inline(always)]
-    fn knot(&self, knot: usize, lane: LaneMemory) -> Knot {
-        let toe = lane.toe;
-        let (position, slope_change) = match knot {
-            0 => (-self.law.buckling.strain, self.buckled_slope),
-            1 => (0.0, toe.weight_slope - self.buckled_slope),
-            _ => (toe.end, -toe.weight_slope),
-        };
-        Knot { position, slope_change }
-    }
-
-    #[inline(always)]
-    fn add_elastic<const TANGENT: bool>(
+    fn respond<const TANGENT: bool>(
         &self,
         memory: &MemoryBatch<'_>,
         trial: &Lanes,
         responses: &mut Responses,
     ) {
-        match &self.law.backbone {
-            TractionBackbone::Primed(primed) => {
-                self.add_tension::<TANGENT>(primed, memory, trial, responses);
-            }
-            TractionBackbone::Polynomial(Polynomial { quadratic, quartic }) => {
-                for lane in 0..LANES {
-                    let strain = positive(trial[lane]);
-                    let square = strain * strain;
-                    responses.load[lane] += square * (quadratic + quartic * square);
-                    if TANGENT {
-                        let slope = 2.0 * quadratic + 4.0 * quartic * square;
-                        responses.tangent[lane] += strain * slope;
-                    }
-                }
-            }
-        }
-        if any(|lane| trial[lane] < 0.0) {
-            self.add_compression::<TANGENT>(trial, responses);
+        match &self.0 {
+            Kind::Exponential(law) => law.respond::<TANGENT>(memory, trial, responses),
+            Kind::Weighted(law) => law.respond::<TANGENT>(memory, trial, responses),
         }
     }
 
     #[inline(always)]
-    fn add_elastic_energy(&self, memory: &MemoryBatch<'_>, trial: &Lanes, energies: &mut Lanes) {
-        match &self.law.backbone {
-            TractionBackbone::Primed(primed) => {
-                for lane in 0..LANES {
-                    let strain = positive(trial[lane]);
-                    energies[lane] += primed.fixed_energy(memory.lane(lane).toe.end, strain);
-                }
-                if self.extends_toe(primed, memory, trial) {
-                    let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
-                    for lane in 0..LANES {
-                        let (strain, toe) = (trial[lane], memory.lane(lane).toe.end);
-                        let seen = memory.lane(lane).peak.max(toe_strain);
-                        // Integral of the moving toe less that of the remembered one.
-                        let beyond = strain - seen;
-                        let toes = (toe_strain_after - toe) * beyond
-                            - toe_strain * (toe_after(primed, strain) - toe);
-                        let softer = stiffness * (1.0 - toe_ratio) * toes;
-                        energies[lane] -= if beyond > 0.0 { softer } else { 0.0 };
-                    }
-                }
-            }
-            TractionBackbone::Polynomial(Polynomial { quadratic, quartic }) => {
-                for lane in 0..LANES {
-                    let strain = positive(trial[lane]);
-                    let square = strain * strain;
-                    let mean = quadratic / 3.0 + quartic * square / 5.0;
-                    energies[lane] += strain * square * mean;
-                }
-            }
+    fn add_friction<const TANGENT: bool>(
+        &self,
+        memory: &MemoryBatch<'_>,
+        trial: &Lanes,
+        responses: &mut Responses,
+    ) {
+        match &self.0 {
+            Kind::Exponential(law) => law.add_friction::<TANGENT>(memory, trial, responses),
+            Kind::Weighted(law) => law.add_friction::<TANGENT>(memory, trial, responses),
         }
-        if any(|lane| trial[lane] < 0.0) {
-            let rest = self.law.backbone.rest_stiffness();
-            let Buckling { strain, stiffness } = self.law.buckling;
-            for lane in 0..LANES {
-                let squeeze = -positive(-trial[lane]);
-                let lost = exp_m1(squeeze / strain);
-                energies[lane] += rest * strain * (strain * lost - squeeze)
-                    - stiffness * squeeze * squeeze * squeeze / 6.0;
-            }
+    }
+
+    #[inline(always)]
+    fn add_friction_work(&self, memory: &MemoryBatch<'_>, trial: &Lanes, works: &mut Lanes) {
+        match &self.0 {
+            Kind::Exponential(law) => law.add_friction_work(memory, trial, works),
+            Kind::Weighted(law) => law.add_friction_work(memory, trial, works),
+        }
+    }
+
+    #[inline(always)]
+    fn add_work(&self, memory: &MemoryBatch<'_>, trial: &Lanes, works: &mut Lanes) {
+        match &self.0 {
+            Kind::Exponential(law) => law.add_work(memory, trial, works),
+            Kind::Weighted(law) => law.add_work(memory, trial, works),
+        }
+    }
+
+    #[inline(always)]
+    fn commit(&self, memories: &mut MemoriesMut<'_>, start: usize, trial: &Lanes) -> Lanes {
+        match &self.0 {
+            Kind::Exponential(law) => law.commit(memories, start, trial),
+            Kind::Weighted(law) => law.commit(memories, start, trial),
+        }
+    }
+
+    #[inline(always)]
+    fn add_stored(&self, memory: &MemoryBatch<'_>, energies: &mut Lanes) {
+        match &self.0 {
+            Kind::Exponential(law) => law.add_stored(memory, energies),
+            Kind::Weighted(law) => law.add_stored(memory, energies),
+        }
+    }
+
+    #[inline(always)]
+    fn add_friction_stored(&self, memory: &MemoryBatch<'_>, energies: &mut Lanes) {
+        match &self.0 {
+            Kind::Exponential(law) => law.add_friction_stored(memory, energies),
+            Kind::Weighted(law) => law.add_friction_stored(memory, energies),
         }
     }
 }

@@ -4,6 +4,7 @@ use drape_hysteresis::{BlimanSorine, Response, Slip};
 
 use crate::laws::law::{Law, Memory};
 use crate::laws::piecewise::Piecewise;
+use crate::laws::varying::Varying;
 
 /// Bending moment per width against signed curvature \[NB04, eq. 4\].
 ///
@@ -43,6 +44,8 @@ pub enum BendingBackbone {
         /// Bending rigidity per width, in N·m.
         rigidity: f64,
     },
+    /// Rigidity that changes with the curvature; stiffnesses are in N·m, the transition in 1/m.
+    Varying(Varying),
     /// Quadratic and line; the slope is in N·m, the intercept in N, the knot in 1/m.
     Piecewise(Piecewise),
 }
@@ -55,6 +58,7 @@ impl BendingBackbone {
             Self::Linear { rigidity } => {
                 Response { load: rigidity * curvature, tangent: *rigidity }
             }
+            Self::Varying(varying) => varying.respond(curvature),
             Self::Piecewise(piecewise) => {
                 Response { load: piecewise.load(curvature), tangent: piecewise.tangent(curvature) }
             }
@@ -66,6 +70,7 @@ impl BendingBackbone {
     pub fn energy(&self, curvature: f64) -> f64 {
         match self {
             Self::Linear { rigidity } => 0.5 * rigidity * curvature * curvature,
+            Self::Varying(varying) => varying.energy(curvature * curvature),
             Self::Piecewise(piecewise) => piecewise.energy(curvature),
         }
     }

@@ -5,6 +5,7 @@ use drape_hysteresis::{BlimanSorine, Response};
 use crate::laws::law::{Law, Memory};
 use crate::laws::path::Path;
 use crate::laws::piecewise::Piecewise;
+use crate::laws::varying::Varying;
 
 /// Fraction of the interval from the onset of locking to its limit beyond which the load is a line.
 ///
@@ -59,6 +60,8 @@ pub enum ShearBackbone {
         /// Shear stiffness `$k_s$`, in N/m per unit of the sine.
         stiffness: f64,
     },
+    /// Stiffness that changes with the shear; stiffnesses are in N/m, the transition is a sine.
+    Varying(Varying),
     /// Quadratic and line; slope and intercept are in N/m, the knot is a sine.
     Piecewise(Piecewise),
 }
@@ -86,6 +89,7 @@ impl ShearBackbone {
     pub(crate) fn respond(&self, shear: f64) -> Response {
         match self {
             Self::Linear { stiffness } => Response { load: stiffness * shear, tangent: *stiffness },
+            Self::Varying(varying) => varying.respond(shear),
             Self::Piecewise(p) => Response { load: p.load(shear), tangent: p.tangent(shear) },
         }
     }
@@ -93,6 +97,7 @@ impl ShearBackbone {
     pub(crate) fn energy(&self, shear: f64) -> f64 {
         match self {
             Self::Linear { stiffness } => 0.5 * stiffness * shear * shear,
+            Self::Varying(varying) => varying.energy(shear * shear),
             Self::Piecewise(piecewise) => piecewise.energy(shear),
         }
     }

@@ -1,25 +1,26 @@
 //! Law of traction: tension per width against strain along one yarn system.
+//!
+//! `primed`, `polynomial` and `exponential` are the elastic loads, `toe` the end of a toe that moves,
+//! `buckling` the load in compression, `proportional` the friction that grows with the tension.
 
-use drape_hysteresis::{BlimanSorine, Response};
+pub(crate) mod buckling;
+pub(crate) mod exponential;
+pub(crate) mod polynomial;
+pub(crate) mod primed;
+pub(crate) mod proportional;
+pub(crate) mod toe;
+
+use drape_hysteresis::{BlimanSorine, Dahl, Loads, Response};
 
 use crate::laws::law::{Law, Memory};
 use crate::laws::path::Path;
-
-/// Strain over which a compressed yarn buckles, a ratio.
-///
-/// Larger values make compression stiffer and the equations easier to solve; smaller ones sharpen the
-/// corner of the load at zero strain, which slows quasi-Newton iterations. A fifth of a per cent is
-/// well below the strains of a KES tensile curve (1 to 10 %).
-pub const BUCKLING_STRAIN: f64 = 0.002;
-
-/// Post-buckling stiffness of a yarn, in N/m.
-///
-/// The load grows with the square of the compression: 0.5 N/m at 10 %, a quarter of the weight of
-/// a metre of cloth. Without it a segment could shrink to zero length without any load.
-pub const POST_BUCKLING_STIFFNESS: f64 = 100.0;
-
-/// Smallest toe ratio, a ratio; at one half the fabric would have no stiffness at rest.
-pub const TOE_RATIO_MIN: f64 = 0.505;
+use crate::laws::traction::buckling::Buckling;
+use crate::laws::traction::exponential::ExponentialToe;
+use crate::laws::traction::polynomial::Polynomial;
+use crate::laws::traction::primed::Primed;
+use crate::laws::traction::proportional::{
+    ProportionalFriction, Weight, WeightPiece, WeightedStep,
+};
 
 /// Tension per width of a woven fabric along one of its yarn systems, against strain.
 ///
@@ -28,17 +29,7 @@ pub const TOE_RATIO_MIN: f64 = 0.505;
 /// ```
 ///
 /// with the elastic backbone `$F_e$` ([`TractionBackbone`]; [`Buckling`] in compression) and the
-/// friction `$F_{fr}$`, whose plateau carries the weight
-///
-/// ```math
-/// g(\varepsilon) = \frac{(1-r)\,\varepsilon/\varepsilon_c + 2r-1}{r}\;(0 \le \varepsilon \le \varepsilon_c),
-/// \qquad g = 1\;(\varepsilon > \varepsilon_c)
-/// ```
-///
-/// because in the priming zone only part of the yarns bear load. Below zero strain the yarns buckle
-/// and the weight falls linearly to zero at `$-\varepsilon_b$`. The factor printed in \[NB04, eq. 3\],
-/// `$a\varepsilon + b$`, has the unit of a strain and jumps at `$\varepsilon_c$`; `$g$` is that factor
-/// times `$k_t/F_1$`.
+/// friction `$F_{fr}$` ([`TractionFriction`]).
 ///
 /// ```
 /// use drape_fabric::{BlimanSorine, Buckling, Law, Primed, TractionBackbone, TractionLaw};
@@ -46,7 +37,7 @@ pub const TOE_RATIO_MIN: f64 = 0.505;
 /// let toe = Primed { stiffness: 4000.0, toe_ratio: 0.7, toe_strain: 0.01, toe_strain_after: 0.01 };
 /// let law = TractionLaw {
 ///     backbone: TractionBackbone::Primed(toe),
-///     friction: BlimanSorine::none(),
+///     friction: BlimanSorine::none().into(),
 ///     buckling: Buckling::default(),
 /// };
 /// assert!((law.respond(&law.virgin(), 0.01).load - toe.toe_load()).abs() < 1e-12);
@@ -55,8 +46,8 @@ pub const TOE_RATIO_MIN: f64 = 0.505;
 pub struct TractionLaw {
     /// Elastic load in tension, per width.
     pub backbone: TractionBackbone,
-    /// Internal friction; its plateau is in N/m, its length a ratio.
-    pub friction: BlimanSorine,
+    /// Internal friction.
+    pub friction: TractionFriction,
     /// Elastic load in compression, per width.
     pub buckling: Buckling,
 }
@@ -64,151 +55,61 @@ pub struct TractionLaw {
 /// Elastic load of a fabric in tension, per width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TractionBackbone {
+    /// Exponential toe that continues as its tangent, beside a line.
+    Exponential(ExponentialToe),
     /// Priming zone, then a line \[NB04, eq. 3\].
     Primed(Primed),
     /// Even polynomial of the strain \[THK03, fig. 8a\].
     Polynomial(Polynomial),
 }
 
-/// Priming zone (toe) and linear zone of a tensile curve \[NB04, eq. 3\].
-///
-/// With the stiffness `$k_t$`, the end `$\varepsilon_c$` of the priming zone, the load `$F_1$` there and
-/// the toe ratio `$r = F_1/(k_t\varepsilon_c)$` the load is
-///
-/// ```math
-/// F = k_t\left[(1-r)\,\varepsilon^2/\varepsilon_c + (2r-1)\,\varepsilon\right]
-/// \;(\varepsilon \le \varepsilon_c), \qquad
-/// F = k_t\left[\varepsilon - (1-r)\,\varepsilon_c\right]\;(\varepsilon > \varepsilon_c)
-/// ```
-///
-/// It is once differentiable, and monotone for `$\tfrac12 \le r \le 1$`. The end of the toe depends on
-/// the largest elongation so far, `$\hat\varepsilon$`:
-///
-/// ```math
-/// \varepsilon_c = \varepsilon_1 + (\varepsilon_1'-\varepsilon_1)
-/// \left(1 - e^{-(\hat\varepsilon-\varepsilon_1)/\varepsilon_1}\right),
-/// \qquad \hat\varepsilon > \varepsilon_1
-/// ```
-///
-/// with the toe ratio unchanged. The paper identifies two values of `$\varepsilon_c$` and gives no rule
-/// between them. This rule is continuous, keeps the virgin curve rising while
-/// `$\varepsilon_1' \le 2\varepsilon_1$`, and saturates, so that a fit is not extrapolated without
-/// bound.
+/// Internal friction of a fabric in tension, per width.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Primed {
-    /// Stiffness `$k_t$` of the linear zone, in N/m.
-    pub stiffness: f64,
-    /// Toe ratio `$r$`, from 0.505 to 1; 1 is a straight line.
-    pub toe_ratio: f64,
-    /// Strain `$\varepsilon_1$` where the priming zone of a virgin fabric ends, a ratio.
-    pub toe_strain: f64,
-    /// Strain `$\varepsilon_1'$` where it ends after the fabric has been stretched, a ratio from
-    /// `toe_strain` to twice that.
-    pub toe_strain_after: f64,
+pub enum TractionFriction {
+    /// Bliman–Sorine friction with a plateau in N/m and a length that is a strain, for the laws of
+    /// the papers. An exponential toe takes the first element alone, at a weight of one in tension. In the priming zone its plateau carries the weight
+    ///
+    /// ```math
+    /// g(\varepsilon) = \frac{(1-r)\,\varepsilon/\varepsilon_c + 2r-1}{r}\;
+    /// (0 \le \varepsilon \le \varepsilon_c), \qquad g = 1\;(\varepsilon > \varepsilon_c)
+    /// ```
+    ///
+    /// because there only part of the yarns bear load. Below zero strain the yarns buckle and the
+    /// weight falls linearly to zero at `$-\varepsilon_b$`. The factor printed in \[NB04, eq. 3\],
+    /// `$a\varepsilon + b$`, has the unit of a strain and jumps at `$\varepsilon_c$`; `$g$` is that
+    /// factor times `$k_t/F_1$`.
+    Plateau(BlimanSorine),
+    /// Friction in proportion to the elastic load, for [`TractionBackbone::Exponential`]. Other
+    /// backbones have no friction with it.
+    Proportional(ProportionalFriction),
 }
 
-/// Even polynomial `$F = c_2\varepsilon^2 + c_4\varepsilon^4$` \[THK03, fig. 8a\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Polynomial {
-    /// Coefficient `$c_2$` of the squared strain, in N/m.
-    pub quadratic: f64,
-    /// Coefficient `$c_4$` of the fourth power, in N/m.
-    pub quartic: f64,
-}
-
-/// Load of a compressed yarn, which buckles at a length below the spacing of the particles.
-///
-/// ```math
-/// F = k_0\varepsilon_b\left(e^{\varepsilon/\varepsilon_b}-1\right) - \tfrac12 k_p\varepsilon^2,
-/// \qquad \varepsilon < 0
-/// ```
-///
-/// with the stiffness `$k_0$` at rest, so that the slope is continuous. No KES test measures it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Buckling {
-    /// Strain `$\varepsilon_b$` over which the stiffness at rest decays, a ratio.
-    pub strain: f64,
-    /// Increase `$k_p$` of the stiffness per strain after buckling, in N/m.
-    pub stiffness: f64,
-}
-
-impl Default for Buckling {
-    fn default() -> Self {
-        Self { strain: BUCKLING_STRAIN, stiffness: POST_BUCKLING_STIFFNESS }
+impl From<BlimanSorine> for TractionFriction {
+    fn from(friction: BlimanSorine) -> Self {
+        Self::Plateau(friction)
     }
 }
 
-impl Primed {
-    /// Returns the strain where the priming zone ends after the largest elongation `peak`, a ratio.
+impl From<ProportionalFriction> for TractionFriction {
+    fn from(friction: ProportionalFriction) -> Self {
+        Self::Proportional(friction)
+    }
+}
+
+impl TractionFriction {
+    /// No friction, for every backbone.
     #[must_use]
-    pub fn toe(&self, peak: f64) -> f64 {
-        let beyond = (peak - self.toe_strain).max(0.0) / self.toe_strain;
-        self.toe_strain - (self.toe_strain_after - self.toe_strain) * (-beyond).exp_m1()
+    pub fn none() -> Self {
+        Self::Plateau(BlimanSorine::none())
     }
 
-    /// Load `$F_1$` at the end of the virgin priming zone, in N/m.
+    /// Returns whether there is no friction.
     #[must_use]
-    pub fn toe_load(&self) -> f64 {
-        self.toe_ratio * self.stiffness * self.toe_strain
-    }
-
-    /// Returns load and tangent at a strain of at least 0 with a toe of fixed length.
-    fn fixed(&self, toe: f64, strain: f64) -> Response {
-        let Self { stiffness, toe_ratio, .. } = *self;
-        if strain <= toe {
-            let bend = (1.0 - toe_ratio) * strain / toe;
-            Response {
-                load: stiffness * strain * (bend + 2.0 * toe_ratio - 1.0),
-                tangent: stiffness * (2.0 * bend + 2.0 * toe_ratio - 1.0),
-            }
-        } else {
-            let load = stiffness * (strain - (1.0 - toe_ratio) * toe);
-            Response { load, tangent: stiffness }
+    pub fn is_none(&self) -> bool {
+        match self {
+            Self::Plateau(friction) => friction.elements.iter().all(|e| e.plateau == 0.0),
+            Self::Proportional(friction) => friction.is_none(),
         }
-    }
-
-    /// Returns load and tangent at a strain beyond every earlier one and beyond the virgin toe.
-    fn virgin(&self, strain: f64) -> Response {
-        let toe = self.toe(strain);
-        let growth = (self.toe_strain_after - toe) / self.toe_strain;
-        Response {
-            load: self.stiffness * (strain - (1.0 - self.toe_ratio) * toe),
-            tangent: self.stiffness * (1.0 - (1.0 - self.toe_ratio) * growth),
-        }
-    }
-
-    fn respond(&self, peak: f64, strain: f64) -> Response {
-        if strain > peak.max(self.toe_strain) {
-            self.virgin(strain)
-        } else {
-            self.fixed(self.toe(peak), strain)
-        }
-    }
-
-    /// Returns the integral of the load from 0 to a strain of at least 0 with a toe of fixed length, in
-    /// J/m².
-    pub(crate) fn fixed_energy(&self, toe: f64, strain: f64) -> f64 {
-        let Self { stiffness, toe_ratio, .. } = *self;
-        let within = strain.min(toe);
-        let square = within * within;
-        let toe_part = (1.0 - toe_ratio) * square * within / (3.0 * toe)
-            + 0.5 * (2.0 * toe_ratio - 1.0) * square;
-        let beyond = strain - within;
-        stiffness * (toe_part + beyond * (0.5 * (strain + within) - (1.0 - toe_ratio) * toe))
-    }
-
-    /// Returns the integral of the load from 0 after the largest elongation `peak`, in J/m².
-    fn energy(&self, peak: f64, strain: f64) -> f64 {
-        let seen = peak.max(self.toe_strain);
-        if strain <= seen {
-            return self.fixed_energy(self.toe(peak), strain);
-        }
-        // Integral of the moving toe: ∫ε_c dε = ε₁'Δε − ε₁(ε_c(end) − ε_c(start)).
-        let toes = self.toe_strain_after * (strain - seen)
-            - self.toe_strain * (self.toe(strain) - self.toe(seen));
-        let line = 0.5 * (strain - seen) * (strain + seen);
-        self.fixed_energy(self.toe(seen), seen)
-            + self.stiffness * (line - (1.0 - self.toe_ratio) * toes)
     }
 }
 
@@ -217,6 +118,7 @@ impl TractionBackbone {
     #[must_use]
     pub fn rest_stiffness(&self) -> f64 {
         match self {
+            Self::Exponential(toe) => toe.rest_stiffness(),
             Self::Primed(primed) => primed.stiffness * (2.0 * primed.toe_ratio - 1.0),
             Self::Polynomial(_) => 0.0,
         }
@@ -224,24 +126,17 @@ impl TractionBackbone {
 
     fn respond(&self, peak: f64, strain: f64) -> Response {
         match self {
+            Self::Exponential(toe) => toe.respond(peak, strain),
             Self::Primed(primed) => primed.respond(peak, strain),
-            Self::Polynomial(Polynomial { quadratic, quartic }) => {
-                let square = strain * strain;
-                Response {
-                    load: square * (quadratic + quartic * square),
-                    tangent: strain * (2.0 * quadratic + 4.0 * quartic * square),
-                }
-            }
+            Self::Polynomial(polynomial) => polynomial.respond(strain),
         }
     }
 
     fn energy(&self, peak: f64, strain: f64) -> f64 {
         match self {
+            Self::Exponential(toe) => toe.energy(peak, strain),
             Self::Primed(primed) => primed.energy(peak, strain),
-            Self::Polynomial(Polynomial { quadratic, quartic }) => {
-                let square = strain * strain;
-                strain * square * (quadratic / 3.0 + quartic * square / 5.0)
-            }
+            Self::Polynomial(polynomial) => polynomial.energy(strain),
         }
     }
 }
@@ -251,33 +146,26 @@ impl TractionLaw {
     #[must_use]
     pub fn elastic(&self, peak: f64, strain: f64) -> Response {
         if strain >= 0.0 {
-            return self.backbone.respond(peak, strain);
-        }
-        let rest = self.backbone.rest_stiffness();
-        let Buckling { strain: scale, stiffness } = self.buckling;
-        let lost = (strain / scale).exp_m1();
-        Response {
-            load: rest * scale * lost - 0.5 * stiffness * strain * strain,
-            tangent: rest * (1.0 + lost) - stiffness * strain,
+            self.backbone.respond(peak, strain)
+        } else {
+            self.buckling.respond(self.backbone.rest_stiffness(), strain)
         }
     }
 
     fn elastic_energy(&self, peak: f64, strain: f64) -> f64 {
         if strain >= 0.0 {
-            return self.backbone.energy(peak, strain);
+            self.backbone.energy(peak, strain)
+        } else {
+            self.buckling.energy(self.backbone.rest_stiffness(), strain)
         }
-        let rest = self.backbone.rest_stiffness();
-        let Buckling { strain: scale, stiffness } = self.buckling;
-        rest * scale * (scale * (strain / scale).exp_m1() - strain)
-            - stiffness * strain * strain * strain / 6.0
     }
 
-    /// Returns the path of the friction with the weight `$g$` of the type's documentation.
+    /// Returns the path of a friction with a plateau from the memory to a `strain`.
     fn path(&self, memory: &Memory, strain: f64) -> Path {
         let slack = -self.buckling.strain;
         let (toe, at_rest) = match &self.backbone {
             TractionBackbone::Primed(p) => (p.toe(memory.peak), 2.0 - 1.0 / p.toe_ratio),
-            TractionBackbone::Polynomial(_) => (0.0, 1.0),
+            TractionBackbone::Exponential(_) | TractionBackbone::Polynomial(_) => (0.0, 1.0),
         };
         let weight = |strain: f64| {
             if strain >= toe {
@@ -290,29 +178,153 @@ impl TractionLaw {
         };
         Path::new(memory.position, strain, &[slack, 0.0, toe], weight)
     }
+
+    /// Returns the friction of a law with an exponential toe. A friction with a plateau is one whose
+    /// ratio is 0.
+    pub(crate) fn proportional(&self) -> ProportionalFriction {
+        match self.friction {
+            TractionFriction::Proportional(friction) => friction,
+            TractionFriction::Plateau(friction) => {
+                let [Dahl { plateau, length }, _] = friction.elements;
+                ProportionalFriction { ratio: 0.0, plateau, length }
+            }
+        }
+    }
+
+    /// Returns the friction of a law of the papers. A friction that grows with the tension is none.
+    pub(crate) fn plateau(&self) -> BlimanSorine {
+        match self.friction {
+            TractionFriction::Plateau(friction) => friction,
+            TractionFriction::Proportional(_) => BlimanSorine::none(),
+        }
+    }
+
+    /// Returns the friction with all that its weight depends on, if the toe is exponential.
+    fn weighted_by_tension(&self) -> Option<WeightedByTension> {
+        let TractionBackbone::Exponential(toe) = self.backbone else { return None };
+        let (friction, buckling) = (self.proportional(), self.buckling);
+        Some(WeightedByTension { toe, friction, buckling })
+    }
 }
 
 impl Law for TractionLaw {
     fn respond(&self, memory: &Memory, strain: f64) -> Response {
         let elastic = self.elastic(memory.peak, strain);
-        let friction = self.path(memory, strain).respond(&self.friction, memory.friction);
+        let friction = match self.weighted_by_tension() {
+            Some(friction) => friction.respond(memory, strain),
+            None => self.path(memory, strain).respond(&self.plateau(), memory.friction),
+        };
         Response { load: elastic.load + friction.load, tangent: elastic.tangent + friction.tangent }
     }
 
     fn work(&self, memory: &Memory, strain: f64) -> f64 {
+        let friction = match self.weighted_by_tension() {
+            Some(friction) => friction.work(memory, strain),
+            None => self.path(memory, strain).work(&self.plateau(), memory.friction),
+        };
         self.elastic_energy(memory.peak, strain) - self.elastic_energy(memory.peak, memory.position)
-            + self.path(memory, strain).work(&self.friction, memory.friction)
+            + friction
     }
 
     fn commit(&self, memory: &Memory, strain: f64) -> Memory {
-        Memory {
-            position: strain,
-            friction: self.path(memory, strain).advance(&self.friction, memory.friction),
-            peak: memory.peak.max(strain),
-        }
+        let friction = match self.weighted_by_tension() {
+            Some(friction) => friction.advance(memory, strain),
+            None => self.path(memory, strain).advance(&self.plateau(), memory.friction),
+        };
+        Memory { position: strain, friction, peak: memory.peak.max(strain) }
     }
 
     fn stored(&self, memory: &Memory) -> f64 {
-        self.elastic_energy(memory.peak, memory.position) + self.friction.stored(memory.friction)
+        let friction = match self.weighted_by_tension() {
+            Some(friction) => friction.stored(memory),
+            None => self.plateau().stored(memory.friction),
+        };
+        self.elastic_energy(memory.peak, memory.position) + friction
+    }
+}
+
+/// Friction that grows with the tension, with all that its weight depends on.
+///
+/// The first of the two friction loads of a [`Memory`] is its state.
+struct WeightedByTension {
+    toe: ExponentialToe,
+    friction: ProportionalFriction,
+    buckling: Buckling,
+}
+
+impl WeightedByTension {
+    fn element(&self) -> Dahl {
+        self.friction.element()
+    }
+
+    fn advance(&self, memory: &Memory, strain: f64) -> Loads {
+        let [state, _] = memory.friction;
+        [self.element().advance(state, strain - memory.position), 0.0]
+    }
+
+    /// Returns the weight at a `strain`, in N/m, and its slope.
+    fn weight(&self, peak: f64, strain: f64) -> Response {
+        let ProportionalFriction { ratio, plateau, .. } = self.friction;
+        if strain < 0.0 {
+            let scale = self.buckling.strain;
+            let load = plateau * (strain / scale).exp();
+            return Response { load, tangent: load / scale };
+        }
+        let elastic = self.toe.respond(peak, strain);
+        Response { load: plateau + ratio * elastic.load, tangent: ratio * elastic.tangent }
+    }
+
+    fn respond(&self, memory: &Memory, strain: f64) -> Response {
+        let [state, _] = memory.friction;
+        let weight = self.weight(memory.peak, strain);
+        let end = self.element().respond(state, strain - memory.position);
+        Response {
+            load: weight.load * end.load,
+            tangent: weight.tangent * end.load + weight.load * end.tangent,
+        }
+    }
+
+    fn work(&self, memory: &Memory, strain: f64) -> f64 {
+        let [state, _] = memory.friction;
+        // Beyond every earlier strain the toe moves.
+        let seen = memory.peak.max(self.toe.toe_strain);
+        self.work_along(memory.position, strain, state, [self.toe.toe(memory.peak), seen])
+    }
+
+    /// Returns the work from one strain to another, in J/m², with a toe that ends at the first of
+    /// `knots` and begins to move at the second.
+    fn work_along(&self, from: f64, to: f64, state: f64, knots: [f64; 2]) -> f64 {
+        let Self { toe, friction, buckling } = self;
+        let weight = Weight { toe, friction, buckling };
+        let [end, seen] = knots;
+        let pieces = [
+            (f64::NEG_INFINITY, 0.0, weight.compressed()),
+            (0.0, end, weight.within_toe(end)),
+            (end, seen, weight.beyond_toe(end)),
+            (seen, f64::INFINITY, weight.virgin()),
+        ];
+        let (element, sign) = (self.element(), 1_f64.copysign(to - from));
+        let work = |(low, high, piece): (f64, f64, WeightPiece)| {
+            let (start, stop) = (from.clamp(low, high), to.clamp(low, high));
+            if start == stop {
+                return 0.0;
+            }
+            let state = element.advance(state, start - from);
+            piece.work(WeightedStep { from: start, to: stop, sign, state }, self.friction.length)
+        };
+        pieces.into_iter().map(work).sum()
+    }
+
+    /// Returns the most work that the friction can give back from the remembered state, in J/m².
+    ///
+    /// The state is unloaded until it is zero: a strain of `$x_f\ln(1+|g|)$` back from where it was
+    /// built up. On every other path the friction gives back less, so the work of a path less the
+    /// change of this energy is never negative.
+    fn stored(&self, memory: &Memory) -> f64 {
+        let [state, _] = memory.friction;
+        let path = self.friction.length * state.abs().ln_1p();
+        let unloaded = memory.position - path.copysign(state);
+        let knots = [self.toe.toe(memory.peak), f64::INFINITY];
+        -self.work_along(memory.position, unloaded, state, knots)
     }
 }

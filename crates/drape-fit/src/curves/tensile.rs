@@ -97,7 +97,7 @@ mod tests {
                     toe_strain: toe,
                     toe_strain_after: growth * toe,
                 }),
-                friction: BlimanSorine::first_order(4.0, 0.002),
+                friction: BlimanSorine::first_order(4.0, 0.002).into(),
                 buckling: Buckling::default(),
             };
             let taut = clamps(top);
@@ -132,7 +132,7 @@ mod tests {
         let load = strain.iter().map(|e| 4e3 * e + 5e4 * e * e).collect();
         let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
         let law = identify_tensile(&curve, &primed()).unwrap().law;
-        assert_eq!(law.friction, BlimanSorine::none());
+        assert!(law.friction.is_none(), "{law:?}");
         let TractionBackbone::Primed(primed) = law.backbone else { panic!("primed was asked for") };
         assert_eq!(primed.toe_strain, primed.toe_strain_after);
     }

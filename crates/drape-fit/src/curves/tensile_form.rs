@@ -1,12 +1,21 @@
 //! Parameters of a tensile fit, and the law and forward model that follow from them.
 
-use drape_fabric::{BlimanSorine, Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
+use drape_fabric::{
+    BlimanSorine, Buckling, ExponentialToe, Polynomial, Primed, ProportionalFriction,
+    STEEPNESS_MIN, TractionBackbone, TractionFriction, TractionLaw,
+};
 use drape_kes::Curve;
 
 use crate::forward::strip_drive::{drive_slack_strip, drive_strip};
 use crate::regression::residuals::ForwardModel;
 use crate::settings::Settings;
 use crate::settings::model::{Toe, TractionModel};
+
+/// Largest strain over which a yarn may buckle for the sake of its friction without tension.
+///
+/// The load rises in compression only if the plateau is at most the stiffness at rest times this
+/// strain: with more, a cloth would carry compression over strains at which it was never measured.
+const LARGEST_BUCKLING: f64 = 0.05;
 
 /// Properties of a tensile curve that decide which parameters it has.
 #[derive(Clone, Copy)]
@@ -17,11 +26,24 @@ pub(crate) struct StripKind {
     pub(crate) recovers: bool,
 }
 
+/// Terms of a law with an exponential toe that may be left out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Terms {
+    /// The toe, and friction in proportion to the elastic load.
+    ToeOnly,
+    /// The toe beside a line.
+    ToeAndLine,
+    /// The toe beside a line, and friction with a constant part.
+    All,
+}
+
 /// Parameters that a tensile fit has.
 #[derive(Clone, Copy)]
 pub(crate) struct TensileForm {
     pub(crate) model: TractionModel,
     pub(crate) toe: Toe,
+    /// Terms of a [`TractionModel::Exponential`]; other models have all of theirs.
+    pub(crate) terms: Terms,
     pub(crate) strip: StripKind,
 }
 
@@ -42,24 +64,55 @@ struct StripLaw {
 impl TensileForm {
     /// Returns the forms that the settings admit, in the order of preference.
     pub(crate) fn admitted(strip: StripKind, settings: &Settings) -> Vec<Self> {
-        use {Toe::*, TractionModel::*};
-        // Without recovery the motion of the toe cannot be seen.
+        use {Terms::*, Toe::*, TractionModel::*};
+        // Without recovery the motion of the toe cannot be seen, nor a friction.
         let toe = if strip.recovers { settings.toe } else { Some(Still) };
-        let forms = [(Primed, Still), (Primed, Moving), (Polynomial, Still)];
-        let wanted = forms.into_iter().filter(|(model, form_toe)| {
+        let forms = [
+            (Exponential, Still, ToeOnly),
+            (Exponential, Still, ToeAndLine),
+            (Exponential, Still, All),
+            (Exponential, Moving, ToeOnly),
+            (Exponential, Moving, All),
+            (Primed, Still, All),
+            (Primed, Moving, All),
+            (Polynomial, Still, All),
+        ];
+        let wanted = forms.into_iter().filter(|(model, form_toe, terms)| {
             settings.traction.is_none_or(|wanted| wanted == *model)
                 && (*model == Polynomial || toe.is_none_or(|wanted| wanted == *form_toe))
+                && (strip.recovers || *model != Exponential || *terms != All)
         });
-        wanted.map(|(model, toe)| Self { model, toe, strip }).collect()
+        wanted.map(|(model, toe, terms)| Self { model, toe, terms, strip }).collect()
     }
 
     /// Returns the name used in reports.
     pub(crate) fn name(self) -> &'static str {
-        match (self.model, self.toe) {
-            (TractionModel::Primed, Toe::Still) => "priming zone",
-            (TractionModel::Primed, Toe::Moving) => "priming zone that moves",
-            (TractionModel::Polynomial, _) => "even polynomial",
+        match (self.model, self.toe, self.terms) {
+            (TractionModel::Exponential, Toe::Still, Terms::ToeOnly) => "exponential toe",
+            (TractionModel::Exponential, Toe::Still, Terms::ToeAndLine) => {
+                "exponential toe and line"
+            }
+            (TractionModel::Exponential, Toe::Still, Terms::All) => {
+                "exponential toe and line, friction with a constant part"
+            }
+            (TractionModel::Exponential, Toe::Moving, Terms::All) => {
+                "exponential toe that moves and line, friction with a constant part"
+            }
+            (TractionModel::Exponential, Toe::Moving, _) => "exponential toe that moves",
+            (TractionModel::Primed, Toe::Still, _) => "priming zone",
+            (TractionModel::Primed, Toe::Moving, _) => "priming zone that moves",
+            (TractionModel::Polynomial, ..) => "even polynomial",
         }
+    }
+
+    /// Returns whether a line lies beside an exponential toe.
+    pub(crate) fn has_line(self) -> bool {
+        self.terms != Terms::ToeOnly
+    }
+
+    /// Returns whether the friction beside an exponential toe has a constant part.
+    pub(crate) fn has_plateau(self) -> bool {
+        self.terms == Terms::All
     }
 
     /// Returns the loads of the form along a curve.
@@ -83,29 +136,72 @@ impl TensileForm {
     }
 
     fn strip_law(self, p: &[f64]) -> StripLaw {
-        let mut p = p.iter().copied();
-        let mut next = || p.next().expect("as many parameters as the starts have");
-        let zeros = self.strip.slack.then(|| Zeros { strain: next(), load: next() });
-        let backbone = match self.model {
+        let mut p = Parameters(p);
+        let zeros = self.strip.slack.then(|| Zeros { strain: p.next(), load: p.next() });
+        let law = match self.model {
+            TractionModel::Exponential => self.exponential(&mut p),
             TractionModel::Primed => {
-                let (stiffness, toe_ratio, toe_strain) = (next(), next(), next());
-                let growth = if self.toe == Toe::Moving { next() } else { 1.0 };
-                let toe_strain_after = growth * toe_strain;
-                TractionBackbone::Primed(Primed {
-                    stiffness,
-                    toe_ratio,
-                    toe_strain,
-                    toe_strain_after,
-                })
+                let (stiffness, toe_ratio, toe_strain) = (p.next(), p.next(), p.next());
+                let toe_strain_after = toe_strain * p.next_if(self.toe == Toe::Moving, 1.0);
+                let primed = Primed { stiffness, toe_ratio, toe_strain, toe_strain_after };
+                self.with_plateau(TractionBackbone::Primed(primed), &mut p)
             }
             TractionModel::Polynomial => {
-                TractionBackbone::Polynomial(Polynomial { quadratic: next(), quartic: next() })
+                let polynomial = Polynomial { quadratic: p.next(), quartic: p.next() };
+                self.with_plateau(TractionBackbone::Polynomial(polynomial), &mut p)
             }
         };
-        let friction = match self.strip.recovers {
-            true => BlimanSorine::first_order(next(), next()),
-            false => BlimanSorine::none(),
+        StripLaw { zeros, law }
+    }
+
+    fn exponential(self, p: &mut Parameters<'_>) -> TractionLaw {
+        let (stiffness, steepness, toe_strain) = (p.next(), p.next(), p.next());
+        let toe = ExponentialToe {
+            stiffness,
+            steepness: steepness.max(STEEPNESS_MIN),
+            toe_strain,
+            toe_strain_after: toe_strain * p.next_if(self.toe == Toe::Moving, 1.0),
+            base_stiffness: p.next_if(self.has_line(), 0.0),
         };
-        StripLaw { zeros, law: TractionLaw { backbone, friction, buckling: Buckling::default() } }
+        let friction = if self.strip.recovers {
+            let (ratio, length) = (p.next(), p.next());
+            let most = LARGEST_BUCKLING * toe.rest_stiffness();
+            let plateau = p.next_if(self.has_plateau(), 0.0).min(most);
+            ProportionalFriction { ratio, plateau, length }
+        } else {
+            ProportionalFriction { ratio: 0.0, plateau: 0.0, length: toe_strain }
+        };
+        let strain = friction.buckling_strain(&toe);
+        TractionLaw {
+            backbone: TractionBackbone::Exponential(toe),
+            friction: TractionFriction::Proportional(friction),
+            buckling: Buckling { strain, ..Buckling::default() },
+        }
+    }
+
+    /// Returns the law with a backbone of the papers and a friction with a plateau.
+    fn with_plateau(self, backbone: TractionBackbone, p: &mut Parameters<'_>) -> TractionLaw {
+        let friction = if self.strip.recovers {
+            BlimanSorine::first_order(p.next(), p.next())
+        } else {
+            BlimanSorine::none()
+        };
+        TractionLaw { backbone, friction: friction.into(), buckling: Buckling::default() }
+    }
+}
+
+/// Parameters that are taken one after the other.
+struct Parameters<'a>(&'a [f64]);
+
+impl Parameters<'_> {
+    fn next(&mut self) -> f64 {
+        let (first, rest) = self.0.split_first().expect("as many parameters as the starts have");
+        self.0 = rest;
+        *first
+    }
+
+    /// Returns the next parameter if it `is_fitted`, and its value in the law otherwise.
+    fn next_if(&mut self, is_fitted: bool, otherwise: f64) -> f64 {
+        if is_fitted { self.next() } else { otherwise }
     }
 }

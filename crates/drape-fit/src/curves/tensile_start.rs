@@ -8,6 +8,8 @@
 //! `$k$` times toe ratio `$r$`, and plateau `$F_c$`, where `$f_r$` is the backbone of unit
 //! stiffness and toe ratio `$r$` and `$u$` the unit friction. Ends and lengths are tried on a grid.
 
+mod exponential;
+
 use std::ops::Range;
 
 use drape_fabric::{
@@ -61,9 +63,8 @@ pub(crate) struct InitialGuess {
 /// Initial guess, with the sum of squares that it leaves.
 struct Start {
     residual_sum: f64,
-    backbone: Vec<f64>,
-    plateau: f64,
-    length: f64,
+    /// Values of the parameters of the law, in the order of [`InitialGuess::bounds`].
+    values: Vec<f64>,
 }
 
 /// Linear combination of backbone columns and a friction column.
@@ -121,6 +122,7 @@ impl InitialGuess {
     /// Returns the guesses of the grid that follow the curve best.
     fn starts(&self, form: &TensileForm) -> Vec<Vec<NamedParameter>> {
         let mut starts = match (form.model, form.toe) {
+            (TractionModel::Exponential, _) => self.exponentials(form),
             (TractionModel::Polynomial, _) => self.polynomials(form),
             (TractionModel::Primed, Toe::Still) => self.primed(form, &[1.0]),
             (TractionModel::Primed, Toe::Moving) => self.primed(form, &GROWTHS),
@@ -145,7 +147,7 @@ impl InitialGuess {
                     toe_strain: toe * top,
                     toe_strain_after: growth * toe * top,
                 }),
-                friction,
+                friction: friction.into(),
                 buckling: Buckling::default(),
             };
             let column = |law: TractionLaw| self.column(&law);
@@ -161,12 +163,10 @@ impl InitialGuess {
             // part.
             let stiffness = c[0] + c[1];
             let ratio = 1.0 - (1.0 - DEEP) * c[1] / stiffness;
-            let mut backbone = vec![stiffness, ratio.clamp(1.05 * TOE_RATIO_MIN, 0.98), toe * top];
-            if form.toe == Toe::Moving {
-                backbone.push(growth);
-            }
-            let plateau = c.get(2).copied().unwrap_or(0.0);
-            (stiffness > 0.0).then_some(Start { residual_sum, backbone, plateau, length })
+            let mut values = vec![stiffness, ratio.clamp(1.05 * TOE_RATIO_MIN, 0.98), toe * top];
+            values.extend((form.toe == Toe::Moving).then_some(growth));
+            values.extend(c.get(2).into_iter().flat_map(|plateau| [*plateau, length]));
+            (stiffness > 0.0).then_some(Start { residual_sum, values })
         };
         let pairs = TOES.iter().flat_map(|&toe| growths.iter().map(move |&growth| (toe, growth)));
         pairs.filter_map(|(toe, growth)| start(toe, growth)).collect()
@@ -176,7 +176,7 @@ impl InitialGuess {
     fn polynomials(&self, form: &TensileForm) -> Vec<Start> {
         let law = |quadratic: f64, quartic: f64, friction: BlimanSorine| TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic, quartic }),
-            friction,
+            friction: friction.into(),
             buckling: Buckling::default(),
         };
         let mut columns = vec![
@@ -186,11 +186,11 @@ impl InitialGuess {
         let frictions = self.frictions(form);
         columns.extend(frictions.iter().map(|friction| self.column(&law(0.0, 0.0, *friction))));
         let best = self.best(&columns, 2, form);
-        let start = best.map(|best| Start {
-            residual_sum: best.residual_sum,
-            backbone: vec![best.coefficients[0].max(0.0), best.coefficients[1].max(0.0)],
-            plateau: best.coefficients.get(2).copied().unwrap_or(0.0),
-            length: best.length,
+        let start = best.map(|best| {
+            let Combination { residual_sum, coefficients: c, length } = best;
+            let mut values = vec![c[0].max(0.0), c[1].max(0.0)];
+            values.extend(c.get(2).into_iter().flat_map(|plateau| [*plateau, length]));
+            Start { residual_sum, values }
         });
         start.into_iter().collect()
     }
@@ -239,51 +239,67 @@ impl InitialGuess {
     /// Returns the guess for a curve for which the linear fit has no solution.
     fn fallback(&self, form: &TensileForm) -> Start {
         let (strain, load) = (self.top_strain, self.top_load);
-        let backbone = match form.model {
-            TractionModel::Primed => {
-                let mut backbone = vec![self.stiffness, 0.7, 0.5 * strain];
-                backbone.extend((form.toe == Toe::Moving).then_some(1.2));
-                backbone
-            }
+        let moves = form.toe == Toe::Moving;
+        let mut values = match form.model {
+            TractionModel::Exponential => return self.exponential_fallback(form),
+            TractionModel::Primed => vec![self.stiffness, 0.7, 0.5 * strain],
             TractionModel::Polynomial => {
                 vec![0.5 * load / strain.powi(2), 0.5 * load / strain.powi(4)]
             }
         };
-        Start { residual_sum: 0.0, backbone, plateau: 0.02 * load, length: 0.05 * strain }
+        values.extend((moves && form.model == TractionModel::Primed).then_some(1.2));
+        if form.strip.recovers {
+            values.extend([0.02 * load, 0.05 * strain]);
+        }
+        Start { residual_sum: 0.0, values }
     }
 
+    /// Returns the parameters of a fit with the values of a `start`.
     fn named(&self, form: &TensileForm, start: &Start) -> Vec<NamedParameter> {
         let mut named = if form.strip.slack { self.zeros() } else { Vec::new() };
+        let with_value = |(bounds, value): (NamedParameter, &f64)| {
+            let parameter = Parameter { start: *value, ..bounds.parameter };
+            NamedParameter { parameter, ..bounds }
+        };
+        named.extend(self.bounds(form).into_iter().zip(&start.values).map(with_value));
+        named
+    }
+
+    /// Returns names, scales and bounds of the parameters of the law, in the order in which
+    /// [`TensileForm::law`] takes them.
+    fn bounds(&self, form: &TensileForm) -> Vec<NamedParameter> {
+        if form.model == TractionModel::Exponential {
+            return self.exponential_bounds(form);
+        }
+        let mut named = Vec::new();
         let mut push = |name, parameter| named.push(NamedParameter::new(name, parameter));
         let (strain, load) = (self.top_strain, self.top_load);
-        let backbone = &start.backbone;
-        match form.model {
-            TractionModel::Primed => {
-                let k = self.stiffness;
-                push("stiffness", Parameter::new(backbone[0]).between(1e-2 * k, 1e2 * k));
-                push("toe_ratio", Parameter::new(backbone[1]).between(TOE_RATIO_MIN, 1.0));
-                let toe_strain = Parameter::new(backbone[2]);
-                push("toe_strain", toe_strain.between(1e-3 * strain, 2.0 * strain));
-                if let Some(growth) = backbone.get(3) {
-                    push("toe_growth", Parameter::new(*growth).between(1.0, 2.0));
-                }
+        if form.model == TractionModel::Primed {
+            let k = self.stiffness;
+            push("stiffness", Parameter::new(k).between(1e-2 * k, 1e2 * k));
+            push("toe_ratio", Parameter::new(0.7).between(TOE_RATIO_MIN, 1.0));
+            push("toe_strain", Parameter::new(0.5 * strain).between(1e-3 * strain, 2.0 * strain));
+            if form.toe == Toe::Moving {
+                push("toe_growth", Parameter::new(1.2).between(1.0, 2.0));
             }
-            TractionModel::Polynomial => {
-                let term = |value: f64, power: i32| {
-                    let size = load / strain.powi(power);
-                    Parameter::new(value).with_scale(0.01 * size).between(0.0, 10.0 * size)
-                };
-                push("quadratic", term(backbone[0], 2));
-                push("quartic", term(backbone[1], 4));
+        } else {
+            for (name, power) in [("quadratic", 2), ("quartic", 4)] {
+                let size = load / strain.powi(power);
+                let term = Parameter::new(0.0).with_scale(0.01 * size).between(0.0, 10.0 * size);
+                push(name, term);
             }
         }
         if form.strip.recovers {
-            let plateau = Parameter::new(start.plateau).with_scale(0.01 * load);
-            push("plateau", plateau.between(0.0, load));
-            let length = Parameter::new(start.length);
-            push("length", length.between(LEAST_LENGTH * strain, 5.0 * strain));
+            push("plateau", Parameter::new(0.0).with_scale(0.01 * load).between(0.0, load));
+            push("length", self.length());
         }
         named
+    }
+
+    /// Returns the friction length as a parameter.
+    fn length(&self) -> Parameter {
+        let strain = self.top_strain;
+        Parameter::new(0.05 * strain).between(LEAST_LENGTH * strain, 5.0 * strain)
     }
 
     /// Returns the zeros of a slack strip as parameters.
@@ -314,7 +330,7 @@ mod tests {
     use drape_kes::{Direction, Test};
 
     use super::*;
-    use crate::curves::tensile_form::StripKind;
+    use crate::curves::tensile_form::{StripKind, Terms};
 
     #[test]
     fn a_guess_follows_a_curve_whose_toe_and_friction_are_of_the_grid() {
@@ -330,7 +346,7 @@ mod tests {
                     toe_strain: toe * top,
                     toe_strain_after: growth * toe * top,
                 }),
-                friction: BlimanSorine::first_order(12.0, LENGTHS[2] * top),
+                friction: BlimanSorine::first_order(12.0, LENGTHS[2] * top).into(),
                 buckling: Buckling::default(),
             };
             let mut load = vec![0.0; strain.len()];
@@ -340,12 +356,13 @@ mod tests {
             let strip = StripKind { slack: false, recovers: true };
             let moves = growth > 1.0;
             let toe_form = if moves { Toe::Moving } else { Toe::Still };
-            let form = TensileForm { model: TractionModel::Primed, toe: toe_form, strip };
+            let (model, terms) = (TractionModel::Primed, Terms::All);
+            let form = TensileForm { model, toe: toe_form, terms, strip };
             let growths = if moves { &GROWTHS[..] } else { &[1.0] };
             let starts = guess.primed(&form, growths);
             let best = starts.iter().min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum));
             let best = best.expect("a guess");
-            let found = [&best.backbone[..], &[best.plateau, best.length]].concat();
+            let found = &best.values;
             let mut exact = vec![20_000.0, DEEP, toe * top];
             exact.extend(moves.then_some(growth));
             exact.extend([12.0, LENGTHS[2] * top]);

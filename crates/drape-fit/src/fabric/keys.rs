@@ -97,6 +97,13 @@ fn law(test: Test, direction: Direction) -> String {
 /// that enter two numbers.
 fn key(test: Test, parameter: &str, two_elements: bool) -> Option<&'static str> {
     Some(match (test, parameter) {
+        (Test::Tensile, "base_stiffness") => "exponential.base_stiffness",
+        (Test::Tensile, "steepness") => "exponential.steepness",
+        (Test::Tensile, "toe_stiffness") => "exponential.stiffness",
+        (Test::Tensile, "toe_end") => "exponential.toe_strain",
+        (Test::Tensile, "friction_ratio") => "proportional_friction.ratio",
+        (Test::Tensile, "friction_plateau") => "proportional_friction.plateau",
+        (Test::Tensile, "friction_length") => "proportional_friction.length",
         (Test::Tensile, "stiffness") => "primed.stiffness",
         (Test::Tensile, "toe_ratio") => "primed.toe_ratio",
         (Test::Tensile, "toe_strain") => "primed.toe_strain",

@@ -111,7 +111,7 @@ impl<'a> SheetLaws<'a> {
         });
         if let Some(law) = from_curve {
             let mut notes = Vec::new();
-            if law.friction.plateau() == 0.0 {
+            if law.friction.is_none() {
                 let name = direction.name();
                 notes.push(format!("{name} traction friction: no recovery measured, none taken"));
             }

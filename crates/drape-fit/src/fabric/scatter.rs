@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_fabric::{
-    BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone, YarnLaws,
+    BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
+    TractionFriction, Varying, YarnLaws,
 };
 use drape_kes::{Direction, Scatter, Sheet};
 
@@ -110,6 +111,7 @@ fn numbers(fabric: &Fabric) -> Vec<(String, f64)> {
     }
     let backbone = match fabric.shear.backbone {
         ShearBackbone::Linear { stiffness } => vec![("stiffness".to_owned(), stiffness)],
+        ShearBackbone::Varying(law) => varying(&law),
         ShearBackbone::Piecewise(law) => piecewise(&law),
     };
     let growth = ("growth".to_owned(), fabric.shear.growth);
@@ -120,6 +122,12 @@ fn numbers(fabric: &Fabric) -> Vec<(String, f64)> {
 
 fn of_yarns(laws: &YarnLaws) -> Vec<(String, f64)> {
     let traction = match laws.traction.backbone {
+        TractionBackbone::Exponential(toe) => vec![
+            ("exponential.base_stiffness".to_owned(), toe.base_stiffness),
+            ("exponential.stiffness".to_owned(), toe.stiffness),
+            ("exponential.steepness".to_owned(), toe.steepness),
+            ("exponential.toe_strain".to_owned(), toe.toe_strain),
+        ],
         TractionBackbone::Primed(law) => vec![
             ("primed.stiffness".to_owned(), law.stiffness),
             ("primed.toe_ratio".to_owned(), law.toe_ratio),
@@ -132,12 +140,32 @@ fn of_yarns(laws: &YarnLaws) -> Vec<(String, f64)> {
     };
     let bending = match laws.bending.backbone {
         BendingBackbone::Linear { rigidity } => vec![("rigidity".to_owned(), rigidity)],
+        BendingBackbone::Varying(law) => varying(&law),
         BendingBackbone::Piecewise(law) => piecewise(&law),
     };
-    let traction = traction.into_iter().chain(friction(&laws.traction.friction));
+    let traction = traction.into_iter().chain(traction_friction(&laws.traction.friction));
     let bending = bending.into_iter().chain(friction(&laws.bending.friction));
     let named = |law: &'static str| move |(key, number)| (format!("{law}.{key}"), number);
     traction.map(named("traction")).chain(bending.map(named("bending"))).collect()
+}
+
+fn traction_friction(law: &TractionFriction) -> Vec<(String, f64)> {
+    match law {
+        TractionFriction::Plateau(law) => friction(law).collect(),
+        TractionFriction::Proportional(law) => vec![
+            ("proportional_friction.ratio".to_owned(), law.ratio),
+            ("proportional_friction.plateau".to_owned(), law.plateau),
+            ("proportional_friction.length".to_owned(), law.length),
+        ],
+    }
+}
+
+fn varying(law: &Varying) -> Vec<(String, f64)> {
+    vec![
+        ("varying.initial_stiffness".to_owned(), law.initial_stiffness),
+        ("varying.final_stiffness".to_owned(), law.final_stiffness),
+        ("varying.transition".to_owned(), law.transition),
+    ]
 }
 
 fn piecewise(law: &Piecewise) -> Vec<(String, f64)> {

@@ -24,6 +24,7 @@ impl LoopLaw for ShearLaw {
     fn elastic_load(&self, shear: f64) -> f64 {
         match self.backbone {
             ShearBackbone::Linear { stiffness } => stiffness * shear,
+            ShearBackbone::Varying(varying) => varying.respond(shear).load,
             ShearBackbone::Piecewise(piecewise) => piecewise.load(shear),
         }
     }

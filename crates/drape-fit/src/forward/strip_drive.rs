@@ -1,117 +1,62 @@
 //! Loads of a traction law along the history of a strip, which may hang slack between its clamps.
 //!
-//! Used by the tensile fits of `curves`.
+//! Used by the tensile fits of `curves`. Along a history the laws take half the time of the laws of
+//! drape-fabric, because they store what takes an exponential to compute: `weighted` the laws of the
+//! papers, `exponential` the law with an exponential toe.
 
-use drape_fabric::{Memory, Primed, TractionBackbone, TractionLaw};
-use drape_hysteresis::Slip;
+mod exponential;
+mod weighted;
+
+use drape_fabric::{Memory, TractionLaw};
+
+use crate::forward::strip_drive::exponential::ExponentialStrip;
+use crate::forward::strip_drive::weighted::WeightedStrip;
 
 /// Bisections for the strain at which a strip goes slack: the bits of a double.
 const BISECTIONS: usize = 60;
 
-/// Memory of a strip, with the length of the priming zone that follows from it.
+/// Memory of a strip, with the end of the toe that follows from it.
 #[derive(Clone, Copy)]
-struct State {
-    memory: Memory,
-    toe: f64,
+pub(crate) struct StripState {
+    pub(crate) memory: Memory,
+    pub(crate) toe: f64,
 }
 
 /// State after a step, with the load there.
-struct Step {
-    load: f64,
-    state: State,
+pub(crate) struct StripStep {
+    pub(crate) load: f64,
+    pub(crate) state: StripState,
 }
 
-/// Traction law that stores the length of its priming zone, which takes an exponential to compute.
-///
-/// It is the law of drape-fabric, in half the time along a history.
-struct Strip<'a> {
-    law: &'a TractionLaw,
-    primed: Option<Primed>,
-    /// Weight of the friction at rest.
-    weight_at_rest: f64,
+/// Strip with a law that was prepared.
+enum Strip<'a> {
+    Exponential(ExponentialStrip),
+    Weighted(WeightedStrip<'a>),
 }
 
 impl<'a> Strip<'a> {
     fn new(law: &'a TractionLaw) -> Self {
-        match law.backbone {
-            TractionBackbone::Primed(primed) => {
-                Self { law, primed: Some(primed), weight_at_rest: 2.0 - 1.0 / primed.toe_ratio }
-            }
-            TractionBackbone::Polynomial(_) => Self { law, primed: None, weight_at_rest: 1.0 },
+        ExponentialStrip::new(law)
+            .map_or_else(|| Self::Weighted(WeightedStrip::new(law)), Self::Exponential)
+    }
+
+    fn virgin(&self) -> StripState {
+        match self {
+            Self::Exponential(strip) => strip.virgin(),
+            Self::Weighted(strip) => strip.virgin(),
         }
     }
 
-    fn virgin(&self) -> State {
-        let toe = self.primed.map_or(0.0, |primed| primed.toe_strain);
-        State { memory: Memory::default(), toe }
-    }
-
-    /// Returns load and state at a strain that follows a state.
-    ///
-    /// With the toe ratio `$r$` the elastic load is
-    /// `$k\varepsilon((1 - r)\varepsilon/\varepsilon_c + 2r - 1)$` up to the end `$\varepsilon_c$`
-    /// of the priming zone, and `$k(\varepsilon - (1 - r)\varepsilon_c)$` beyond \[NB04, eq. 3\].
-    fn step(&self, state: &State, strain: f64) -> Step {
-        let State { memory, toe } = *state;
-        let peak = memory.peak.max(strain);
-        let (elastic, next_toe) = match self.primed {
-            Some(primed) if strain >= 0.0 => {
-                let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = primed;
-                let quadratic = 1.0 - toe_ratio;
-                let longer = strain > memory.peak.max(toe_strain);
-                let grows = longer && toe_strain_after != toe_strain;
-                let next = if grows { primed.toe(strain) } else { toe };
-                let load = if longer || strain > toe {
-                    stiffness * (strain - quadratic * next)
-                } else {
-                    stiffness * strain * (quadratic * strain / toe + 2.0 * toe_ratio - 1.0)
-                };
-                (load, next)
-            }
-            _ => (self.law.elastic(memory.peak, strain).load, toe),
-        };
-        let friction = self.friction(state, strain);
-        let memory = Memory { position: strain, friction, peak };
-        let load = elastic + friction[0] + friction[1];
-        Step { load, state: State { memory, toe: next_toe } }
-    }
-
-    /// Returns the friction after a monotonic step, which is split where the slope of its weight
-    /// changes.
-    fn friction(&self, state: &State, strain: f64) -> [f64; 2] {
-        let State { memory, toe } = *state;
-        let slack = -self.law.buckling.strain;
-        let weight = |strain: f64| {
-            if strain >= toe {
-                1.0
-            } else if strain >= 0.0 {
-                self.weight_at_rest + (1.0 - self.weight_at_rest) * strain / toe
-            } else {
-                self.weight_at_rest * (1.0 - strain / slack).max(0.0)
-            }
-        };
-        let (mut at, mut loads) = (memory.position, memory.friction);
-        let mut advance = |end: f64| {
-            let slip = Slip::weighted(end - at, weight(at), weight(end));
-            loads = self.law.friction.advance(loads, slip);
-            at = end;
-        };
-        let knots = [slack, 0.0, toe];
-        let between = |knot: &f64| {
-            (*knot > memory.position && *knot < strain)
-                || (*knot < memory.position && *knot > strain)
-        };
-        if strain >= memory.position {
-            knots.into_iter().filter(between).for_each(&mut advance);
-        } else {
-            knots.into_iter().rev().filter(between).for_each(&mut advance);
+    /// Returns load and state at a `strain` that follows a `state`.
+    fn step(&self, state: &StripState, strain: f64) -> StripStep {
+        match self {
+            Self::Exponential(strip) => strip.step(state, strain),
+            Self::Weighted(strip) => strip.step(state, strain),
         }
-        advance(strain);
-        loads
     }
 
-    /// Returns the state at which the load vanishes, before a lower strain with a negative load.
-    fn vanishing(&self, state: &State, strain: f64) -> State {
+    /// Returns the state at which the load vanishes, before a lower `strain` with a negative load.
+    fn vanishing(&self, state: &StripState, strain: f64) -> StripState {
         let (mut slack, mut taut) = (strain, state.memory.position);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (slack + taut);
@@ -169,7 +114,10 @@ pub(crate) fn drive_slack_strip(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drape_fabric::{BlimanSorine, Buckling, Law, Polynomial, drive};
+    use drape_fabric::{
+        BlimanSorine, Buckling, ExponentialToe, Law, Polynomial, Primed, ProportionalFriction,
+        TractionBackbone, TractionFriction, drive,
+    };
 
     fn law() -> TractionLaw {
         TractionLaw {
@@ -179,7 +127,7 @@ mod tests {
                 toe_strain: 0.01,
                 toe_strain_after: 0.014,
             }),
-            friction: BlimanSorine::first_order(4.0, 0.001),
+            friction: BlimanSorine::first_order(4.0, 0.001).into(),
             buckling: Buckling::default(),
         }
     }
@@ -225,14 +173,27 @@ mod tests {
         history.extend(
             (0..200).map(|i| 0.04 * (1.0 + 0.005 * f64::from(i)) * (0.2 * f64::from(i)).sin()),
         );
-        for backbone in [law().backbone, polynomial, still] {
-            let law = TractionLaw { backbone, ..law() };
+        let weighted = [law().backbone, polynomial, still];
+        let weighted = weighted.map(|backbone| TractionLaw { backbone, ..law() });
+        let friction = ProportionalFriction { ratio: 0.8, plateau: 3.0, length: 0.004 };
+        let exponential = [0.01, 0.016].map(|toe_strain_after| TractionLaw {
+            backbone: TractionBackbone::Exponential(ExponentialToe {
+                base_stiffness: 400.0,
+                stiffness: 1e4,
+                steepness: 3.0,
+                toe_strain: 0.01,
+                toe_strain_after,
+            }),
+            friction: TractionFriction::Proportional(friction),
+            buckling: Buckling { strain: 0.005, ..Buckling::default() },
+        });
+        for law in weighted.into_iter().chain(exponential) {
             let mut found = vec![0.0; history.len()];
             drive_strip(&law, history.iter().copied(), &mut found);
             let exact = drive(&law, law.virgin(), &history);
             for ((strain, found), exact) in history.iter().zip(&found).zip(&exact) {
                 // Sums of some hundred N/m in another order.
-                assert!((found - exact).abs() < 1e-11, "{backbone:?} at {strain}: {found} {exact}");
+                assert!((found - exact).abs() < 1e-11, "{law:?} at {strain}: {found} {exact}");
             }
         }
     }

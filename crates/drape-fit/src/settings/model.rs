@@ -55,25 +55,27 @@ impl Default for LoopModel {
     }
 }
 
-/// Elastic load that a tensile curve is fitted with.
+/// Traction law that a tensile curve is fitted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TractionModel {
-    /// Priming zone that continues as a straight line, with friction \[NB04, eq. 3\].
+    /// Exponential toe that continues as its tangent, with friction that grows with the tension.
     #[default]
+    Exponential,
+    /// Priming zone that continues as a straight line, with friction \[NB04, eq. 3\].
     Primed,
     /// Even polynomial, with friction \[THK03, fig. 8a\].
     Polynomial,
 }
 
-/// Whether the priming zone becomes longer once the fabric has been stretched.
+/// Whether the toe, or the priming zone, becomes longer once the fabric has been stretched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Toe {
-    /// Priming zone of constant length.
+    /// Toe of constant length.
     ///
     /// Of the two this predicts the next, larger cycle better: on strips of cupro its peak by 4 to
     /// 13 % too low, with a moving toe by 1 to 19 %.
     #[default]
     Still,
-    /// Priming zone whose end moves with the largest elongation \[NB04, table 1\].
+    /// Toe whose end moves with the largest elongation \[NB04, table 1\].
     Moving,
 }

@@ -147,7 +147,7 @@ impl TensileProblem<'_> {
         };
         let length = TENSILE_FRICTION_LENGTH * extension;
         let friction = BlimanSorine::first_order(p[1] * maximum_tension, length);
-        TractionLaw { backbone, friction, buckling: Buckling::default() }
+        TractionLaw { backbone, friction: friction.into(), buckling: Buckling::default() }
     }
 }
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// Piece of cloth: a rectangle or a disc.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = drape_input::one_of("rectangle", "disc")))]
+#[cfg_attr(feature = "schema", schemars(transform = drape_input::one_of("rectangle, disc")))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PanelFile {
     /// Name, by which pins and measures know it.

@@ -96,8 +96,17 @@ fn weight((_, fabric): &mut Setting, end: usize) {
 
 fn traction((_, fabric): &mut Setting, end: usize) {
     for laws in [&mut fabric.warp, &mut fabric.weft] {
-        if let TractionBackbone::Primed(primed) = &mut laws.traction.backbone {
-            primed.stiffness *= [0.5, 2.0][end];
+        let factor = [0.5, 2.0][end];
+        match &mut laws.traction.backbone {
+            TractionBackbone::Exponential(toe) => {
+                toe.stiffness *= factor;
+                toe.base_stiffness *= factor;
+            }
+            TractionBackbone::Primed(primed) => primed.stiffness *= factor,
+            TractionBackbone::Polynomial(polynomial) => {
+                polynomial.quadratic *= factor;
+                polynomial.quartic *= factor;
+            }
         }
     }
 }

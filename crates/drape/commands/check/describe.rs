@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::collide::{MeshInspection, Shape};
-use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
+use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone, TractionFriction};
 use drape::input::{Diagnostic, Diagnostics, figure};
 use drape::keep::describe_needs;
 use drape::pattern::Pattern;
@@ -175,6 +175,10 @@ fn fabric(fabric: &Fabric) -> String {
     );
     for (name, direction) in [("warp", &fabric.warp), ("weft", &fabric.weft)] {
         let stretch = match direction.traction.backbone {
+            TractionBackbone::Exponential(toe) => {
+                let stiffness = toe.base_stiffness + toe.stiffness;
+                format!("{stiffness:.4e} N/m after a toe of {:.2} %", 100.0 * toe.toe_strain)
+            }
             TractionBackbone::Primed(p) => {
                 format!("{:.4e} N/m after a toe of {:.2} %", p.stiffness, 100.0 * p.toe_strain)
             }
@@ -182,20 +186,27 @@ fn fabric(fabric: &Fabric) -> String {
                 format!("{:.4e} ε² + {:.4e} ε⁴ N/m", p.quadratic, p.quartic)
             }
         };
+        let friction = match direction.traction.friction {
+            TractionFriction::Plateau(friction) => format!("{:.3e} N/m", friction.plateau()),
+            TractionFriction::Proportional(friction) => {
+                format!("{:.2} of the load and {:.3e} N/m", friction.ratio, friction.plateau)
+            }
+        };
         let rigidity = match direction.bending.backbone {
             BendingBackbone::Linear { rigidity } => rigidity,
+            BendingBackbone::Varying(varying) => varying.initial_stiffness,
             BendingBackbone::Piecewise(piecewise) => piecewise.slope,
         };
         let _ = writeln!(
             text,
-            "  {name}: traction {stretch}, friction {:.3e} N/m; bending {rigidity:.4e} N·m, \
+            "  {name}: traction {stretch}, friction {friction}; bending {rigidity:.4e} N·m, \
              friction {:.3e} N",
-            direction.traction.friction.plateau(),
             direction.bending.friction.plateau()
         );
     }
     let stiffness = match fabric.shear.backbone {
         ShearBackbone::Linear { stiffness } => stiffness,
+        ShearBackbone::Varying(varying) => varying.initial_stiffness,
         ShearBackbone::Piecewise(piecewise) => piecewise.slope,
     };
     let plateau = fabric.shear.friction.plateau();

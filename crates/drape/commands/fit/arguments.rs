@@ -36,7 +36,7 @@ pub(crate) struct FitArguments {
 /// Laws to take instead of those that the curves support best.
 #[derive(Args, Clone, Copy)]
 pub(crate) struct LawArguments {
-    /// Elastic load of the traction laws.
+    /// Traction laws.
     #[arg(long, value_enum, value_name = "LAW")]
     traction: Option<Traction>,
     /// Bending laws.
@@ -51,9 +51,11 @@ pub(crate) struct LawArguments {
     profile: bool,
 }
 
-/// Elastic loads of a traction law.
+/// Traction laws.
 #[derive(Clone, Copy, ValueEnum)]
 enum Traction {
+    /// An exponential toe that runs into its tangent, with friction that grows with the tension.
+    Exponential,
     /// A priming zone that runs into a line (Ngo Ngoc & Boivin 2004).
     Primed,
     /// An even polynomial (Tagawa et al. 2003).
@@ -90,6 +92,7 @@ impl LawArguments {
     pub(crate) fn settings(self) -> Settings {
         Settings {
             traction: self.traction.map(|traction| match traction {
+                Traction::Exponential => TractionModel::Exponential,
                 Traction::Primed => TractionModel::Primed,
                 Traction::Polynomial => TractionModel::Polynomial,
             }),

@@ -1,0 +1,51 @@
+//! Friction elements in the file of a fabric.
+
+use drape_hysteresis::{BlimanSorine, Dahl};
+use drape_input::{Dimension, Given};
+use serde::{Deserialize, Serialize};
+
+use crate::file::Report;
+
+/// Friction element: a load, and a deformation.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
+#[serde(deny_unknown_fields, bound = "")]
+pub(super) struct ElementFile<L: Dimension, D: Dimension> {
+    /// Load that friction tends to.
+    plateau: Given<L>,
+    /// Deformation within which it comes to 63 % of it.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    length: Given<D>,
+}
+
+/// Returns the friction of one or two `elements` at the key of a law.
+pub(super) fn friction<L: Dimension, D: Dimension>(
+    elements: &[ElementFile<L, D>],
+    key: &str,
+    report: &mut Report<'_>,
+) -> BlimanSorine {
+    if elements.len() > 2 {
+        report(
+            &format!("{key}.friction[2]"),
+            "there are more than two friction elements",
+            "the model has one (first order) or two (second order, or nested loops)",
+        );
+    }
+    let element = |index: usize| {
+        let element = elements.get(index);
+        element.map_or(Dahl::NONE, |e| Dahl::new(e.plateau.value(), e.length.value()))
+    };
+    BlimanSorine::parallel(element(0), element(1))
+}
+
+/// Returns the elements of a friction that are there.
+pub(super) fn elements<L: Dimension, D: Dimension>(
+    friction: &BlimanSorine,
+) -> Vec<ElementFile<L, D>> {
+    friction
+        .elements
+        .iter()
+        .filter(|e| e.plateau != 0.0)
+        .map(|e| ElementFile { plateau: Given::bare(e.plateau), length: Given::bare(e.length) })
+        .collect()
+}
