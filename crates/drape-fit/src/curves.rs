@@ -16,6 +16,7 @@
 //! * `features`: what is read off a curve before any fit.
 //! * `linear_loop`, `piecewise`: the two models of bending and shear loops.
 //! * `bending`, `shear`, `loop_bending`: their fits.
+//! * `value_estimate`: KES values of a fitted law with their intervals.
 //! * `tensile_form`, `tensile_start`, `prediction`, `tensile`: the tensile fit.
 
 pub(crate) mod bending;
@@ -28,3 +29,4 @@ pub(crate) mod shear;
 pub(crate) mod tensile;
 pub(crate) mod tensile_form;
 pub(crate) mod tensile_start;
+pub(crate) mod value_estimate;

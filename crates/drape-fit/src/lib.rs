@@ -35,7 +35,7 @@ pub use fabric::batch::{FittedSheet, identify_all};
 pub use fabric::identify::{Fit, identify, identify_with};
 pub use fabric::keys::parameter_key;
 pub use regression::curve_fit::{CurveFit, Identified};
-pub use regression::estimate::{Estimate, Undetermined};
+pub use regression::estimate::{Estimate, Undetermined, ValueEstimate};
 pub use regression::selection::Candidate;
 pub use settings::model::{FrictionOrder, LoopModel, Plateau, Toe, TractionModel};
 pub use settings::weighting::Weighting;

@@ -13,6 +13,7 @@
 //! * `linear`: linear least squares for the initial guesses, with the nonlinear parameters on a
 //!   grid.
 //! * `residuals`: forward model and residuals, as a problem of drape-lm.
+//! * `functional`: areas and means that a fit meets beside its points; `noise`: the noise of a load.
 //! * `search`: the minimiser from several starts.
 //! * `selection`: which of several laws the data support, by Akaike's criterion.
 //! * `estimate`, `uncertainty`: parameters with errors, intervals and correlations.
@@ -20,7 +21,9 @@
 
 pub(crate) mod curve_fit;
 pub(crate) mod estimate;
+pub(crate) mod functional;
 pub(crate) mod linear;
+pub(crate) mod noise;
 pub(crate) mod repeats;
 pub(crate) mod residuals;
 pub(crate) mod search;

@@ -15,13 +15,14 @@
 //! * `assumed`: defaults for values that a sheet does not have.
 //! * `matched`: a law with its deviation, or with notes on what was assumed.
 //! * `bending`, `traction`, `shear`: laws from values; `completion`: missing tensile values.
-//! * `simulated`: values from laws; `comparison`: sheet, curve and law side by side.
+//! * `of_law`: the values of one law; `simulated`: those of a fabric; `comparison`: sheet, curve and law side by side.
 
 pub(crate) mod assumed;
 pub(crate) mod bending;
 pub(crate) mod comparison;
 pub(crate) mod completion;
 pub(crate) mod matched;
+pub(crate) mod of_law;
 pub(crate) mod shear;
 pub(crate) mod simulated;
 pub(crate) mod traction;

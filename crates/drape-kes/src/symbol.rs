@@ -86,8 +86,9 @@ impl Symbol {
         }
     }
 
-    /// Returns the laboratory's unit in SI.
-    pub(crate) fn factor(self) -> f64 {
+    /// Returns the size of the laboratory's unit in SI.
+    #[must_use]
+    pub fn factor(self) -> f64 {
         let quantity = match self {
             Self::B => Quantity::BendingRigidity,
             Self::TwoHb => Quantity::MomentPerWidth,

@@ -3,9 +3,10 @@
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine};
 use drape_kes::{Curve, Test};
 
-use crate::curves::features::check;
+use crate::curves::features::{check, largest};
 use crate::curves::linear_loop::{LinearLaw, LoopForm, MeasuredLoop, orders};
 use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::curves::value_estimate::value_estimates;
 use crate::error::Error;
 use crate::forward::loop_drive::drive_loop;
 use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
@@ -13,6 +14,7 @@ use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
 use crate::settings::model::{LoopModel, Plateau};
+use crate::values::of_law::bending_values;
 
 /// Identifies the bending law of one direction from a bending curve.
 ///
@@ -59,7 +61,7 @@ pub fn identify_bending(
             drive_loop(&law(p), history.iter().copied(), out);
         })?;
         let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, settings)?.fit));
-        return Ok(Identified { law: law(&fit.values()), fit });
+        return Ok(Identified { law: law(&fit.parameter_values()), fit });
     }
     let measured = MeasuredLoop::new(curve, "rigidity", curvature)?;
     let forms = orders(settings.bending);
@@ -69,15 +71,23 @@ pub fn identify_bending(
     let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
     let weights = settings.weighting.weights(curve, 0.0);
     let options = FitOptions { weights, intervals: settings.intervals };
-    let fit = fit_curve(curve, &models, options);
-    let selected = LoopModel::Linear(forms[fit.chosen].order);
+    let mut fit = fit_curve(curve, &models, options);
+    let form = forms[fit.chosen];
+    let (points, largest) = (settings.bending_points, largest(curvature));
+    fit.values =
+        value_estimates(curve, &fit, settings, |p| bending_values(&law(form, p), &points, largest));
+    let selected = LoopModel::Linear(form.order);
     let settings = Settings { bending: Some(selected), ..*settings };
     let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, &settings)?.fit));
-    let LinearLaw { stiffness, friction, .. } = forms[fit.chosen].law(&fit.values());
-    let law = BendingLaw {
+    Ok(Identified { law: law(form, &fit.parameter_values()), fit })
+}
+
+/// Returns the law of a form with some parameters.
+fn law(form: LoopForm, parameters: &[f64]) -> BendingLaw {
+    let LinearLaw { stiffness, friction, .. } = form.law(parameters);
+    BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: stiffness },
         rest_curvature: 0.0,
         friction,
-    };
-    Ok(Identified { law, fit })
+    }
 }

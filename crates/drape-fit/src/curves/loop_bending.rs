@@ -12,7 +12,7 @@ use crate::curves::linear_loop::{LEAST_LENGTH, friction};
 use crate::error::Error;
 use crate::forward::arch::Arch;
 use crate::regression::curve_fit::{CurveFit, Identified};
-use crate::regression::residuals::NamedParameter;
+use crate::regression::residuals::{NamedParameter, PointProblem};
 use crate::regression::search::{multistart, refine};
 use crate::regression::uncertainty::{FitEnd, uncertainty};
 use crate::settings::Settings;
@@ -211,6 +211,8 @@ impl Strips<'_> {
         LENGTH_STARTS.map(start).into()
     }
 }
+
+impl PointProblem for Strips<'_> {}
 
 impl Problem for Strips<'_> {
     fn residual_count(&self) -> usize {

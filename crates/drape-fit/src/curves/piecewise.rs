@@ -40,7 +40,7 @@ pub(crate) fn fit_first_branch(
     let mut fit = fit_curve(&first, &[model], options);
     let points = curve.load().len();
     fit.load.resize(points, 0.0);
-    drive(&fit.values(), history, &mut fit.load);
+    drive(&fit.parameter_values(), history, &mut fit.load);
     fit.band.resize(points, 0.0);
     (fit.deformation, fit.measured) = (curve.deformation().to_vec(), curve.load().to_vec());
     fit.branches = branch_of_each_point(curve);

@@ -6,6 +6,7 @@ use drape_kes::{Curve, Test};
 use crate::curves::features::{check, largest};
 use crate::curves::linear_loop::{LinearLaw, LoopForm, MeasuredLoop, orders};
 use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::curves::value_estimate::value_estimates;
 use crate::error::Error;
 use crate::forward::loop_drive::drive_loop;
 use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
@@ -13,6 +14,7 @@ use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
 use crate::settings::model::{LoopModel, Plateau};
+use crate::values::of_law::shear_values;
 
 /// Identifies the shear law from a shear curve.
 ///
@@ -39,7 +41,7 @@ pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<S
                 drive_loop(&law(p), history.iter().copied(), out);
             })?;
             let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, settings)?.fit));
-            Identified { law: law(&fit.values()), fit }
+            Identified { law: law(&fit.parameter_values()), fit }
         }
         _ => linear(curve, &sines, settings)?,
     };
@@ -73,13 +75,20 @@ fn linear(
     let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
     let weights = settings.weighting.weights(curve, 0.0);
     let options = FitOptions { weights, intervals: settings.intervals };
-    let fit = fit_curve(curve, &models, options);
-    let LoopForm { order, plateau } = forms[fit.chosen];
+    let mut fit = fit_curve(curve, &models, options);
+    let form = forms[fit.chosen];
+    let (points, largest) = (settings.shear_points, largest(curve.deformation()));
+    fit.values =
+        value_estimates(curve, &fit, settings, |p| shear_values(&law(form, p), &points, largest));
+    let LoopForm { order, plateau } = form;
     let selected = Some(LoopModel::Linear(order));
     let settings = Settings { shear: selected, plateau: Some(plateau), ..*settings };
     let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, &settings)?.fit));
-    let LinearLaw { stiffness, growth, friction, .. } = forms[fit.chosen].law(&fit.values());
-    let law =
-        ShearLaw { backbone: ShearBackbone::Linear { stiffness }, friction, growth, locking: None };
-    Ok(Identified { law, fit })
+    Ok(Identified { law: law(form, &fit.parameter_values()), fit })
+}
+
+/// Returns the law of a form with some parameters, without locking.
+fn law(form: LoopForm, parameters: &[f64]) -> ShearLaw {
+    let LinearLaw { stiffness, growth, friction, .. } = form.law(parameters);
+    ShearLaw { backbone: ShearBackbone::Linear { stiffness }, friction, growth, locking: None }
 }

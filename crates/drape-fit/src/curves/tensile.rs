@@ -7,11 +7,13 @@ use crate::curves::features::check;
 use crate::curves::prediction::{last_cycle, predict};
 use crate::curves::tensile_form::{StripKind, TensileForm};
 use crate::curves::tensile_start::InitialGuess;
+use crate::curves::value_estimate::{largest_load, value_estimates};
 use crate::error::Error;
-use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::curve_fit::{CurveFit, FitOptions, Identified, fit_curve};
 use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
+use crate::values::of_law::tensile_values;
 
 /// Identifies the traction law of one direction from a tensile curve, along its whole history.
 ///
@@ -44,10 +46,31 @@ pub fn identify_tensile(
     let weights = settings.weighting.weights(curve, guess.zero.strain);
     let options = FitOptions { weights, intervals: settings.intervals };
     let fit = fit_curve(curve, &models, options);
-    let TensileForm { model, toe, .. } = forms[fit.chosen];
-    let settings = Settings { traction: Some(model), toe: Some(toe), ..*settings };
-    let fit = with_scatter(curve, fit, |repeat| Ok(identify_tensile(repeat, &settings)?.fit));
-    Ok(Identified { law: forms[fit.chosen].law(&fit.values()), fit })
+    let form = forms[fit.chosen];
+    let fit = with_values(curve, fit, form, settings);
+    let fit = with_scatter(curve, fit, |repeat| identify_form(repeat, form, settings));
+    Ok(Identified { law: form.law(&fit.parameter_values()), fit })
+}
+
+/// Returns a fit with the KES values of its law.
+fn with_values(
+    curve: &Curve,
+    mut fit: CurveFit,
+    form: TensileForm,
+    settings: &Settings,
+) -> CurveFit {
+    let load = largest_load(curve);
+    fit.values = value_estimates(curve, &fit, settings, |p| tensile_values(&form.law(p), load));
+    fit
+}
+
+/// Returns the fit of one form to one of several repeats.
+fn identify_form(curve: &Curve, form: TensileForm, settings: &Settings) -> Result<CurveFit, Error> {
+    let guess = InitialGuess::new(curve)?;
+    let weights = settings.weighting.weights(curve, guess.zero.strain);
+    let options = FitOptions { weights, intervals: settings.intervals };
+    let fit = fit_curve(curve, &[guess.model(form, curve)], options);
+    Ok(with_values(curve, fit, form, settings))
 }
 
 /// Returns the errors with which the forms predict the last cycle, where there is one and several

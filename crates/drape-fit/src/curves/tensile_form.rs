@@ -62,19 +62,20 @@ struct StripLaw {
 }
 
 impl TensileForm {
-    /// Returns the forms that the settings admit, in the order of preference.
+    /// Returns the forms that the settings admit, in the order of preference: those of few
+    /// parameters first.
     pub(crate) fn admitted(strip: StripKind, settings: &Settings) -> Vec<Self> {
         use {Terms::*, Toe::*, TractionModel::*};
         // Without recovery the motion of the toe cannot be seen, nor a friction.
         let toe = if strip.recovers { settings.toe } else { Some(Still) };
         let forms = [
             (Exponential, Still, ToeOnly),
+            (Primed, Still, All),
             (Exponential, Still, ToeAndLine),
             (Exponential, Still, All),
             (Exponential, Moving, ToeOnly),
-            (Exponential, Moving, All),
-            (Primed, Still, All),
             (Primed, Moving, All),
+            (Exponential, Moving, All),
             (Polynomial, Still, All),
         ];
         let wanted = forms.into_iter().filter(|(model, form_toe, terms)| {

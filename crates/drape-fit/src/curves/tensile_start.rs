@@ -278,7 +278,7 @@ impl InitialGuess {
             let k = self.stiffness;
             push("stiffness", Parameter::new(k).between(1e-2 * k, 1e2 * k));
             push("toe_ratio", Parameter::new(0.7).between(TOE_RATIO_MIN, 1.0));
-            push("toe_strain", Parameter::new(0.5 * strain).between(1e-3 * strain, 2.0 * strain));
+            push("toe_strain", Parameter::new(0.5 * strain).between(1e-3 * strain, strain));
             if form.toe == Toe::Moving {
                 push("toe_growth", Parameter::new(1.2).between(1.0, 2.0));
             }

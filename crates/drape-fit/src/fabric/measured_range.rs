@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use drape_kes::{Curve, Direction, Sheet, Test};
 
-use crate::values::simulated::{LARGEST_ANGLE, LARGEST_CURVATURE};
+use crate::values::of_law::{LARGEST_ANGLE, LARGEST_CURVATURE};
 
 /// Returns the largest measured deformation of each law by its key path: a strain, a curvature in
 /// 1/m, the sine of a shear angle.

@@ -1,6 +1,8 @@
-//! Fitted parameter with its uncertainty.
+//! Fitted parameter, and value of a fitted law, with their uncertainty.
 
 use std::fmt;
+
+use drape_kes::Symbol;
 
 /// Fitted parameter, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +28,48 @@ impl Estimate {
     #[must_use]
     pub fn is_doubtful(&self) -> bool {
         self.interval.as_ref().map_or(true, |[lower, upper]| lower * upper <= 0.0)
+    }
+}
+
+/// KES value of a fitted law, beside the value that is read off the curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ValueEstimate {
+    /// Symbol of the value.
+    pub symbol: Symbol,
+    /// Value of the law, in the laboratory's unit. The values of a tensile law are those at the
+    /// largest load of the curve.
+    pub value: f64,
+    /// Value that is read off the measured curve, in the laboratory's unit, or the reason why there
+    /// is none.
+    pub curve: Result<f64, String>,
+    /// 95 % interval, in the laboratory's unit, or the reason why there is none.
+    ///
+    /// It follows from the errors of the parameters, and is widened until it holds the value that is
+    /// read off the curve with the same error: what the law misses of the curve is in it.
+    pub interval: Result<[f64; 2], Undetermined>,
+}
+
+impl ValueEstimate {
+    /// Ratio of the ends of an interval beyond which the curve does not determine the value.
+    pub const VAGUE: f64 = 10.0;
+
+    /// Returns whether the curve determines the value: it has an interval whose upper end is at most
+    /// [`ValueEstimate::VAGUE`] times its lower end.
+    #[must_use]
+    pub fn is_determined(&self) -> bool {
+        let [lower, upper] = match self.interval {
+            Ok(interval) => interval,
+            Err(_) => return false,
+        };
+        lower > 0.0 && upper <= Self::VAGUE * lower
+    }
+
+    /// Returns the larger distance from the value to an end of its interval, over the value; `None`
+    /// without an interval.
+    #[must_use]
+    pub fn relative_error(&self) -> Option<f64> {
+        let [lower, upper] = *self.interval.as_ref().ok()?;
+        Some((upper - self.value).max(self.value - lower) / self.value.abs())
     }
 }
 

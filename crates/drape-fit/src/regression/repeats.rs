@@ -34,20 +34,35 @@ pub(crate) fn with_scatter(
     if fits.len() < 2 {
         return fit;
     }
-    let count = fits.len() as f64;
     let quantile = student_quantile(LEVEL, fits.len() - 1);
     for (index, estimate) in fit.parameters.iter_mut().enumerate() {
-        let values = || fits.iter().map(|fit| fit.parameters[index].value);
-        let mean = values().sum::<f64>() / count;
-        let square: f64 = values().map(|value| (value - mean).powi(2)).sum();
-        let error = (square / (count - 1.0) / count).sqrt();
-        let (Ok(own), Ok([low, high])) = (&mut estimate.standard_error, &mut estimate.interval)
+        let error = error_of_mean(fits.iter().map(|fit| fit.parameters[index].value));
+        let (Ok(standard_error), Ok([low, high])) =
+            (&mut estimate.standard_error, &mut estimate.interval)
         else {
             continue;
         };
-        *own = own.max(error);
+        *standard_error = standard_error.max(error);
         *low = low.min(estimate.value - quantile * error);
         *high = high.max(estimate.value + quantile * error);
     }
+    for estimate in &mut fit.values {
+        let symbol = estimate.symbol;
+        let all = fits.iter().flat_map(|fit| &fit.values);
+        let values: Vec<f64> = all.filter(|v| v.symbol == symbol).map(|v| v.value).collect();
+        if let (Ok([low, high]), true) = (&mut estimate.interval, values.len() == fits.len()) {
+            let error = error_of_mean(values.iter().copied());
+            *low = low.min(estimate.value - quantile * error);
+            *high = high.max(estimate.value + quantile * error);
+        }
+    }
     fit
+}
+
+/// Returns the standard error of the mean of some values.
+fn error_of_mean(values: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    let square: f64 = values.map(|value| (value - mean).powi(2)).sum();
+    (square / (count - 1.0) / count).sqrt()
 }

@@ -2,7 +2,7 @@
 //!
 //! `selection` compares laws by rough searches; `curve_fit` refines the one that was selected.
 
-use drape_lm::{Parameter, Problem, Report, Settings, minimise};
+use drape_lm::{Parameter, Problem, Report, Settings, Stop, minimise};
 use rayon::prelude::*;
 
 use crate::regression::residuals::NamedParameter;
@@ -15,6 +15,18 @@ const SCREENING_ITERATIONS: usize = 8;
 ///
 /// It is a hundredth of the change that moves their criterion by one for ten thousand points.
 const COMPARISON_REDUCTION: f64 = 1e-6;
+
+/// Iterations of a search before parameters that creep towards a bound are moved there.
+const CREEPING_ITERATIONS: usize = 60;
+/// Rounds of a search, after each of which parameters that creep towards a bound are moved there.
+const ROUNDS: usize = 6;
+/// Distance from a bound, over the size of the bound or of the parameter, below which a parameter is
+/// tried there.
+const NEAR_BOUND: f64 = 2e-3;
+
+/// Relative rise of the sum that a parameter may cost that is moved to its bound: of a thousand
+/// points less than a thousandth of one.
+const NEGLIGIBLE: f64 = 1e-6;
 
 /// Best end of a search from several starts.
 #[derive(Clone)]
@@ -80,8 +92,60 @@ pub(crate) fn multistart(
 }
 
 /// Continues from the end of a search down to rounding.
+///
+/// Where the minimum lies beyond a bound, a curved valley may lead to the bound at a shallow angle,
+/// and each step then goes a part of the way. Such parameters are moved to the bound, and the search
+/// goes on with the others, as long as the sum hardly rises.
 pub(crate) fn refine(problem: &impl Problem, result: SearchResult) -> SearchResult {
-    resume(problem, result, &Settings::default())
+    let short = Settings { iterations: CREEPING_ITERATIONS, ..Settings::default() };
+    let mut best = resume(problem, result, &short);
+    for _ in 0..ROUNDS {
+        let moved = at_bounds(&best.parameters);
+        let creeps = moved.is_some();
+        let start = SearchResult {
+            parameters: moved.unwrap_or_else(|| best.parameters.clone()),
+            ..best.clone()
+        };
+        if !creeps && best.report.stop.converged() {
+            return best;
+        }
+        let next = resume(problem, start, &short);
+        if next.report.sum <= best.report.sum * (1.0 + NEGLIGIBLE) {
+            best = next;
+        } else if best.report.stop.converged() {
+            // The minimum lies within the bounds, if only just.
+            return best;
+        } else {
+            best = resume(problem, best, &short);
+        }
+    }
+    if best.report.stop.converged() {
+        return best;
+    }
+    let sum = best.report.sum;
+    let mut last = resume(problem, best, &Settings::default());
+    if !last.report.stop.converged() && last.report.sum >= sum * (1.0 - NEGLIGIBLE) {
+        // Hundreds of steps along a flat valley have changed nothing that the curve can tell.
+        last.report.stop = Stop::Reduction;
+    }
+    last
+}
+
+/// Returns the parameters with those that are near a bound at the bound; `None` where there are no
+/// such parameters.
+fn at_bounds(named: &[NamedParameter]) -> Option<Vec<NamedParameter>> {
+    let mut moved = named.to_vec();
+    let mut any = false;
+    for NamedParameter { parameter, .. } in &mut moved {
+        for bound in [parameter.lower, parameter.upper] {
+            let near = NEAR_BOUND * bound.abs().max(parameter.scale);
+            if parameter.start != bound && (parameter.start - bound).abs() <= near {
+                parameter.start = bound;
+                any = true;
+            }
+        }
+    }
+    any.then_some(moved)
 }
 
 fn resume(problem: &impl Problem, result: SearchResult, settings: &Settings) -> SearchResult {

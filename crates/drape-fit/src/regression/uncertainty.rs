@@ -6,13 +6,12 @@
 use std::ops::Range;
 
 use drape_lm::{
-    Covariance, End, Interval, Loss, Parameter, Problem, ProfileSettings, Report, profile,
-    student_quantile,
+    Covariance, End, Interval, Loss, Parameter, ProfileSettings, Report, profile, student_quantile,
 };
 use nalgebra::{DMatrix, DVector};
 
 use crate::regression::estimate::{Estimate, Undetermined};
-use crate::regression::residuals::NamedParameter;
+use crate::regression::residuals::{NamedParameter, PointProblem};
 use crate::settings::Intervals;
 
 /// Level of the intervals.
@@ -64,6 +63,21 @@ impl Independence {
             effective_squares: effective(correlation * correlation),
         }
     }
+
+    /// Returns the independence of residuals of a law with so many `parameters`: at least two more
+    /// residuals than parameters count as independent.
+    ///
+    /// The residuals of a law that is too stiff for a curve are alike over whole branches, and the
+    /// formulas then leave one independent residual of a hundred. A curve through which a law of six
+    /// parameters was fitted has told more than that.
+    pub(crate) fn for_parameters(self, parameters: usize, residuals: usize) -> Self {
+        let least = (parameters + 2).min(residuals) as f64;
+        Self {
+            effective_count: self.effective_count.max(least),
+            effective_squares: self.effective_squares.max(least),
+            ..self
+        }
+    }
 }
 
 /// End of a search.
@@ -78,8 +92,12 @@ pub(crate) struct FitEnd<'a> {
 pub(crate) struct Uncertainty {
     pub(crate) estimates: Vec<Estimate>,
     pub(crate) correlations: Vec<Vec<Option<f64>>>,
-    /// Half width of the 95 % band of the model at each residual, in the unit of the residuals.
+    /// Half width of the 95 % band of the model at each point, in the unit of the residuals.
     pub(crate) band: Vec<f64>,
+    /// Covariances of the parameters; zero for those that are undetermined.
+    pub(crate) covariance: DMatrix<f64>,
+    /// Half width of a 95 % interval over the standard error.
+    pub(crate) quantile: f64,
 }
 
 impl Uncertainty {
@@ -95,6 +113,8 @@ impl Uncertainty {
             estimates: chosen.iter().map(|&i| self.estimates[i].clone()).collect(),
             correlations: chosen.iter().map(row).collect(),
             band: self.band[residuals].to_vec(),
+            covariance: self.covariance.select_rows(&chosen).select_columns(&chosen),
+            quantile: self.quantile,
         }
     }
 }
@@ -107,9 +127,10 @@ impl Uncertainty {
 /// \sigma^2 A^{-1} B A^{-1}, \qquad A = J^T W J, \quad B = J^T W^2 J
 /// ```
 ///
-/// which is `$\sigma^2 (J^TJ)^{-1}$` where all weights are one.
+/// which is `$\sigma^2 (J^TJ)^{-1}$` where all weights are one. A functional `$c$` of the points, whose
+/// residual has the weight `$n$`, adds `$n\,cc^T$` to `$W$`.
 pub(crate) fn uncertainty(
-    problem: &(impl Problem + Sync),
+    problem: &(impl PointProblem + Sync),
     end: &FitEnd<'_>,
     intervals: Intervals,
 ) -> Uncertainty {
@@ -119,12 +140,13 @@ pub(crate) fn uncertainty(
     let count = parameters.len();
     let mut residuals = vec![0.0; problem.residual_count()];
     problem.residuals(&report.parameters, &mut residuals);
-    let independence = Independence::of(&residuals);
+    residuals.truncate(problem.point_count());
+    let independence = Independence::of(&residuals).for_parameters(count, residuals.len());
     let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
     // A parameter that is undetermined is left out: it is taken as known.
     let known = |j: usize| covariance.undetermined(j).is_none();
     let jacobian = derivatives(problem, &parameters, &report.parameters, known);
-    let sandwich = sandwich(&covariance, problem.weights(), &residuals, &jacobian);
+    let sandwich = sandwich(&covariance, problem, &residuals, &jacobian);
     let widening = residuals.len() as f64 / independence.effective_count;
     let degrees = (independence.effective_squares - count as f64).max(1.0) as usize;
     let quantile = student_quantile(LEVEL, degrees);
@@ -164,10 +186,13 @@ pub(crate) fn uncertainty(
         let sizes = (sandwich[(i, i)] * sandwich[(j, j)]).sqrt();
         Some(if sizes > 0.0 { (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0) } else { naive })
     };
+    let covariance = &sandwich * widening;
     Uncertainty {
         estimates: (0..count).map(estimate).collect(),
         correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
-        band: band(&jacobian, &(&sandwich * widening)).map(|error| quantile * error).collect(),
+        band: band(&jacobian, &covariance).map(|error| quantile * error).collect(),
+        covariance,
+        quantile,
     }
 }
 
@@ -212,31 +237,43 @@ fn stretched(
 /// undetermined.
 fn sandwich(
     covariance: &Covariance,
-    weights: &[f64],
+    problem: &impl PointProblem,
     residuals: &[f64],
     jacobian: &DMatrix<f64>,
 ) -> DMatrix<f64> {
-    let count = jacobian.ncols();
+    let (count, weights) = (jacobian.ncols(), problem.weights());
     let variance = covariance.residual_deviation.powi(2);
     let mut inverse =
         DMatrix::from_fn(count, count, |i, j| covariance.covariance(i, j).unwrap_or(0.0));
-    if weights.is_empty() || !(variance > 0.0 && variance.is_finite()) {
+    let plain = weights.is_empty() && problem.functionals().is_empty();
+    if plain || !(variance > 0.0 && variance.is_finite()) {
         return inverse;
     }
     inverse /= variance;
+
+    // The product of the weights with the Jacobian.
     let mut weighted = jacobian.clone();
-    for (i, weight) in weights.iter().enumerate() {
+    for (i, weight) in weights.iter().take(residuals.len()).enumerate() {
         weighted.row_mut(i).scale_mut(*weight);
     }
+    let weight = problem.functional_weight();
+    for functional in problem.functionals() {
+        for column in 0..count {
+            let slope = functional.slope(|point| jacobian[(point, column)]);
+            functional.for_each(|point, c| weighted[(point, column)] += weight * c * slope);
+        }
+    }
+
     let middle = weighted.tr_mul(&weighted);
     let square: f64 = residuals.iter().map(|r| r * r).sum();
-    let spare = weights.len().saturating_sub(count).max(1) as f64;
+    let spare = residuals.len().saturating_sub(count).max(1) as f64;
     &inverse * middle * &inverse * (square / spare)
 }
 
-/// Returns the derivatives of the residuals by the parameters that are wanted; zero by the others.
+/// Returns the derivatives of the residuals of the points by the parameters that are wanted; zero by
+/// the others.
 fn derivatives(
-    problem: &impl Problem,
+    problem: &impl PointProblem,
     parameters: &[Parameter],
     values: &[f64],
     wanted: impl Fn(usize) -> bool,
@@ -247,7 +284,7 @@ fn derivatives(
         for (_, mut column) in jacobian.column_iter_mut().enumerate().filter(|(j, _)| !wanted(*j)) {
             column.fill(0.0);
         }
-        return jacobian;
+        return jacobian.resize_vertically(problem.point_count(), 0.0);
     }
     let (mut high, mut low) = (DVector::zeros(rows), DVector::zeros(rows));
     let mut trial = values.to_vec();
@@ -262,12 +299,12 @@ fn derivatives(
         trial[j] = values[j];
         jacobian.set_column(j, &((&high - &low) / (ends[0] - ends[1])));
     }
-    jacobian
+    jacobian.resize_vertically(problem.point_count(), 0.0)
 }
 
 #[cfg(test)]
 mod tests {
-    use drape_lm::{Settings, minimise};
+    use drape_lm::{Problem, Settings, minimise};
 
     use super::*;
 
@@ -275,6 +312,8 @@ mod tests {
     struct Line {
         weights: Vec<f64>,
     }
+
+    impl PointProblem for Line {}
 
     impl Problem for Line {
         fn residual_count(&self) -> usize {

@@ -1,0 +1,152 @@
+//! KES values of a fitted law with their intervals, beside those that are read off the curve.
+//!
+//! The error of a value `$v$` of the law follows from the covariances `$C$` of its parameters,
+//!
+//! ```math
+//! \sigma_v^2 = \nabla v^T\,C\,\nabla v
+//! ```
+//!
+//! and knows nothing of what the law misses. The value that is read off the curve needs no law; its
+//! error is the noise of the points at which it is read. The interval holds both: the value of the
+//! law with the smaller of the two errors, and the reading with its error.
+
+use drape_kes::{Curve, EvaluationPoints, Symbol, Test};
+
+use crate::regression::curve_fit::CurveFit;
+use crate::regression::estimate::{Undetermined, ValueEstimate};
+use crate::settings::Settings;
+use crate::values::of_law::LawValue;
+
+/// Step of a central difference over the size of a parameter: the cube root of the rounding of the
+/// values, whose bisections end at 1e-16.
+const STEP: f64 = 1e-5;
+
+/// Half width of a 95 % interval of a normal variate over its standard deviation.
+const NORMAL_QUANTILE: f64 = 1.96;
+
+/// Returns the KES values of the law of a `fit`, where `values` reads those of the law with other
+/// parameters.
+pub(crate) fn value_estimates(
+    curve: &Curve,
+    fit: &CurveFit,
+    settings: &Settings,
+    values: impl Fn(&[f64]) -> Vec<LawValue>,
+) -> Vec<ValueEstimate> {
+    let parameters = fit.parameter_values();
+    let gradient = gradient(fit, &parameters, &values);
+    let readings = curve.values(&own_points(curve, settings));
+    let estimate = |(index, law): (usize, LawValue)| {
+        let value = law.value?;
+        let reading = readings.iter().find(|reading| reading.symbol == law.symbol)?;
+        let reading = reading.value.as_ref().map(|value| *value).map_err(ToString::to_string);
+        let half = half_width(fit, &gradient, index);
+        let interval = half.ok_or(Undetermined::NotSmooth).map(|half| match reading {
+            Ok(read) => {
+                let noise = reading_noise(curve, fit, law.symbol, settings) / law.symbol.factor();
+                let noise = NORMAL_QUANTILE * noise;
+                let half = half.min(noise);
+                [(value - half).min(read - noise), (value + half).max(read + noise)]
+            }
+            Err(_) => [value - half, value + half],
+        });
+        Some(ValueEstimate { symbol: law.symbol, value, curve: reading, interval })
+    };
+    values(&parameters).into_iter().enumerate().filter_map(estimate).collect()
+}
+
+/// Returns the standard deviation with which the noise of the load enters a value that is read off
+/// the curve, in SI.
+///
+/// The work under a branch is a sum over its points. LT is read at one point too, the largest load.
+/// The width of a loop is the difference of two loads. A slope is taken between the means of two
+/// loads. Loops have two sides.
+fn reading_noise(curve: &Curve, fit: &CurveFit, symbol: Symbol, settings: &Settings) -> f64 {
+    let noise = fit.noise * curve.load_range().span();
+    let slope = |[from, to]: [f64; 2]| noise / ((to - from) * std::f64::consts::SQRT_2);
+    match symbol {
+        Symbol::TwoHb | Symbol::TwoHg | Symbol::TwoHg5 => noise,
+        Symbol::B => slope(settings.bending_points.slope),
+        Symbol::G => slope(settings.shear_points.slope),
+        Symbol::Lt | Symbol::Wt | Symbol::Rt | Symbol::Em => tensile_noise(curve, noise, symbol),
+    }
+}
+
+/// Returns the standard deviation of a tensile value that is read off the curve, in SI, for a
+/// `noise` of the load, in N/m.
+fn tensile_noise(curve: &Curve, noise: f64, symbol: Symbol) -> f64 {
+    let Ok(values) = curve.tensile_values() else { return f64::INFINITY };
+    let branches = curve.branches();
+    let points = |branch: usize| branches.get(branch).map_or(1, |branch| branch.points.len());
+    let work_noise = |branch: usize| noise * values.extension / (points(branch) as f64).sqrt();
+    let of_work = work_noise(0) / values.work;
+    match symbol {
+        Symbol::Wt => work_noise(0),
+        Symbol::Lt => values.linearity * of_work.hypot(noise / values.maximum_tension),
+        Symbol::Rt => {
+            let resilience = values.resilience.unwrap_or(0.0);
+            (work_noise(1) / values.work).hypot(resilience * of_work)
+        }
+        _ => 0.0,
+    }
+}
+
+/// Returns the points at which the values of a curve are read: of a tensile curve at its own largest
+/// load, so that curve and law are compared at equal load.
+fn own_points(curve: &Curve, settings: &Settings) -> EvaluationPoints {
+    EvaluationPoints {
+        maximum_tension: largest_load(curve),
+        bending: settings.bending_points,
+        shear: settings.shear_points,
+    }
+}
+
+/// Returns the load at the end of the first loading of a tensile curve, in N/m; of another curve its
+/// largest load.
+pub(crate) fn largest_load(curve: &Curve) -> f64 {
+    let of_tension = (curve.test == Test::Tensile).then(|| curve.tensile_values().ok()).flatten();
+    of_tension.map_or(curve.load_range().high, |values| values.maximum_tension)
+}
+
+/// Returns the derivatives of the values by each parameter that the curve determines; `None` for the
+/// other parameters.
+fn gradient(
+    fit: &CurveFit,
+    parameters: &[f64],
+    values: &impl Fn(&[f64]) -> Vec<LawValue>,
+) -> Vec<Option<Vec<f64>>> {
+    let of_parameter = |index: usize| {
+        if fit.covariance[(index, index)] <= 0.0 {
+            return None;
+        }
+        let step = STEP * parameters[index].abs().max(f64::MIN_POSITIVE);
+        let at = |sign: f64| {
+            let mut moved = parameters.to_vec();
+            moved[index] += sign * step;
+            values(&moved)
+        };
+        let (high, low) = (at(1.0), at(-1.0));
+        let difference = |(high, low): (&LawValue, &LawValue)| {
+            let rise = high.value.zip(low.value).map(|(high, low)| high - low);
+            rise.map_or(f64::NAN, |rise| rise / (2.0 * step))
+        };
+        Some(high.iter().zip(&low).map(difference).collect())
+    };
+    (0..parameters.len()).map(of_parameter).collect()
+}
+
+/// Returns half the width of the 95 % interval of a value; `None` where it has no derivative.
+fn half_width(fit: &CurveFit, gradient: &[Option<Vec<f64>>], value: usize) -> Option<f64> {
+    let known: Vec<(usize, f64)> = gradient
+        .iter()
+        .enumerate()
+        .filter_map(|(index, slopes)| Some((index, slopes.as_ref()?[value])))
+        .collect();
+    let mut variance = 0.0;
+    for (i, a) in &known {
+        for (j, b) in &known {
+            variance += a * b * fit.covariance[(*i, *j)];
+        }
+    }
+    let half = fit.quantile * variance.max(0.0).sqrt();
+    half.is_finite().then_some(half)
+}
