@@ -135,9 +135,9 @@ fn sets_that_contradict_themselves_are_refused_with_the_reason() {
     assert!(matches!(error, Error::InvalidLinearity { .. }), "{text}");
     assert!(text.contains("weft: LT is 3.000, made by WT and EM"), "{text}");
     let (text, error) =
-        refused(Values { lt: Some(0.3), rt: Some(40.0), em: Some(5.0), ..Values::default() });
+        refused(Values { lt: Some(0.03), rt: Some(40.0), em: Some(5.0), ..Values::default() });
     assert!(matches!(error, Error::IncompatibleValues { .. }), "{text}");
-    assert!(text.contains("weft: no law here has a linearity LT of 0.300"), "{text}");
+    assert!(text.contains("weft: no law here has a linearity LT of 0.030"), "{text}");
 }
 
 #[test]

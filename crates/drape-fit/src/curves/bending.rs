@@ -50,6 +50,7 @@ pub fn identify_bending(
     settings: &Settings,
 ) -> Result<Identified<BendingLaw>, Error> {
     check(curve, Test::Bending)?;
+    let curve = &*curve.prepared();
     let curvature = curve.deformation();
     if settings.bending == Some(LoopModel::Piecewise) {
         let law = |p: &[f64]| BendingLaw {

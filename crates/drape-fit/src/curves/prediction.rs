@@ -5,7 +5,7 @@
 use drape_kes::{Curve, Test};
 
 use crate::curves::features::check;
-use crate::curves::tensile_form::{StripKind, TensileForm};
+use crate::curves::tensile_form::{FittedZeros, StripKind, TensileForm};
 use crate::curves::tensile_start::InitialGuess;
 use crate::error::Error;
 use crate::regression::residuals::{ForwardModel, Residuals};
@@ -42,9 +42,10 @@ pub struct Prediction {
 /// further.
 pub fn predict_last_cycle(curve: &Curve, settings: &Settings) -> Result<Vec<Prediction>, Error> {
     check(curve, Test::Tensile)?;
+    let curve = &*curve.prepared();
     let last = last_cycle(curve).ok_or_else(|| Error::SingleCycle { name: curve.name.clone() })?;
     // A second cycle follows a recovery.
-    let strip = StripKind { slack: curve.slack, recovers: true };
+    let strip = StripKind { zeros: FittedZeros::of(curve), recovers: true };
     predict(curve, last, &TensileForm::admitted(strip, settings))
 }
 

@@ -27,6 +27,7 @@ use crate::values::of_law::shear_values;
 /// The curve is of another test, has no load, or does not rise.
 pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<ShearLaw>, Error> {
     check(curve, Test::Shear)?;
+    let curve = &*curve.prepared();
     let angles = curve.deformation().iter();
     let sines: Vec<f64> = angles.map(|angle| angle.sin()).collect();
     let found = match settings.shear {

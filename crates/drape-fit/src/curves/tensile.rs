@@ -5,7 +5,7 @@ use drape_kes::{Curve, Test};
 
 use crate::curves::features::check;
 use crate::curves::prediction::{last_cycle, predict};
-use crate::curves::tensile_form::{StripKind, TensileForm};
+use crate::curves::tensile_form::{FittedZeros, StripKind, TensileForm};
 use crate::curves::tensile_start::InitialGuess;
 use crate::curves::value_estimate::{largest_load, value_estimates};
 use crate::error::Error;
@@ -17,8 +17,10 @@ use crate::values::of_law::tensile_values;
 
 /// Identifies the traction law of one direction from a tensile curve, along its whole history.
 ///
-/// For a strip that hung slack, the strain at which it becomes taut and the zero of the force are
-/// fitted too. A curve without recovery determines neither friction nor how the fabric changes once
+/// Points after a break are left out, and the path of the strain is freed from noise
+/// ([`Curve::prepared`]). For a strip that hung slack, the strain at which it becomes taut and the
+/// zero of the force are fitted too. For a test that begins under a pretension, the strain at which
+/// the strip carries nothing is fitted. A curve without recovery determines neither friction nor how the fabric changes once
 /// it has been stretched: the law then has no friction, and a toe that does not move.
 ///
 /// Where the last cycle goes further than those before it, a law is selected only if it also
@@ -34,8 +36,9 @@ pub fn identify_tensile(
     settings: &Settings,
 ) -> Result<Identified<TractionLaw>, Error> {
     check(curve, Test::Tensile)?;
+    let curve = &*curve.prepared();
     let guess = InitialGuess::new(curve)?;
-    let strip = StripKind { slack: curve.slack, recovers: guess.recovers };
+    let strip = StripKind { zeros: FittedZeros::of(curve), recovers: guess.recovers };
     let forms = TensileForm::admitted(strip, settings);
     let predicted = prediction_errors(curve, &forms);
     let model = |(form, prediction): (&TensileForm, &Option<f64>)| CandidateModel {

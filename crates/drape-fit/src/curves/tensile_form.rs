@@ -17,11 +17,36 @@ use crate::settings::model::{Toe, TractionModel};
 /// strain: with more, a cloth would carry compression over strains at which it was never measured.
 const LARGEST_BUCKLING: f64 = 0.05;
 
+/// Zeros of a tensile curve that are fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FittedZeros {
+    /// None: the curve begins at zero strain without load.
+    None,
+    /// The strain at which the strip carries nothing, below the start of a test that begins under a
+    /// pretension.
+    Strain,
+    /// The strain at which a slack strip becomes taut, and the zero of the force.
+    StrainAndLoad,
+}
+
+impl FittedZeros {
+    /// Returns the zeros that are fitted to a curve.
+    pub(crate) fn of(curve: &Curve) -> Self {
+        if curve.slack {
+            Self::StrainAndLoad
+        } else if curve.has_pretension() {
+            Self::Strain
+        } else {
+            Self::None
+        }
+    }
+}
+
 /// Properties of a tensile curve that decide which parameters it has.
 #[derive(Clone, Copy)]
 pub(crate) struct StripKind {
-    /// Whether the strip hangs slack: the zeros of strain and force are then fitted.
-    pub(crate) slack: bool,
+    /// Zeros that are fitted.
+    pub(crate) zeros: FittedZeros,
     /// Whether the curve has a recovery branch, hence friction.
     pub(crate) recovers: bool,
 }
@@ -47,17 +72,17 @@ pub(crate) struct TensileForm {
     pub(crate) strip: StripKind,
 }
 
-/// Zeros of a slack strip.
+/// Zeros of a strip.
 #[derive(Clone, Copy)]
 pub(crate) struct Zeros {
-    /// Clamp strain at which the strip becomes taut.
+    /// Strain of the curve at which the strip becomes taut.
     pub(crate) strain: f64,
     pub(crate) load: f64,
 }
 
 /// Law with the zeros of its strip.
 struct StripLaw {
-    zeros: Option<Zeros>,
+    zeros: Zeros,
     law: TractionLaw,
 }
 
@@ -120,13 +145,12 @@ impl TensileForm {
     pub(crate) fn forward<'a>(self, curve: &'a Curve) -> Box<dyn ForwardModel + 'a> {
         Box::new(move |p: &[f64], out: &mut [f64]| {
             let StripLaw { zeros, law } = self.strip_law(p);
-            let strains = curve.deformation().iter();
-            match zeros {
-                Some(zeros) => {
-                    drive_slack_strip(&law, strains.map(|measured| measured - zeros.strain), out);
-                    out.iter_mut().for_each(|value| *value += zeros.load);
-                }
-                None => drive_strip(&law, strains.copied(), out),
+            let strains = curve.deformation().iter().map(|measured| measured - zeros.strain);
+            if self.strip.zeros == FittedZeros::StrainAndLoad {
+                drive_slack_strip(&law, strains, out);
+                out.iter_mut().for_each(|value| *value += zeros.load);
+            } else {
+                drive_strip(&law, strains, out);
             }
         })
     }
@@ -138,7 +162,11 @@ impl TensileForm {
 
     fn strip_law(self, p: &[f64]) -> StripLaw {
         let mut p = Parameters(p);
-        let zeros = self.strip.slack.then(|| Zeros { strain: p.next(), load: p.next() });
+        let zeros = match self.strip.zeros {
+            FittedZeros::None => Zeros { strain: 0.0, load: 0.0 },
+            FittedZeros::Strain => Zeros { strain: p.next(), load: 0.0 },
+            FittedZeros::StrainAndLoad => Zeros { strain: p.next(), load: p.next() },
+        };
         let law = match self.model {
             TractionModel::Exponential => self.exponential(&mut p),
             TractionModel::Primed => {

@@ -20,7 +20,7 @@ use drape_lm::Parameter;
 
 use crate::curves::features::{StraightLine, falling};
 use crate::curves::linear_loop::LEAST_LENGTH;
-use crate::curves::tensile_form::{TensileForm, Zeros};
+use crate::curves::tensile_form::{FittedZeros, TensileForm, Zeros};
 use crate::error::Error;
 use crate::forward::strip_drive::drive_strip;
 use crate::regression::linear::{LinearFit, Solution};
@@ -40,6 +40,8 @@ const STARTS: usize = 3;
 const DEEP: f64 = 0.6;
 /// Part of the load range by which the load of a slack strip has begun to rise.
 const SLACK_LOAD: f64 = 0.02;
+/// Part of the first loading branch whose slope leads from a pretension to zero load.
+const START: f64 = 0.1;
 /// Part of the first loading branch above which its slope is read.
 const UPPER: f64 = 0.6;
 
@@ -81,9 +83,11 @@ impl InitialGuess {
         let branches = curve.branches();
         let loading = branches.first().filter(|branch| branch.rising);
         let loading = loading.ok_or_else(|| falling(curve))?.points.clone();
-        let zero = match curve.slack {
-            true => taut(curve, &loading),
-            false => Zeros { strain: 0.0, load: 0.0 },
+        let zeros = FittedZeros::of(curve);
+        let zero = match zeros {
+            FittedZeros::None => Zeros { strain: 0.0, load: 0.0 },
+            FittedZeros::Strain => Zeros { strain: unloaded(curve, &loading)?, load: 0.0 },
+            FittedZeros::StrainAndLoad => taut(curve, &loading),
         };
         let top_strain = curve.deformation_range().high - zero.strain;
         let top_load = curve.load_range().high - zero.load;
@@ -256,7 +260,7 @@ impl InitialGuess {
 
     /// Returns the parameters of a fit with the values of a `start`.
     fn named(&self, form: &TensileForm, start: &Start) -> Vec<NamedParameter> {
-        let mut named = if form.strip.slack { self.zeros() } else { Vec::new() };
+        let mut named = self.zeros(form.strip.zeros);
         let with_value = |(bounds, value): (NamedParameter, &f64)| {
             let parameter = Parameter { start: *value, ..bounds.parameter };
             NamedParameter { parameter, ..bounds }
@@ -302,16 +306,34 @@ impl InitialGuess {
         Parameter::new(0.05 * strain).between(LEAST_LENGTH * strain, 5.0 * strain)
     }
 
-    /// Returns the zeros of a slack strip as parameters.
-    fn zeros(&self) -> Vec<NamedParameter> {
+    /// Returns the zeros that are fitted as parameters.
+    fn zeros(&self, zeros: FittedZeros) -> Vec<NamedParameter> {
         let around = |value: f64, half: f64| {
             Parameter::new(value).with_scale(half).between(value - half, value + half)
         };
-        vec![
-            NamedParameter::new("free strain", around(self.zero.strain, 0.3 * self.top_strain)),
-            NamedParameter::new("zero", around(self.zero.load, 0.2 * self.top_load)),
-        ]
+        let strain =
+            NamedParameter::new("free strain", around(self.zero.strain, 0.3 * self.top_strain));
+        let load = NamedParameter::new("zero", around(self.zero.load, 0.2 * self.top_load));
+        match zeros {
+            FittedZeros::None => Vec::new(),
+            FittedZeros::Strain => vec![strain],
+            FittedZeros::StrainAndLoad => vec![strain, load],
+        }
     }
+}
+
+/// Returns the strain at which a strip that begins under a load carries nothing, by the slope of the
+/// start of its first loading branch.
+fn unloaded(curve: &Curve, loading: &Range<usize>) -> Result<f64, Error> {
+    let (strain, load) = (curve.deformation(), curve.load());
+    let last = strain[loading.end - 1];
+    let end = strain[loading.start] + START * (last - strain[loading.start]);
+    let points = loading.clone().filter(|&i| strain[i] <= end).map(|i| [strain[i], load[i]]);
+    let slope = StraightLine::through(points).map(|line| line.slope).filter(|slope| *slope > 0.0);
+    let slope = slope.ok_or_else(|| falling(curve))?;
+    // A toe is flatter below, so the strip carries nothing further away.
+    let below = load[loading.start] / slope;
+    Ok(strain[loading.start] - below.min(last - strain[loading.start]))
 }
 
 /// Returns strain and load at which a slack strip becomes taut on its first loading branch.
@@ -353,7 +375,7 @@ mod tests {
             drive_strip(&law, strain.iter().copied(), &mut load);
             let curve = Curve::new(Test::Tensile, Direction::Warp, strain.clone(), load);
             let guess = InitialGuess::new(&curve.expect("a curve")).expect("it rises");
-            let strip = StripKind { slack: false, recovers: true };
+            let strip = StripKind { zeros: FittedZeros::None, recovers: true };
             let moves = growth > 1.0;
             let toe_form = if moves { Toe::Moving } else { Toe::Still };
             let (model, terms) = (TractionModel::Primed, Terms::All);

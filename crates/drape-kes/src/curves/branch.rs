@@ -7,7 +7,7 @@ use std::ops::Range;
 /// With a smaller one the jitter of a clamp splits a branch; with a larger one small inner loops
 /// are missed. Position sensors jitter below 0.1 % of the range, and the smallest inner loop of a
 /// test worth measuring is some 5 % of it.
-const REVERSAL_THRESHOLD: f64 = 0.01;
+pub(crate) const REVERSAL_THRESHOLD: f64 = 0.01;
 
 /// Part of a history on which the deformation rises or falls.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,7 +35,13 @@ pub fn reversals(deformation: &[f64]) -> Vec<usize> {
     };
     let (low, high) =
         deformation.iter().fold((first, first), |(low, high), &q| (low.min(q), high.max(q)));
-    let threshold = REVERSAL_THRESHOLD * (high - low);
+    reversals_beyond(deformation, REVERSAL_THRESHOLD * (high - low))
+}
+
+/// Returns the reversals of a history that is not empty, with its first and last point.
+///
+/// A point is a reversal once the deformation has moved back from it by more than `threshold`.
+pub(crate) fn reversals_beyond(deformation: &[f64], threshold: f64) -> Vec<usize> {
     let moved = |from: usize, to: usize| deformation[to] - deformation[from];
     let Some(start) = (0..deformation.len()).find(|&i| moved(0, i).abs() > threshold) else {
         return vec![0, deformation.len() - 1];

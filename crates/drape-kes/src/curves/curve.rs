@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::curves::branch::{Branch, reversals};
+use crate::curves::prepared::Preparation;
 use crate::error::Error;
 use crate::test::{Direction, Test};
 
@@ -66,6 +67,8 @@ pub struct Curve {
     pub slack: bool,
     deformation: Vec<f64>,
     load: Vec<f64>,
+    time: Option<Vec<f64>>,
+    preparation: Option<Preparation>,
     pub(crate) repeats: Vec<Curve>,
     pub(crate) scatter: Vec<f64>,
 }
@@ -106,9 +109,45 @@ impl Curve {
             slack: false,
             deformation,
             load,
+            time: None,
+            preparation: None,
             repeats: Vec::new(),
             scatter: Vec::new(),
         })
+    }
+
+    /// Returns the curve with the times of its points, in seconds.
+    ///
+    /// They help to tell noise of the deformation from changes of its rate. Times that are not as
+    /// many as the points, or that do not rise, are left out.
+    #[must_use]
+    pub fn with_time(mut self, time: Vec<f64>) -> Self {
+        let rises = time.windows(2).all(|pair| pair[0] < pair[1]);
+        let usable = time.len() == self.load.len() && rises && time.iter().all(|t| t.is_finite());
+        self.time = usable.then_some(time);
+        self
+    }
+
+    /// Returns the time of each point in seconds, if it is known.
+    #[must_use]
+    pub fn time(&self) -> Option<&[f64]> {
+        self.time.as_deref()
+    }
+
+    /// Returns what [`Curve::prepared`] did and found; `None` where the curve is as measured.
+    #[must_use]
+    pub fn preparation(&self) -> Option<&Preparation> {
+        self.preparation.as_ref()
+    }
+
+    /// Notes what was done to the curve.
+    pub(crate) fn set_preparation(&mut self, preparation: Preparation) {
+        self.preparation = Some(preparation);
+    }
+
+    /// Replaces the deformation of each point.
+    pub(crate) fn set_deformation(&mut self, deformation: Vec<f64>) {
+        self.deformation = deformation;
     }
 
     /// Returns the points, in the order of measurement.
@@ -117,8 +156,36 @@ impl Curve {
         pairs.map(|(&deformation, &load)| Point { deformation, load })
     }
 
-    /// Returns the curve with other points.
+    /// Returns the curve with strains that count from `zero`, a ratio.
+    pub(crate) fn from_strain(&self, zero: f64) -> Self {
+        let mut curve = self.clone();
+        curve.deformation.iter_mut().for_each(|strain| *strain -= zero);
+        if let Some(Preparation { rupture: Some(rupture), .. }) = &mut curve.preparation {
+            rupture.strain -= zero;
+        }
+        curve
+    }
+
+    /// Returns the curve without the points below zero strain at its start and at its end; `None`
+    /// where fewer than two points are left.
+    pub(crate) fn taut(&self) -> Option<Self> {
+        let is_taut = |strain: &f64| *strain >= 0.0;
+        let first = self.deformation.iter().position(is_taut)?;
+        let last = self.deformation.iter().rposition(is_taut)?;
+        if last <= first {
+            return None;
+        }
+        let points = self.points().skip(first).take(last + 1 - first).collect();
+        let mut curve = self.clone().with_points(points);
+        if let Some(preparation) = &mut curve.preparation {
+            preparation.zero_is_given = true;
+        }
+        Some(curve)
+    }
+
+    /// Returns the curve with other points; their times are known only if there are as many.
     pub(crate) fn with_points(mut self, points: Vec<Point>) -> Self {
+        self.time = self.time.filter(|time| time.len() == points.len());
         self.deformation = points.iter().map(|point| point.deformation).collect();
         self.load = points.iter().map(|point| point.load).collect();
         self

@@ -11,7 +11,7 @@ impl Curve {
     ///
     /// Repeats at the same deformations are averaged point by point. Others, such as tensile tests
     /// that end at the same load, are averaged at equal fractions of each branch: deformations and
-    /// loads alike. The repeats stay with the mean ([`Curve::repeats`]).
+    /// loads alike. Noise of the deformations is taken off first ([`Curve::prepared`]). The repeats stay with the mean ([`Curve::repeats`]).
     ///
     /// ```
     /// use drape_kes::{Curve, Direction, Test};
@@ -29,6 +29,8 @@ impl Curve {
     /// # Errors
     /// There is no curve, or the curves have different numbers of branches.
     pub fn mean(repeats: Vec<Self>) -> Result<Self, Error> {
+        let repeats: Vec<Self> =
+            repeats.iter().map(|curve| curve.prepared().into_owned()).collect();
         let Some(first) = repeats.first().cloned() else {
             return Err(Error::TooFewPoints { points: 0 });
         };

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::closest;
+use drape_input::{Quantity, closest};
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
@@ -23,7 +23,7 @@ use crate::tables::number::Decimal;
 use crate::tables::series::Series;
 use crate::test::{Direction, Test};
 
-pub(crate) const CURVE_KEYS: [&str; 16] = [
+pub(crate) const CURVE_KEYS: [&str; 17] = [
     "name",
     "test",
     "direction",
@@ -31,6 +31,7 @@ pub(crate) const CURVE_KEYS: [&str; 16] = [
     "deformation",
     "load",
     "slack",
+    "zero_strain",
     "encoding",
     "separator",
     "decimal",
@@ -59,6 +60,8 @@ struct CurveKeys {
     test: Test,
     direction: Direction,
     slack: bool,
+    /// Strain of the file at which the strip is taut and carries nothing, if the sheet says it.
+    zero_strain: Option<f64>,
     deformation: AxisKeys,
     load: AxisKeys,
     layout: Layout,
@@ -76,6 +79,7 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
     let direction = section.required_choice(&DIRECTION, findings);
     let name = section.text("name", findings);
     let slack = section.flag("slack", findings);
+    let zero_strain = section.measured("zero_strain", Quantity::Ratio, findings);
     let files = section.required_texts("file", "\"tensile-warp.csv\"", findings);
     let layout = layout(section, findings);
     let axes = match test {
@@ -91,6 +95,18 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
     let (Some(test), Some(direction), Some(files)) = (test, direction, files) else {
         return Vec::new();
     };
+    if let Some(zero) = zero_strain.as_ref().filter(|_| slack || test != Test::Tensile) {
+        let (message, help) = if slack {
+            (
+                "the zero of strain is given, and is to be fitted",
+                "leave out `slack` or `zero_strain`",
+            )
+        } else {
+            ("only a tensile curve has a zero of strain", "leave it out")
+        };
+        findings.error(&zero.key, message, help);
+        return Vec::new();
+    }
     let ((Some(deformation), Some(load)), Some(layout)) = (axes, layout) else {
         return Vec::new();
     };
@@ -102,9 +118,11 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
         file: section.key("file"),
         deformation: section.key("deformation"),
         load: section.key("load"),
+        zero_strain: section.key("zero_strain"),
         turned: deformation.reversed.is_some() || load.reversed.is_some(),
     };
-    let keys = CurveKeys { test, direction, slack, deformation, load, layout, paths };
+    let zero_strain = zero_strain.map(|zero| zero.si);
+    let keys = CurveKeys { test, direction, slack, zero_strain, deformation, load, layout, paths };
     let curves: Option<Vec<Vec<Curve>>> =
         files.iter().map(|file| keys.curves(file, findings)).collect();
     let Some(mut curves) = curves.map(|curves| curves.concat()) else { return Vec::new() };
@@ -178,6 +196,7 @@ impl CurveKeys {
             if index == 0 {
                 reading.extend(scales);
             }
+            reading.extend(curve.remarks());
             curves.push(curve);
         }
         let words = format!("{file}: {points} points; {}", reading.join("; "));
@@ -195,7 +214,7 @@ impl CurveKeys {
             Ok(mut curve) => {
                 (curve.gauge, curve.slack) = (q.size, self.slack);
                 let written = AxesAsWritten { deformation: q, load: f };
-                let curve = examine(curve, &written, &self.paths, findings)?;
+                let curve = examine(curve, &written, &self.paths, self.zero_strain, findings)?;
                 Some((curve, words))
             }
             Err(error) => {

@@ -31,6 +31,7 @@ pub(crate) struct Keys {
     pub(crate) file: String,
     pub(crate) deformation: String,
     pub(crate) load: String,
+    pub(crate) zero_strain: String,
     /// Whether the sheet says which way the signs are: they are then left as they are.
     pub(crate) turned: bool,
 }
@@ -95,6 +96,7 @@ pub(crate) fn examine(
     curve: Curve,
     written: &AxesAsWritten,
     keys: &Keys,
+    zero_strain: Option<f64>,
     findings: &mut Findings<'_>,
 ) -> Option<Curve> {
     let curve = without_duplicates(curve, keys, findings);
@@ -105,7 +107,7 @@ pub(crate) fn examine(
     if curve.test == Test::LoopBending {
         return Some(curve);
     }
-    let curve = upright(curve, keys, findings);
+    let curve = upright(curve, keys, findings).prepared().into_owned();
     if let Some(EnergyGain { deformation, excess }) = energy_gain(&curve) {
         let message = format!(
             "unloading lies above loading, by {:.0} % of the load's range at a deformation of {deformation:.4e}",
@@ -116,7 +118,10 @@ pub(crate) fn examine(
         findings.error(&keys.file, message, help);
         return None;
     }
-    from_zero(curve, keys, findings)
+    match zero_strain {
+        Some(zero) => from_given_zero(&curve, zero, keys, findings),
+        None => from_zero(curve, keys, findings),
+    }
 }
 
 /// Leaves out points that repeat the one before.
@@ -324,8 +329,27 @@ fn from_zero(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<C
     }
     let message = format!("starts at a strain of {start:.4e} without load");
     findings.warn(&keys.deformation, message, "the start was taken as zero");
-    let points = curve.points();
-    let shifted = points.map(|point| Point { deformation: point.deformation - start, ..point });
-    let shifted = shifted.collect();
-    Some(curve.with_points(shifted))
+    Some(curve.from_strain(start))
+}
+
+/// Shifts a tensile test to begin at a given zero of strain, and leaves out the slack before it.
+fn from_given_zero(
+    curve: &Curve,
+    zero: f64,
+    keys: &Keys,
+    findings: &mut Findings<'_>,
+) -> Option<Curve> {
+    let shifted = curve.from_strain(zero).taut();
+    if shifted.is_none() {
+        let range = curve.deformation_range();
+        let message = format!(
+            "{:.3} % is not within the strains of the curve, {:.3} to {:.3} %",
+            100.0 * zero,
+            100.0 * range.low,
+            100.0 * range.high
+        );
+        let help = "write the strain at which the strip is taut, such as \"0.8 %\"";
+        findings.error(&keys.zero_strain, message, help);
+    }
+    shifted
 }

@@ -1,0 +1,355 @@
+//! Path of a deformation between its turns, freed from the noise of its sensor.
+//!
+//! A fabric has memory, so every small step back of a noisy deformation would work like a cycle of
+//! its friction. Between two turns a test moves one way: the path is smoothed along the points, or
+//! along the time where it is known, and made monotone by isotonic regression \[BBBB72\].
+
+use crate::curves::branch::{REVERSAL_THRESHOLD, reversals_beyond};
+
+/// Median of the absolute value of a normal variate of unit deviation.
+const NORMAL_MEDIAN: f64 = 0.6745;
+
+/// Part of the steps that go back from which on the path is smoothed; with fewer it is made monotone
+/// only.
+const NOISY: f64 = 0.02;
+
+/// Trend over a window of the smoothing over the error of its mean.
+///
+/// With this much, the smoothed path hardly turns back, and the windows stay short against a branch.
+const TREND: f64 = 8.0;
+
+/// Least number of points on each side of a point in a window.
+const LEAST_HALF: usize = 2;
+
+/// Largest part of a branch on each side of a point in a window. A longer window would blur a change
+/// of the rate of the test.
+const LARGEST_HALF: f64 = 0.05;
+
+/// What was done to the path of a curve's deformation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteadyPath {
+    /// Number of steps that went back against their branch.
+    pub backward_steps: usize,
+    /// Largest such step, in the unit of the deformation, in SI.
+    pub largest_step: f64,
+    /// Standard deviation of the noise of the deformation, in SI.
+    pub noise: f64,
+    /// Number of turns between the branches.
+    pub turns: usize,
+    /// Whether the path was smoothed; otherwise it was made monotone only.
+    pub smoothed: bool,
+}
+
+impl SteadyPath {
+    /// Returns what was done in words, for a deformation that covers a `span`, in SI.
+    #[must_use]
+    pub fn describe(&self, span: f64) -> String {
+        let Self { backward_steps, largest_step, turns, smoothed, .. } = *self;
+        let times =
+            if backward_steps == 1 { "once".to_owned() } else { format!("{backward_steps} times") };
+        let percent = 100.0 * largest_step / span;
+        let verb = if smoothed { "smoothed" } else { "made monotone" };
+        let between = match turns {
+            0 => "as one branch".to_owned(),
+            1 => "on both sides of its turn".to_owned(),
+            _ => format!("between its {turns} turns"),
+        };
+        format!(
+            "the deformation turns back {times}, by at most {percent:.2} % of its range; its path was \
+             {verb} {between}"
+        )
+    }
+}
+
+/// Returns a history that moves one way between its turns, and what was done; `None` where there is
+/// nothing to do.
+pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, SteadyPath)> {
+    let range = q.iter().fold([q[0], q[0]], |[low, high], &q| [low.min(q), high.max(q)]);
+    let noise = noise(q);
+    let threshold = (REVERSAL_THRESHOLD * (range[1] - range[0])).max(excursion(noise, q.len()));
+    let turns = reversals_beyond(q, threshold);
+    let (backward_steps, largest_step) = steps_back(q, &turns);
+    if backward_steps == 0 {
+        return None;
+    }
+
+    let smoothed = backward_steps as f64 > NOISY * q.len() as f64;
+    let abscissa: Vec<f64> = match time {
+        Some(time) => time.to_vec(),
+        None => (0..q.len()).map(|i| i as f64).collect(),
+    };
+    let turns = if smoothed { vertices(&abscissa, q, &turns, noise) } else { turns };
+    let mut path = q.to_vec();
+    for ends in turns.windows(2) {
+        let points = ends[0]..ends[1] + 1;
+        let mut branch = if smoothed {
+            smooth(&abscissa[points.clone()], &q[points.clone()], noise)
+        } else {
+            q[points.clone()].to_vec()
+        };
+        let rising = q[ends[1]] > q[ends[0]];
+        make_monotone(&mut branch, rising);
+        // A turn ends one branch and begins the next: its deformation is the mean of both.
+        let shared = ends[0] > 0;
+        let before = path[ends[0]];
+        path[points].copy_from_slice(&branch);
+        if shared {
+            path[ends[0]] = 0.5 * (before + branch[0]);
+        }
+    }
+    // The mean at a turn must not undo the order of its neighbours.
+    for ends in turns.windows(2) {
+        let rising = q[ends[1]] > q[ends[0]];
+        make_monotone(&mut path[ends[0]..=ends[1]], rising);
+    }
+    let turns = turns.len() - 2;
+    Some((path, SteadyPath { backward_steps, largest_step, noise, turns, smoothed }))
+}
+
+/// Returns the standard deviation of the noise of a history that moves at a steady rate but for its
+/// turns.
+///
+/// It follows from the median of the second differences, whose variance is six times that of the
+/// noise. A sensor of coarse steps has a median of zero: there the mean square of all but the largest
+/// hundredth counts.
+fn noise(q: &[f64]) -> f64 {
+    let mut second: Vec<f64> =
+        q.windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs()).collect();
+    if second.is_empty() {
+        return 0.0;
+    }
+    second.sort_by(f64::total_cmp);
+    let median = second[second.len() / 2] / NORMAL_MEDIAN;
+    let kept = &second[..(second.len() * 99 / 100).max(1)];
+    let square = kept.iter().map(|d| d * d).sum::<f64>() / kept.len() as f64;
+    let deviation = if median > 0.0 { median } else { square.sqrt() };
+    deviation / 6_f64.sqrt()
+}
+
+/// Returns the largest distance between two of `count` noisy points that chance explains.
+///
+/// The largest of `$n$` normal variates is about `$\sqrt{2\ln n}$`, and as far below.
+fn excursion(noise: f64, count: usize) -> f64 {
+    noise * (2.0 * (2.0 * (count as f64).ln()).sqrt() + 1.0)
+}
+
+/// Returns the number of steps that go back against their branch, and the largest of them.
+fn steps_back(q: &[f64], turns: &[usize]) -> (usize, f64) {
+    let mut count = 0;
+    let mut largest = 0.0_f64;
+    for ends in turns.windows(2) {
+        let sign = (q[ends[1]] - q[ends[0]]).signum();
+        for pair in q[ends[0]..=ends[1]].windows(2) {
+            let back = -sign * (pair[1] - pair[0]);
+            if back > 0.0 {
+                count += 1;
+                largest = largest.max(back);
+            }
+        }
+    }
+    (count, largest)
+}
+
+/// Returns the turns moved to where the lines through the points before and after them meet.
+///
+/// The extreme of noisy points is the one with the largest noise, and lies anywhere near the turn.
+fn vertices(abscissa: &[f64], q: &[f64], turns: &[usize], noise: f64) -> Vec<usize> {
+    let mut moved = turns.to_vec();
+    for k in 1..turns.len().saturating_sub(1) {
+        let (before, turn, after) = (turns[k - 1], turns[k], turns[k + 1]);
+        let reach = |points: usize| half_window(points, (q[turn] - q[before]).abs(), noise) * 2;
+        let left = reach(turn - before).min(turn - before);
+        let right = reach(after - turn).min(after - turn);
+        // Each place within the reach is tried as the corner of two lines.
+        let window = turn - left..turn + right + 1;
+        let candidates = turn - left / 2..turn + right / 2 + 1;
+        let error = |corner: usize| {
+            line_error(abscissa, q, window.start..corner + 1)
+                + line_error(abscissa, q, corner..window.end)
+        };
+        let best = candidates.min_by(|&a, &b| error(a).total_cmp(&error(b)));
+        moved[k] = best.unwrap_or(turn);
+    }
+    moved
+}
+
+/// Returns the sum of squared distances of points from their line of least squares.
+fn line_error(x: &[f64], y: &[f64], points: std::ops::Range<usize>) -> f64 {
+    let (x, y) = (&x[points.clone()], &y[points]);
+    let line = Line::through(x, y);
+    x.iter().zip(y).map(|(x, y)| (line.at(*x) - y).powi(2)).sum()
+}
+
+/// Straight line, from the mean of its points.
+pub(crate) struct Line {
+    x: f64,
+    y: f64,
+    slope: f64,
+}
+
+impl Line {
+    pub(crate) fn through(x: &[f64], y: &[f64]) -> Self {
+        let count = x.len() as f64;
+        let (mx, my) = (x.iter().sum::<f64>() / count, y.iter().sum::<f64>() / count);
+        let (mut xx, mut xy) = (0.0, 0.0);
+        for (x, y) in x.iter().zip(y) {
+            xx += (x - mx) * (x - mx);
+            xy += (x - mx) * (y - my);
+        }
+        Self { x: mx, y: my, slope: if xx > 0.0 { xy / xx } else { 0.0 } }
+    }
+
+    pub(crate) fn at(&self, x: f64) -> f64 {
+        self.y + self.slope * (x - self.x)
+    }
+}
+
+/// Returns the number of points on each side of a point in a window, for a branch of some `points`
+/// that covers a `span`.
+///
+/// Over a window of `$m$` points the path moves by `$m$` steps, and the mean of the window errs by
+/// `$\sigma/\sqrt m$`.
+fn half_window(points: usize, span: f64, noise: f64) -> usize {
+    let step = span / points.max(1) as f64;
+    let needed = if step > 0.0 { (TREND * noise / step).powf(2.0 / 3.0) } else { 0.0 };
+    let most = ((LARGEST_HALF * points as f64) as usize).max(LEAST_HALF);
+    (0.5 * needed).ceil().clamp(LEAST_HALF as f64, most as f64) as usize
+}
+
+/// Returns the points of one branch, each replaced by the line through the points around it.
+fn smooth(x: &[f64], y: &[f64], noise: f64) -> Vec<f64> {
+    let last = y.len() - 1;
+    let half = half_window(y.len(), (y[last] - y[0]).abs(), noise);
+    let at = |i: usize| {
+        // At an end of the branch the window reaches to one side only, as far as elsewhere.
+        let start = i.saturating_sub(half).min(last.saturating_sub(2 * half));
+        let end = (start + 2 * half).min(last).max((i + half).min(last));
+        Line::through(&x[start..=end], &y[start..=end]).at(x[i])
+    };
+    (0..y.len()).map(at).collect()
+}
+
+/// Replaces values by the nearest that never turn back, by pooling neighbours that do.
+fn make_monotone(values: &mut [f64], rising: bool) {
+    // Each pool has a mean and a size.
+    let mut pools: Vec<(f64, usize)> = Vec::with_capacity(values.len());
+    for &value in values.iter() {
+        pools.push((value, 1));
+        while let [.., (before, m), (after, n)] = pools[..] {
+            let turns_back = if rising { after < before } else { after > before };
+            if !turns_back {
+                break;
+            }
+            let (total, size) = (before * m as f64 + after * n as f64, m + n);
+            pools.truncate(pools.len() - 2);
+            pools.push((total / size as f64, size));
+        }
+    }
+    let pooled = pools.iter().flat_map(|&(mean, size)| std::iter::repeat_n(mean, size));
+    for (value, mean) in values.iter_mut().zip(pooled) {
+        *value = mean;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Normal deviates by a generator that is the same everywhere.
+    struct Random(u64);
+
+    impl Random {
+        fn normal(&mut self) -> f64 {
+            let mut uniform = || {
+                self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+            };
+            (0..12).map(|_| uniform()).sum::<f64>() - 6.0
+        }
+    }
+
+    /// Triangle wave through some ends at a steady rate, with so many points in all.
+    fn wave(ends: &[f64], points: usize) -> Vec<f64> {
+        let total: f64 = ends.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+        let mut q = vec![ends[0]];
+        for pair in ends.windows(2) {
+            let count = (points as f64 * (pair[1] - pair[0]).abs() / total).round();
+            q.extend(
+                (1..=count as usize).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / count),
+            );
+        }
+        q
+    }
+
+    #[test]
+    fn a_noisy_path_comes_back_to_the_true_one() {
+        let ends = [0.0, 1.0, -1.0, 0.0];
+        for points in [400, 3000, 10_000] {
+            for noise in [1e-5, 3e-4, 1e-3, 3e-3] {
+                let truth = wave(&ends, points);
+                let mut random = Random(points as u64);
+                let q: Vec<f64> = truth.iter().map(|q| q + noise * random.normal()).collect();
+                let Some((path, done)) = steady_path(&q, None) else {
+                    assert!(noise < 4.0 / points as f64, "{points} points with {noise}");
+                    continue;
+                };
+                assert_eq!(done.turns, 2, "{points} points with {noise}");
+                let errors = path.iter().zip(&truth).map(|(a, b)| (a - b).powi(2));
+                let rms = (errors.sum::<f64>() / truth.len() as f64).sqrt();
+                let worst = path.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                println!(
+                    "{points} points, noise {noise}: rms {rms:.1e}, worst {worst:.1e} {done:?}"
+                );
+                assert!(rms < 1.1 * noise, "{points} points, noise {noise}: rms {rms}");
+                // A turn is known to a few times the noise of a window.
+                assert!(worst < 4.0 * noise, "{points} points, noise {noise}: {worst}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_noise_is_found_from_the_path_itself() {
+        let mut random = Random(3);
+        let q: Vec<f64> =
+            wave(&[0.0, 1.0, 0.0], 2000).iter().map(|q| q + 2e-3 * random.normal()).collect();
+        assert!((noise(&q) / 2e-3 - 1.0).abs() < 0.1, "{}", noise(&q));
+    }
+
+    #[test]
+    fn cycles_of_growing_size_keep_their_turns_through_noise() {
+        let ends = [0.0, 0.1, 0.0, 0.4, 0.0, 1.0, 0.0];
+        let mut random = Random(5);
+        let q: Vec<f64> = wave(&ends, 4000).iter().map(|q| q + 2e-3 * random.normal()).collect();
+        let (path, done) = steady_path(&q, None).expect("it turns back");
+        assert_eq!(done.turns, 5);
+        assert_eq!(reversals_beyond(&path, 0.01).len(), 7);
+    }
+
+    #[test]
+    fn a_path_without_steps_back_stays_as_it_is() {
+        assert!(steady_path(&wave(&[0.0, 0.04, 0.0], 200), None).is_none());
+    }
+
+    #[test]
+    fn a_single_slip_is_pooled_and_nothing_is_smoothed() {
+        let mut q = wave(&[0.0, 1.0, 0.0], 400);
+        q[50] = q[48];
+        let (path, done) = steady_path(&q, None).expect("it turns back");
+        assert!(!done.smoothed && done.backward_steps == 1, "{done:?}");
+        let changed: Vec<usize> = (0..q.len()).filter(|&i| path[i] != q[i]).collect();
+        assert_eq!(changed, [49, 50]);
+    }
+
+    #[test]
+    fn coarse_steps_of_a_sensor_are_its_noise() {
+        // A converter of 1 % steps that flickers by one step.
+        let q: Vec<f64> = wave(&[0.0, 1.0, 0.0], 3000)
+            .iter()
+            .enumerate()
+            .map(|(i, q)| ((q * 100.0).round() + f64::from(u8::from(i % 7 == 0))) / 100.0)
+            .collect();
+        let (path, done) = steady_path(&q, None).expect("it turns back");
+        assert_eq!(done.turns, 1, "{done:?}");
+        assert!((path[750] - 0.5).abs() < 0.01, "{}", path[750]);
+    }
+}
