@@ -14,17 +14,20 @@
 //! KES values and no sheet.
 //!
 //! * `features`: what is read off a curve before any fit.
-//! * `linear_loop`, `piecewise`: the two models of bending and shear loops.
+//! * `loop_form`, `loop_start`, `piecewise`: the models of bending and shear loops.
 //! * `bending`, `shear`, `loop_bending`: their fits.
-//! * `value_estimate`: KES values of a fitted law with their intervals.
+//! * `value_estimate`: KES values of a fitted law with their intervals; `remark`: what a reader should
+//!   know of a fit.
 //! * `tensile_form`, `tensile_start`, `prediction`, `tensile`: the tensile fit.
 
 pub(crate) mod bending;
 pub(crate) mod features;
-pub(crate) mod linear_loop;
 pub(crate) mod loop_bending;
+pub(crate) mod loop_form;
+pub(crate) mod loop_start;
 pub(crate) mod piecewise;
 pub(crate) mod prediction;
+pub(crate) mod remark;
 pub(crate) mod shear;
 pub(crate) mod tensile;
 pub(crate) mod tensile_form;

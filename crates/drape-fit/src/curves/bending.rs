@@ -1,15 +1,19 @@
 //! Bending law from a bending loop.
 
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine};
-use drape_kes::{Curve, Test};
+use drape_kes::{BendingPoints, Curve, Test};
 
 use crate::curves::features::{check, largest};
-use crate::curves::linear_loop::{LinearLaw, LoopForm, MeasuredLoop, orders};
+use crate::curves::loop_form::{LoopBackbone, LoopForm, LoopLaw};
+use crate::curves::loop_start::MeasuredLoop;
 use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::curves::remark::remarks;
 use crate::curves::value_estimate::value_estimates;
 use crate::error::Error;
+use crate::forward::friction_path::FrictionPath;
 use crate::forward::loop_drive::drive_loop;
-use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::curve_fit::{COMPARED_POINTS, FitOptions, Identified, fit_curve};
+use crate::regression::functional::loop_functionals;
 use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
@@ -18,8 +22,8 @@ use crate::values::of_law::bending_values;
 
 /// Identifies the bending law of one direction from a bending curve.
 ///
-/// A linear backbone with friction is fitted to the whole history. The zero of the moment is fitted
-/// too: it absorbs the offset of the instrument, and the difference between the two sides of the
+/// A line, or a rigidity that changes along the test, is fitted with friction to the whole history.
+/// The zero of the moment is fitted too: it absorbs the offset of the instrument, and the difference between the two sides of the
 /// fabric, which the law does not have. A [`LoopModel::Piecewise`] is fitted to the first loading
 /// branch.
 ///
@@ -64,31 +68,34 @@ pub fn identify_bending(
         let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, settings)?.fit));
         return Ok(Identified { law: law(&fit.parameter_values()), fit });
     }
-    let measured = MeasuredLoop::new(curve, "rigidity", curvature)?;
-    let forms = orders(settings.bending);
-    let forms = forms.map(|order| LoopForm { order, plateau: Plateau::Constant });
-    let forms: Vec<LoopForm> = forms.collect();
-    let model = |form: &LoopForm| measured.model(*form, form.order.name().into());
+    let compared = &*curve.thinned(COMPARED_POINTS);
+    let measured = MeasuredLoop::new(compared, "rigidity", compared.deformation())?;
+    let forms = LoopForm::admitted(settings.bending, &[Plateau::Constant]);
+    let model = |form: &LoopForm| measured.model(*form, form.name());
     let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
     let weights = settings.weighting.weights(curve, 0.0);
-    let options = FitOptions { weights, intervals: settings.intervals };
-    let mut fit = fit_curve(curve, &models, options);
+    let BendingPoints { slope, width } = settings.bending_points;
+    let functionals = loop_functionals(curve, slope, &[width]);
+    let options = FitOptions { weights, functionals, intervals: settings.intervals };
+    let path = FrictionPath::new(curvature);
+    let forward = |chosen: usize| forms[chosen].forward(curvature, &path);
+    let mut fit = fit_curve(curve, compared, &models, forward, options);
     let form = forms[fit.chosen];
     let (points, largest) = (settings.bending_points, largest(curvature));
     fit.values =
         value_estimates(curve, &fit, settings, |p| bending_values(&law(form, p), &points, largest));
-    let selected = LoopModel::Linear(form.order);
-    let settings = Settings { bending: Some(selected), ..*settings };
+    fit.remarks = remarks(curve, &fit, settings);
+    let settings = Settings { bending: Some(form.model()), ..*settings };
     let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, &settings)?.fit));
     Ok(Identified { law: law(form, &fit.parameter_values()), fit })
 }
 
 /// Returns the law of a form with some parameters.
 fn law(form: LoopForm, parameters: &[f64]) -> BendingLaw {
-    let LinearLaw { stiffness, friction, .. } = form.law(parameters);
-    BendingLaw {
-        backbone: BendingBackbone::Linear { rigidity: stiffness },
-        rest_curvature: 0.0,
-        friction,
-    }
+    let LoopLaw { backbone, friction, .. } = form.law(parameters);
+    let backbone = match backbone {
+        LoopBackbone::Line(rigidity) => BendingBackbone::Linear { rigidity },
+        LoopBackbone::Varying(varying) => BendingBackbone::Varying(varying),
+    };
+    BendingLaw { backbone, rest_curvature: 0.0, friction }
 }

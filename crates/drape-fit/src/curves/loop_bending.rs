@@ -8,7 +8,8 @@ use drape_kes::{Curve, Test};
 use drape_lm::{Parameter, Problem};
 
 use crate::curves::features::check;
-use crate::curves::linear_loop::{LEAST_LENGTH, friction};
+use crate::curves::loop_form::friction;
+use crate::curves::loop_start::LEAST_LENGTH;
 use crate::error::Error;
 use crate::forward::arch::Arch;
 use crate::regression::curve_fit::{CurveFit, Identified};

@@ -29,15 +29,17 @@ pub(crate) fn fit_first_branch(
 ) -> Result<CurveFit, Error> {
     let first = first_branch(curve)?;
     let branch = &history[..first.load().len()];
+    let forward = || Box::new(|p: &[f64], out: &mut [f64]| drive(p, branch, out));
     let model = CandidateModel {
         name: "a quadratic and a line on the first branch".into(),
         starts: starts(&first)?,
         prediction: None,
-        forward: Box::new(|p: &[f64], out: &mut [f64]| drive(p, branch, out)),
+        forward: forward(),
     };
     let weights = settings.weighting.weights(&first, 0.0);
-    let options = FitOptions { weights, intervals: settings.intervals };
-    let mut fit = fit_curve(&first, &[model], options);
+    let functionals = Vec::new();
+    let options = FitOptions { weights, functionals, intervals: settings.intervals };
+    let mut fit = fit_curve(&first, &first, &[model], |_| forward(), options);
     let points = curve.load().len();
     fit.load.resize(points, 0.0);
     drive(&fit.parameter_values(), history, &mut fit.load);

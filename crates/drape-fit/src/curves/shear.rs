@@ -1,15 +1,19 @@
 //! Shear law from a shear loop.
 
 use drape_fabric::{BlimanSorine, Locking, ShearBackbone, ShearLaw};
-use drape_kes::{Curve, Test};
+use drape_kes::{Curve, ShearPoints, Test};
 
 use crate::curves::features::{check, largest};
-use crate::curves::linear_loop::{LinearLaw, LoopForm, MeasuredLoop, orders};
+use crate::curves::loop_form::{LoopBackbone, LoopForm, LoopLaw};
+use crate::curves::loop_start::MeasuredLoop;
 use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::curves::remark::remarks;
 use crate::curves::value_estimate::value_estimates;
 use crate::error::Error;
+use crate::forward::friction_path::FrictionPath;
 use crate::forward::loop_drive::drive_loop;
-use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::curve_fit::{COMPARED_POINTS, FitOptions, Identified, fit_curve};
+use crate::regression::functional::loop_functionals;
 use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
@@ -19,8 +23,8 @@ use crate::values::of_law::shear_values;
 /// Identifies the shear law from a shear curve.
 ///
 /// The deformation of the law is the sine of the measured angle, to which the measured force is
-/// conjugate \[BHW94, eq. 5.7\]. A linear backbone with friction is fitted to the whole history,
-/// and the zero of the force is fitted too. A [`LoopModel::Piecewise`] is fitted to the first
+/// conjugate \[BHW94, eq. 5.7\]. A line, or a stiffness that changes along the test, is fitted with
+/// friction to the whole history, and the zero of the force is fitted too. A [`LoopModel::Piecewise`] is fitted to the first
 /// loading branch. The KES test does not measure locking: it begins where the curve ends.
 ///
 /// # Errors
@@ -58,38 +62,46 @@ fn linear(
     sines: &[f64],
     settings: &Settings,
 ) -> Result<Identified<ShearLaw>, Error> {
-    let measured = MeasuredLoop::new(curve, "stiffness", sines)?;
+    let compared = &*curve.thinned(COMPARED_POINTS);
+    let compared_sines: Vec<f64> = compared.deformation().iter().map(|q| q.sin()).collect();
+    let measured = MeasuredLoop::new(compared, "stiffness", &compared_sines)?;
     let plateaus: Vec<Plateau> = match settings.plateau {
         Some(plateau) => vec![plateau],
         None => vec![Plateau::Constant, Plateau::Growing],
     };
-    let forms: Vec<LoopForm> = orders(settings.shear)
-        .flat_map(|order| plateaus.iter().map(move |&plateau| LoopForm { order, plateau }))
-        .collect();
+    let forms = LoopForm::admitted(settings.shear, &plateaus);
     let model = |form: &LoopForm| {
         let plateau = match form.plateau {
             Plateau::Constant => "constant plateau",
             Plateau::Growing => "growing plateau",
         };
-        measured.model(*form, format!("{}, {plateau}", form.order.name()))
+        measured.model(*form, format!("{}, {plateau}", form.name()))
     };
     let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
     let weights = settings.weighting.weights(curve, 0.0);
-    let options = FitOptions { weights, intervals: settings.intervals };
-    let mut fit = fit_curve(curve, &models, options);
+    let ShearPoints { slope, width, wide } = settings.shear_points;
+    let functionals = loop_functionals(curve, slope, &[width, wide]);
+    let options = FitOptions { weights, functionals, intervals: settings.intervals };
+    let path = FrictionPath::new(sines);
+    let forward = |chosen: usize| forms[chosen].forward(sines, &path);
+    let mut fit = fit_curve(curve, compared, &models, forward, options);
     let form = forms[fit.chosen];
     let (points, largest) = (settings.shear_points, largest(curve.deformation()));
     fit.values =
         value_estimates(curve, &fit, settings, |p| shear_values(&law(form, p), &points, largest));
-    let LoopForm { order, plateau } = form;
-    let selected = Some(LoopModel::Linear(order));
-    let settings = Settings { shear: selected, plateau: Some(plateau), ..*settings };
+    fit.remarks = remarks(curve, &fit, settings);
+    let (shear, plateau) = (Some(form.model()), Some(form.plateau));
+    let settings = Settings { shear, plateau, ..*settings };
     let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, &settings)?.fit));
     Ok(Identified { law: law(form, &fit.parameter_values()), fit })
 }
 
 /// Returns the law of a form with some parameters, without locking.
 fn law(form: LoopForm, parameters: &[f64]) -> ShearLaw {
-    let LinearLaw { stiffness, growth, friction, .. } = form.law(parameters);
-    ShearLaw { backbone: ShearBackbone::Linear { stiffness }, friction, growth, locking: None }
+    let LoopLaw { backbone, growth, friction, .. } = form.law(parameters);
+    let backbone = match backbone {
+        LoopBackbone::Line(stiffness) => ShearBackbone::Linear { stiffness },
+        LoopBackbone::Varying(varying) => ShearBackbone::Varying(varying),
+    };
+    ShearLaw { backbone, friction, growth, locking: None }
 }

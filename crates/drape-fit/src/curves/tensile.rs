@@ -5,11 +5,13 @@ use drape_kes::{Curve, Test};
 
 use crate::curves::features::check;
 use crate::curves::prediction::{last_cycle, predict};
+use crate::curves::remark::remarks;
 use crate::curves::tensile_form::{FittedZeros, StripKind, TensileForm};
 use crate::curves::tensile_start::InitialGuess;
 use crate::curves::value_estimate::{largest_load, value_estimates};
 use crate::error::Error;
-use crate::regression::curve_fit::{CurveFit, FitOptions, Identified, fit_curve};
+use crate::regression::curve_fit::{COMPARED_POINTS, CurveFit, FitOptions, Identified, fit_curve};
+use crate::regression::functional::tensile_functionals;
 use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
@@ -37,25 +39,27 @@ pub fn identify_tensile(
 ) -> Result<Identified<TractionLaw>, Error> {
     check(curve, Test::Tensile)?;
     let curve = &*curve.prepared();
-    let guess = InitialGuess::new(curve)?;
+    let compared = &*curve.thinned(COMPARED_POINTS);
+    let guess = InitialGuess::new(compared)?;
     let strip = StripKind { zeros: FittedZeros::of(curve), recovers: guess.recovers };
     let forms = TensileForm::admitted(strip, settings);
-    let predicted = prediction_errors(curve, &forms);
+    let predicted = prediction_errors(compared, &forms);
     let model = |(form, prediction): (&TensileForm, &Option<f64>)| CandidateModel {
         prediction: *prediction,
-        ..guess.model(*form, curve)
+        ..guess.model(*form, compared)
     };
     let models: Vec<CandidateModel<'_>> = forms.iter().zip(&predicted).map(model).collect();
     let weights = settings.weighting.weights(curve, guess.zero.strain);
-    let options = FitOptions { weights, intervals: settings.intervals };
-    let fit = fit_curve(curve, &models, options);
+    let functionals = tensile_functionals(curve);
+    let options = FitOptions { weights, functionals, intervals: settings.intervals };
+    let fit = fit_curve(curve, compared, &models, |chosen| forms[chosen].forward(curve), options);
     let form = forms[fit.chosen];
     let fit = with_values(curve, fit, form, settings);
     let fit = with_scatter(curve, fit, |repeat| identify_form(repeat, form, settings));
     Ok(Identified { law: form.law(&fit.parameter_values()), fit })
 }
 
-/// Returns a fit with the KES values of its law.
+/// Returns a fit with the KES values of its law and with remarks.
 fn with_values(
     curve: &Curve,
     mut fit: CurveFit,
@@ -64,15 +68,19 @@ fn with_values(
 ) -> CurveFit {
     let load = largest_load(curve);
     fit.values = value_estimates(curve, &fit, settings, |p| tensile_values(&form.law(p), load));
+    fit.remarks = remarks(curve, &fit, settings);
     fit
 }
 
 /// Returns the fit of one form to one of several repeats.
 fn identify_form(curve: &Curve, form: TensileForm, settings: &Settings) -> Result<CurveFit, Error> {
-    let guess = InitialGuess::new(curve)?;
+    let compared = &*curve.thinned(COMPARED_POINTS);
+    let guess = InitialGuess::new(compared)?;
     let weights = settings.weighting.weights(curve, guess.zero.strain);
-    let options = FitOptions { weights, intervals: settings.intervals };
-    let fit = fit_curve(curve, &[guess.model(form, curve)], options);
+    let functionals = tensile_functionals(curve);
+    let options = FitOptions { weights, functionals, intervals: settings.intervals };
+    let models = [guess.model(form, compared)];
+    let fit = fit_curve(curve, compared, &models, |_| form.forward(curve), options);
     Ok(with_values(curve, fit, form, settings))
 }
 

@@ -19,7 +19,7 @@ use drape_kes::Curve;
 use drape_lm::Parameter;
 
 use crate::curves::features::{StraightLine, falling};
-use crate::curves::linear_loop::LEAST_LENGTH;
+use crate::curves::loop_start::LEAST_LENGTH;
 use crate::curves::tensile_form::{FittedZeros, TensileForm, Zeros};
 use crate::error::Error;
 use crate::forward::strip_drive::drive_strip;

@@ -7,9 +7,9 @@ use drape_lm::{Problem, Stop};
 use nalgebra::DMatrix;
 
 use crate::regression::estimate::{Estimate, ValueEstimate};
-use crate::regression::functional::tensile_functionals;
+use crate::regression::functional::Functional;
 use crate::regression::noise::load_noise;
-use crate::regression::residuals::Residuals;
+use crate::regression::residuals::{ForwardModel, Residuals};
 use crate::regression::search::{SearchResult, refine};
 use crate::regression::selection::{Candidate, CandidateModel, select};
 use crate::regression::uncertainty::{FitEnd, Independence, Uncertainty, uncertainty};
@@ -92,6 +92,8 @@ pub struct CurveFit {
     /// It comes from the errors of the parameters that the curve determines. Zero at points that
     /// were not used.
     pub band: Vec<f64>,
+    /// What a reader should know of the curve and its law, a sentence each, without a full stop.
+    pub remarks: Vec<String>,
     /// Branch of each point, from zero; a reversal belongs to the branch that it ends.
     pub branches: Vec<usize>,
     /// Covariances of the parameters; zero for those that are undetermined.
@@ -113,29 +115,40 @@ pub struct Identified<L> {
 pub(crate) struct FitOptions {
     /// Weights of the squared residuals; empty for none.
     pub(crate) weights: Vec<f64>,
+    /// Areas, slopes and widths that a law meets which misses the curve systematically.
+    pub(crate) functionals: Vec<Functional>,
     pub(crate) intervals: Intervals,
 }
 
+/// Points of a curve to which laws are compared.
+///
+/// Laws are told apart by the shape of a curve, which a thousand points show as well as ten thousand,
+/// in a tenth of the time.
+pub(crate) const COMPARED_POINTS: usize = 1500;
+
 /// Selects one of several laws, and fits it with its weights.
 ///
-/// The selection is made without weights: a criterion of weighted residuals would take the noise of
-/// heavy points for structure.
-pub(crate) fn fit_curve(
-    curve: &Curve,
+/// The `models` belong to `compared`, the curve or some of its points. `forward` returns the loads of
+/// the selected one at all points of the curve. The selection is made without weights: a criterion of weighted
+/// residuals would take the noise of heavy points for structure.
+pub(crate) fn fit_curve<'a>(
+    curve: &'a Curve,
+    compared: &Curve,
     models: &[CandidateModel<'_>],
+    forward: impl FnOnce(usize) -> Box<dyn ForwardModel + 'a>,
     options: FitOptions,
 ) -> CurveFit {
-    let selection = select(curve, models);
-    let model = &models[selection.chosen];
+    let selection = select(compared, models);
+    let forward = forward(selection.chosen);
     let noise = load_noise(curve);
     let systematic = systematic_part(selection.candidates[selection.chosen].misfit, noise);
-    let problem = Residuals::new(curve, &*model.forward)
-        .meeting(tensile_functionals(curve), systematic)
+    let problem = Residuals::new(curve, &*forward)
+        .meeting(options.functionals, systematic)
         .weighted(options.weights);
     let unweighted = selection.result.report.parameters.clone();
     let result = refine(&problem, selection.result);
     let mut load = vec![0.0; curve.load().len()];
-    model.forward.loads(&result.report.parameters, &mut load);
+    forward.loads(&result.report.parameters, &mut load);
     let weights = problem.weights();
     let weighted = !weights.is_empty();
     let end = FitEnd {
@@ -207,6 +220,7 @@ impl CurveFit {
             measured: curve.load().to_vec(),
             band: uncertainty.band.iter().map(|width| width * span).collect(),
             load,
+            remarks: Vec::new(),
             branches: branch_of_each_point(curve),
             covariance: uncertainty.covariance,
             quantile: uncertainty.quantile,

@@ -12,29 +12,35 @@ use drape_kes::{Branch, Curve, Test};
 /// turn within it.
 const TOP: f64 = 0.02;
 
+/// Part of the largest deformation on each side of a point of evaluation whose loads are averaged.
+const WINDOW: f64 = 0.04;
+
 /// Linear functional of the loads of a curve, such as the work under a branch.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Functional {
-    /// First point of the functional.
-    first: usize,
-    /// Coefficient of each point from there on.
-    coefficients: Vec<f64>,
-    /// Value of the functional for the measured loads; not 0.
+    terms: Vec<Term>,
+    /// Value of the functional for the measured loads; greater than 0.
     measured: f64,
+}
+
+/// Point of a functional with its coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Term {
+    point: usize,
+    coefficient: f64,
 }
 
 impl Functional {
     /// Returns a functional of the `loads` of a curve; `None` where its value is not positive.
-    fn new(first: usize, coefficients: Vec<f64>, loads: &[f64]) -> Option<Self> {
-        let unknown = Self { first, coefficients, measured: 1.0 };
+    fn new(terms: Vec<Term>, loads: &[f64]) -> Option<Self> {
+        let unknown = Self { terms, measured: 1.0 };
         let measured = unknown.of(loads);
         (measured > 0.0).then_some(Self { measured, ..unknown })
     }
 
     /// Returns the value for other loads at the points of the curve.
     fn of(&self, loads: &[f64]) -> f64 {
-        let loads = &loads[self.first..self.first + self.coefficients.len()];
-        self.coefficients.iter().zip(loads).map(|(c, load)| c * load).sum()
+        self.terms.iter().map(|term| term.coefficient * loads[term.point]).sum()
     }
 
     /// Returns the relative deviation of the value for `loads` from the measured value.
@@ -42,19 +48,75 @@ impl Functional {
         self.of(loads) / self.measured - 1.0
     }
 
-    /// Returns the derivatives of [`Functional::deviation`] by the parameters, from the derivatives
-    /// of the loads: a column of `rows`, a row for each point.
-    pub(crate) fn slope<'a>(&self, rows: impl Fn(usize) -> f64 + 'a) -> f64 {
-        let terms = self.coefficients.iter().enumerate();
-        terms.map(|(i, c)| c * rows(self.first + i)).sum::<f64>() / self.measured
+    /// Returns the derivative of [`Functional::deviation`] by a parameter, where `slope` is the
+    /// derivative of the load at a point.
+    pub(crate) fn slope(&self, slope: impl Fn(usize) -> f64) -> f64 {
+        let terms = self.terms.iter();
+        terms.map(|term| term.coefficient * slope(term.point)).sum::<f64>() / self.measured
     }
 
     /// Calls `add` with each point of the functional and its relative coefficient.
     pub(crate) fn for_each(&self, mut add: impl FnMut(usize, f64)) {
-        for (i, c) in self.coefficients.iter().enumerate() {
-            add(self.first + i, c / self.measured);
+        for term in &self.terms {
+            add(term.point, term.coefficient / self.measured);
         }
     }
+}
+
+/// Returns the slope of the middle line of a loop between two deformations, and its width at each of
+/// some deformations, which a law should meet: the means of both sides.
+///
+/// Loads are averaged over windows about these deformations, on all branches that pass them. A loop
+/// that does not pass a deformation both ways has no such functional.
+pub(crate) fn loop_functionals(curve: &Curve, slope: [f64; 2], widths: &[f64]) -> Vec<Functional> {
+    let largest = curve.deformation().iter().fold(0.0_f64, |largest, q| largest.max(q.abs()));
+    let half = WINDOW * largest;
+    let mut functionals = Vec::new();
+    let [from, to] = slope;
+    let middle = |q: f64, sign: f64| {
+        let mut terms = window(curve, q, half, true, 0.5 * sign)?;
+        terms.extend(window(curve, q, half, false, 0.5 * sign)?);
+        Some(terms)
+    };
+    let mut terms = Vec::new();
+    for side in [1.0, -1.0] {
+        if let (Some(outer), Some(inner)) = (middle(side * to, side), middle(side * from, -side)) {
+            terms.extend(outer);
+            terms.extend(inner);
+        }
+    }
+    functionals.extend(Functional::new(terms, curve.load()));
+    for width in widths {
+        let mut terms = Vec::new();
+        for q in [*width, -width] {
+            let (rising, falling) =
+                (window(curve, q, half, true, 1.0), window(curve, q, half, false, -1.0));
+            if let (Some(rising), Some(falling)) = (rising, falling) {
+                terms.extend(rising);
+                terms.extend(falling);
+            }
+        }
+        functionals.extend(Functional::new(terms, curve.load()));
+    }
+    functionals
+}
+
+/// Returns the mean load within a window, times a `factor`, on the last branch of a direction that
+/// passes the window whole; `None` where there is no such branch.
+fn window(curve: &Curve, q: f64, half: f64, rising: bool, factor: f64) -> Option<Vec<Term>> {
+    let deformation = curve.deformation();
+    let branches = curve.branches();
+    let passes = |branch: &&Branch| {
+        let ends = [deformation[branch.points.start], deformation[branch.points.end - 1]];
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        branch.rising == rising && low <= q - half && high >= q + half
+    };
+    let branch = branches.iter().rev().find(passes)?;
+    let within = |&i: &usize| (deformation[i] - q).abs() <= half;
+    let points: Vec<usize> = branch.points.clone().filter(within).collect();
+    let coefficient = factor / points.len() as f64;
+    let terms = points.into_iter().map(|point| Term { point, coefficient }).collect::<Vec<_>>();
+    (!terms.is_empty()).then_some(terms)
 }
 
 /// Returns what a law should meet of the first cycle of a tensile curve: the work up to the largest
@@ -88,23 +150,23 @@ fn area(curve: &Curve, branch: &Branch, end: usize) -> Option<Functional> {
     if strain.len() < 2 {
         return None;
     }
-    let mut coefficients = vec![0.0; strain.len()];
+    let sign = if branch.rising { 0.5 } else { -0.5 };
+    let mut terms: Vec<Term> = (first..end).map(|point| Term { point, coefficient: 0.0 }).collect();
     for (i, pair) in strain.windows(2).enumerate() {
-        let half = 0.5 * (pair[1] - pair[0]);
-        coefficients[i] += half;
-        coefficients[i + 1] += half;
+        let half = sign * (pair[1] - pair[0]);
+        terms[i].coefficient += half;
+        terms[i + 1].coefficient += half;
     }
-    if !branch.rising {
-        coefficients.iter_mut().for_each(|c| *c = -*c);
-    }
-    Functional::new(first, coefficients, curve.load())
+    Functional::new(terms, curve.load())
 }
 
 /// Returns the mean load at the end of a loading branch.
 fn top(curve: &Curve, loading: &Branch) -> Option<Functional> {
     let count = ((TOP * loading.points.len() as f64) as usize).max(1);
     let first = loading.points.end - count;
-    Functional::new(first, vec![1.0 / count as f64; count], curve.load())
+    let coefficient = 1.0 / count as f64;
+    let terms = (first..loading.points.end).map(|point| Term { point, coefficient }).collect();
+    Functional::new(terms, curve.load())
 }
 
 #[cfg(test)]

@@ -43,6 +43,9 @@ pub enum Plateau {
 pub enum LoopModel {
     /// Linear backbone with friction, fitted to the whole history \[NB04, eqs. 4–5\].
     Linear(FrictionOrder),
+    /// Stiffness that changes along the test, with one friction element, fitted to the whole
+    /// history.
+    Varying,
     /// Parabola that continues as a straight line, without friction, fitted to the first loading
     /// branch \[BHW94, §5.1\].
     Piecewise,

@@ -9,6 +9,8 @@ use crate::values::traction::cycle_values;
 pub(crate) const LARGEST_CURVATURE: f64 = 250.0;
 /// Largest angle of the shear test, in rad: 8°.
 pub(crate) const LARGEST_ANGLE: f64 = 8.0 * std::f64::consts::PI / 180.0;
+/// Deformation of the tip of a cycle, at least, over the outermost deformation that is read.
+const TIP: f64 = 1.1;
 /// Largest strain at which a law may have the largest load of the tensile test, a ratio.
 const LARGEST_STRAIN: f64 = 10.0;
 /// Bisections for the strain at a load: the bits of a double.
@@ -64,7 +66,7 @@ pub(crate) fn bending_values(
     largest: f64,
 ) -> Vec<LawValue> {
     let [low, high] = points.slope;
-    let path = cycle(&[low, high, points.width], largest);
+    let path = cycle(&[low, high, points.width], largest, LARGEST_CURVATURE);
     let load = drive(law, law.virgin(), &path);
     let points =
         EvaluationPoints { maximum_tension: 0.0, bending: *points, shear: ShearPoints::default() };
@@ -94,16 +96,20 @@ fn read(test: Test, path: Vec<f64>, load: Vec<f64>, points: &EvaluationPoints) -
 /// Returns the angles of a shear test to ±`largest` that passes the evaluation points.
 pub(crate) fn shear_angles(points: &ShearPoints, largest: f64) -> Vec<f64> {
     let [low, high] = points.slope;
-    cycle(&[low, high, points.width, points.wide], largest)
+    cycle(&[low, high, points.width, points.wide], largest, LARGEST_ANGLE)
 }
 
 /// Returns a cycle from rest to one side, the other, and back, with a point wherever a value is
 /// read.
 ///
-/// Laws are exact over any distance, so nothing is needed between these points.
-fn cycle(read: &[f64], largest: f64) -> Vec<f64> {
+/// Laws are exact over any distance, so nothing is needed between these points. The cycle goes to
+/// `largest`, or as far as the `standard` test if a value is read close to that: at the tip of a loop
+/// nothing can be read.
+fn cycle(read: &[f64], largest: f64, standard: f64) -> Vec<f64> {
     let mut points: Vec<f64> = read.iter().map(|q| q.abs()).collect();
-    points.push(read.iter().fold(largest, |largest, q| largest.max(q.abs())));
+    let outermost = points.iter().fold(0.0_f64, |outermost, q| outermost.max(*q));
+    let tip = if largest >= TIP * outermost { largest } else { standard.max(TIP * outermost) };
+    points.push(tip);
     points.sort_by(f64::total_cmp);
     points.dedup();
     let (up, down) = (points.clone(), points.iter().rev().copied());
@@ -123,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_cycle_passes_every_point_both_ways_on_both_sides() {
-        let path = cycle(&[0.5, 2.5, 0.5, 5.0], 8.0);
+        let path = cycle(&[0.5, 2.5, 0.5, 5.0], 8.0, 8.0);
         assert_eq!(
             path,
             [
@@ -131,6 +137,13 @@ mod tests {
                 0.5, 2.5, 5.0, 8.0
             ]
         );
+    }
+
+    #[test]
+    fn a_cycle_never_ends_where_it_is_read() {
+        let tip =
+            |largest: f64| cycle(&[50.0, 150.0], largest, 250.0).into_iter().fold(0.0, f64::max);
+        assert_eq!([100.0, 150.0, 170.0, 400.0].map(tip), [250.0, 250.0, 170.0, 400.0]);
     }
 
     #[test]

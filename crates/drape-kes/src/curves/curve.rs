@@ -1,5 +1,6 @@
 //! Measured load–deformation curve, in SI.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::curves::branch::{Branch, reversals};
@@ -156,6 +157,28 @@ impl Curve {
         pairs.map(|(&deformation, &load)| Point { deformation, load })
     }
 
+    /// Returns about `count` of the points, evenly spaced in each branch, with every turn; a curve of
+    /// fewer points unchanged.
+    #[must_use]
+    pub fn thinned(&self, count: usize) -> Cow<'_, Self> {
+        let stride = self.load.len().div_ceil(count.max(1));
+        if stride <= 1 {
+            return Cow::Borrowed(self);
+        }
+        let mut kept = Vec::new();
+        for branch in self.branches() {
+            let last = branch.points.end - 1;
+            kept.extend(branch.points.step_by(stride));
+            kept.push(last);
+        }
+        kept.dedup();
+        let all: Vec<Point> = self.points().collect();
+        let points = kept.iter().map(|&i| all[i]).collect();
+        let mut curve = self.clone().with_points(points);
+        (curve.repeats, curve.scatter) = (Vec::new(), Vec::new());
+        Cow::Owned(curve)
+    }
+
     /// Returns the curve with strains that count from `zero`, a ratio.
     pub(crate) fn from_strain(&self, zero: f64) -> Self {
         let mut curve = self.clone();
@@ -256,6 +279,17 @@ mod tests {
 
     fn curve(deformation: &[f64], load: &[f64]) -> Result<Curve, Error> {
         Curve::new(Test::Bending, Direction::Warp, deformation.to_vec(), load.to_vec())
+    }
+
+    #[test]
+    fn a_thinned_curve_keeps_its_turns_and_its_order() {
+        let q: Vec<f64> = (0..=700).chain((0..700).rev()).map(f64::from).collect();
+        let whole = curve(&q, &q).expect("a curve");
+        let thin = whole.thinned(100);
+        assert!((90..115).contains(&thin.load().len()), "{}", thin.load().len());
+        assert_eq!(thin.deformation_range(), whole.deformation_range());
+        assert_eq!((thin.branches().len(), thin.deformation()[0]), (2, 0.0));
+        assert!(matches!(whole.thinned(5000), Cow::Borrowed(_)));
     }
 
     #[test]

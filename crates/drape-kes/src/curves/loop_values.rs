@@ -39,6 +39,10 @@ impl Default for ShearPoints {
     }
 }
 
+/// Part of the largest deformation to a side up to which values are read there. At the tip of a loop
+/// its branches meet.
+const NEAR_TIP: f64 = 0.95;
+
 /// KES values of a bending loop, in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendingValues {
@@ -117,6 +121,17 @@ impl Curve {
         })
     }
 
+    /// Returns the slopes of the loop's middle line between two deformations, on the positive and on
+    /// the negative side; `None` for half a loop.
+    #[must_use]
+    pub fn side_slopes(&self, between: [f64; 2]) -> Option<[f64; 2]> {
+        let [from, to] = between;
+        let middle = |q: f64| self.passages(q).map(|p| 0.5 * (p.rising + p.falling));
+        let slope =
+            |side: f64| Some(side * (middle(side * to)? - middle(side * from)?) / (to - from));
+        Some([slope(1.0)?, slope(-1.0)?])
+    }
+
     fn expect_test(&self, wanted: Test) -> Result<(), Error> {
         if self.test == wanted {
             return Ok(());
@@ -130,9 +145,14 @@ impl Curve {
         deformation: f64,
         value: impl Fn(f64) -> Option<f64>,
     ) -> Result<f64, Error> {
-        let sides: Vec<f64> = [1.0, -1.0].into_iter().filter_map(value).collect();
+        let range = self.deformation_range();
+        let reaches = |side: f64| {
+            let end = if side > 0.0 { range.high } else { -range.low };
+            deformation <= NEAR_TIP * end
+        };
+        let sides: Vec<f64> =
+            [1.0, -1.0].into_iter().filter(|side| reaches(*side)).filter_map(value).collect();
         if sides.is_empty() {
-            let range = self.deformation_range();
             return Err(Error::OutOfRange { deformation, low: range.low, high: range.high });
         }
         Ok(sides.iter().sum::<f64>() / sides.len() as f64)

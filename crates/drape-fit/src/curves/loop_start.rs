@@ -1,25 +1,20 @@
-//! Linear backbone with friction along a hysteresis loop, for bending and shear.
+//! Initial guesses of the fit of a loop, by linear least squares on a grid of friction lengths and of
+//! places where the stiffness changes.
 //!
-//! ```math
-//! F = F_0 + k\,q + P\,[u(\eta x) + w\,u(x)], \qquad u = c + \gamma g
-//! ```
-//!
-//! with the fast plateau `$P$`, the slow one `$wP$`, the lengths `$\eta x$` and `$x$`, and the unit
-//! friction `$u$` of `forward::friction_path` with the growth `$\gamma$` of the plateau; one
-//! element has `$w = 0$`, `$\eta = 1$`. `bending` and `shear` build their candidates here.
+//! For given lengths and a given transition the load is linear in stiffnesses, zero and plateaus.
+//! `bending` and `shear` build their candidates here.
 
-use drape_fabric::BlimanSorine;
 use drape_kes::Curve;
 use drape_lm::Parameter;
-use nalgebra::DMatrix;
 
 use crate::curves::features::{largest, mean_slope, zero};
+use crate::curves::loop_form::{Elastic, LoopForm, varying_parts};
 use crate::error::Error;
 use crate::forward::friction_path::{FrictionPath, UnitFriction};
 use crate::regression::linear::{LinearFit, Solution, geometric_grid};
-use crate::regression::residuals::{ForwardModel, NamedParameter};
+use crate::regression::residuals::NamedParameter;
 use crate::regression::selection::CandidateModel;
-use crate::settings::model::{FrictionOrder, LoopModel, Plateau};
+use crate::settings::model::FrictionOrder;
 
 /// Shortest friction length over the largest deformation: below it friction is a step at any
 /// sampling.
@@ -45,136 +40,13 @@ const RATIO_START: f64 = 0.2;
 const LARGEST_REDUCTION: f64 = 0.95;
 /// Largest positive slow plateau over the fast one.
 const LARGEST_ADDITION: f64 = 20.0;
-
-/// Parameters that a linear backbone with friction has.
-#[derive(Clone, Copy)]
-pub(crate) struct LoopForm {
-    pub(crate) order: FrictionOrder,
-    pub(crate) plateau: Plateau,
-}
-
-/// Linear backbone with friction, and the zero of its load.
-#[derive(Clone, Copy)]
-pub(crate) struct LinearLaw {
-    pub(crate) stiffness: f64,
-    pub(crate) zero: f64,
-    /// Growth of the plateau per unit of the deformation.
-    pub(crate) growth: f64,
-    pub(crate) friction: BlimanSorine,
-}
-
-impl LoopForm {
-    fn grows(self) -> bool {
-        self.plateau == Plateau::Growing
-    }
-
-    /// Returns the law with parameters in the order of [`MeasuredLoop::starts`].
-    pub(crate) fn law(self, p: &[f64]) -> LinearLaw {
-        let (growth, rest) = match self.grows() {
-            true => (p[2], &p[3..]),
-            false => (0.0, &p[2..]),
-        };
-        LinearLaw { stiffness: p[0], zero: p[1], growth, friction: friction(rest) }
-    }
-}
-
-/// Returns the orders of friction that a setting admits.
-pub(crate) fn orders(model: Option<LoopModel>) -> impl Iterator<Item = FrictionOrder> {
-    let wanted = move |order: &FrictionOrder| match model {
-        Some(LoopModel::Linear(wanted)) => *order == wanted,
-        _ => true,
-    };
-    FrictionOrder::ALL.into_iter().filter(wanted)
-}
-
-/// Returns the friction with the parameters plateau and length, and for two elements the slow
-/// plateau over the fast one and the fast length over the slow one.
-pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
-    match *p {
-        [plateau, length] => BlimanSorine::first_order(plateau, length),
-        [plateau, length, slow, ratio] => {
-            BlimanSorine::second_order(plateau, -slow * plateau, ratio, length)
-        }
-        _ => BlimanSorine::none(),
-    }
-}
-
-/// Forward model of a linear backbone with friction along a history.
-struct LinearLoop<'a> {
-    history: &'a [f64],
-    path: &'a FrictionPath,
-    form: LoopForm,
-}
-
-/// Friction element with its unit loads along the history.
-struct Element {
-    plateau: f64,
-    unit: UnitFriction,
-}
-
-impl LinearLoop<'_> {
-    fn elements(&self, law: &LinearLaw) -> Vec<Element> {
-        let present = law.friction.elements.into_iter();
-        // The second element of the first order is absent; it has no parameters either.
-        let count = if self.form.order == FrictionOrder::First { 1 } else { 2 };
-        present
-            .take(count)
-            .map(|dahl| Element {
-                plateau: dahl.plateau,
-                unit: self.path.unit_friction(dahl.length),
-            })
-            .collect()
-    }
-}
-
-impl ForwardModel for LinearLoop<'_> {
-    fn loads(&self, p: &[f64], out: &mut [f64]) {
-        let law = self.form.law(p);
-        for (load, q) in out.iter_mut().zip(self.history) {
-            *load = law.zero + law.stiffness * q;
-        }
-        for Element { plateau, unit } in &self.elements(&law) {
-            let columns = unit.constant.iter().zip(&unit.growing);
-            for (load, (constant, growing)) in out.iter_mut().zip(columns) {
-                *load += plateau * (constant + law.growth * growing);
-            }
-        }
-    }
-
-    fn jacobian(&self, p: &[f64], out: &mut DMatrix<f64>) -> bool {
-        let law = self.form.law(p);
-        let elements = self.elements(&law);
-        let first = if self.form.grows() { 3 } else { 2 };
-        let (plateau, length) = (p[first], p[first + 1]);
-        let (slow, ratio) = match elements.len() {
-            2 => (p[first + 2], p[first + 3]),
-            _ => (0.0, 1.0),
-        };
-        for (i, q) in self.history.iter().enumerate() {
-            let unit = |e: usize| {
-                let unit = &elements[e].unit;
-                let load = unit.constant[i] + law.growth * unit.growing[i];
-                let slope = unit.constant_slope[i] + law.growth * unit.growing_slope[i];
-                [load, slope, unit.growing[i]]
-            };
-            let fast = unit(0);
-            let [slow_load, slow_slope, slow_growing] =
-                if elements.len() == 2 { unit(1) } else { [0.0; 3] };
-            out[(i, 0)] = *q;
-            out[(i, 1)] = 1.0;
-            if self.form.grows() {
-                out[(i, 2)] = plateau * (fast[2] + slow * slow_growing);
-            }
-            out[(i, first)] = fast[0] + slow * slow_load;
-            out[(i, first + 1)] = plateau * (ratio * fast[1] + slow * slow_slope);
-            if elements.len() == 2 {
-                out[(i, first + 2)] = plateau * slow_load;
-                out[(i, first + 3)] = plateau * length * fast[1];
-            }
-        }
-        true
-    }
-}
+/// Transitions of the stiffness to start from, over the largest deformation.
+const TRANSITIONS: [f64; 4] = [0.1, 0.3, 0.6, 1.0];
+/// Bounds of the transition, over the largest deformation: below, the change of the stiffness would
+/// be friction; beyond, its end would lie outside of the test.
+const TRANSITION_RANGE: [f64; 2] = [0.05, 1.5];
+/// Initial and final stiffness over each other to start from where the linear fit finds none.
+const CHANGE_START: f64 = 0.5;
 
 /// Measured loop, prepared for initial guesses.
 pub(crate) struct MeasuredLoop<'a> {
@@ -195,7 +67,8 @@ pub(crate) struct MeasuredLoop<'a> {
 /// Initial guess, with the sum of squares that it leaves.
 struct Start {
     residual_sum: f64,
-    stiffness: f64,
+    /// Stiffness of a line, or initial and final stiffness with their transition.
+    elastic: Vec<f64>,
     zero: f64,
     growth: f64,
     friction: Vec<f64>,
@@ -221,23 +94,30 @@ impl<'a> MeasuredLoop<'a> {
             growing.iter_mut().for_each(|load| *load /= largest);
             columns.extend([constant, growing]);
         }
+        // Then for each transition the part of the load with an initial stiffness of one.
+        for transition in TRANSITIONS {
+            let part = |q: &f64| varying_parts(*q, transition * largest)[0];
+            columns.push(history.iter().map(part).collect());
+        }
         let fit = LinearFit::new(&columns, curve.load());
         Ok(Self { curve, history, path, name, slope, largest, lengths, fit })
     }
 
     /// Returns the candidate of one form.
     pub(crate) fn model(&self, form: LoopForm, name: String) -> CandidateModel<'_> {
-        let forward = LinearLoop { history: self.history, path: &self.path, form };
         CandidateModel {
             name,
             starts: self.starts(form),
             prediction: None,
-            forward: Box::new(forward),
+            forward: form.forward(self.history, &self.path),
         }
     }
 
     fn starts(&self, form: LoopForm) -> Vec<Vec<NamedParameter>> {
-        let mut starts = self.single(form);
+        let mut starts = match form.elastic {
+            Elastic::Line => self.single(form),
+            Elastic::Varying => self.varying(form),
+        };
         if form.order != FrictionOrder::First {
             let singles = std::mem::take(&mut starts);
             starts = self.pairs(form);
@@ -266,7 +146,7 @@ impl<'a> MeasuredLoop<'a> {
             let growth = c.get(3).map_or(0.0, |added| added / c[2] / self.largest);
             (c[2] > 0.0).then(|| Start {
                 residual_sum,
-                stiffness: c[0],
+                elastic: vec![c[0]],
                 zero: c[1],
                 growth,
                 friction: vec![c[2], self.lengths[i]],
@@ -280,6 +160,31 @@ impl<'a> MeasuredLoop<'a> {
             .collect();
         let kept = all.into_iter().zip(minimum);
         kept.filter_map(|(start, minimum)| start.filter(|_| minimum)).collect()
+    }
+
+    /// Returns guesses with a stiffness that changes and one friction element, the best length for
+    /// each transition.
+    fn varying(&self, form: LoopForm) -> Vec<Start> {
+        let start = |length: usize, transition: usize| {
+            let mut columns = vec![0, 1, 2 + 2 * length, 2 + 2 * LENGTHS + transition];
+            columns.extend(form.grows().then_some(3 + 2 * length));
+            let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
+            // The load is k_f q + (k_i − k_f) s(q) with the part s of the initial stiffness.
+            let (last, initial) = (c[0], c[0] + c[3]);
+            let growth = c.get(4).map_or(0.0, |added| added / c[2] / self.largest);
+            (last > 0.0 && initial > 0.0 && c[2] > 0.0).then(|| Start {
+                residual_sum,
+                elastic: vec![initial, last, TRANSITIONS[transition] * self.largest],
+                zero: c[1],
+                growth,
+                friction: vec![c[2], self.lengths[length]],
+            })
+        };
+        let best_of = |transition: usize| {
+            let starts = (0..LENGTHS).filter_map(|length| start(length, transition));
+            starts.min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
+        };
+        (0..TRANSITIONS.len()).filter_map(best_of).collect()
     }
 
     /// Returns guesses with two friction elements, for each pair of lengths.
@@ -302,7 +207,7 @@ impl<'a> MeasuredLoop<'a> {
             };
             (c[2] > 0.0 && admitted).then(|| Start {
                 residual_sum,
-                stiffness: c[0],
+                elastic: vec![c[0]],
                 zero: c[1],
                 growth,
                 friction: vec![
@@ -327,19 +232,33 @@ impl<'a> MeasuredLoop<'a> {
             FrictionOrder::Parallel => friction.extend([SLOW_START, RATIO_START]),
             FrictionOrder::Second => friction.extend([-SLOW_START, RATIO_START]),
         }
-        Start { residual_sum: 0.0, stiffness: self.slope, zero: 0.0, growth: 0.0, friction }
+        let elastic = match form.elastic {
+            Elastic::Line => vec![self.slope],
+            Elastic::Varying => vec![self.slope, CHANGE_START * self.slope, 0.5 * self.largest],
+        };
+        Start { residual_sum: 0.0, elastic, zero: 0.0, growth: 0.0, friction }
     }
 
     fn named(&self, form: LoopForm, start: &Start) -> Vec<NamedParameter> {
         let (slope, load) = (self.slope, self.curve.load_range().span());
         let largest = self.largest;
-        let mut named = vec![
-            NamedParameter::new(
-                self.name,
-                Parameter::new(start.stiffness).between(1e-3 * slope, 10.0 * slope),
-            ),
-            NamedParameter::new("zero", Parameter { start: start.zero, ..zero(self.curve) }),
-        ];
+        let stiffness = |value: f64| Parameter::new(value).between(1e-3 * slope, 10.0 * slope);
+        let mut named = match *start.elastic {
+            [initial, last, transition] => {
+                let [least, most] = TRANSITION_RANGE.map(|part| part * largest);
+                vec![
+                    NamedParameter::new("initial_stiffness", stiffness(initial)),
+                    NamedParameter::new("final_stiffness", stiffness(last)),
+                    NamedParameter::new(
+                        "transition",
+                        Parameter::new(transition).between(least, most),
+                    ),
+                ]
+            }
+            _ => vec![NamedParameter::new(self.name, stiffness(start.elastic[0]))],
+        };
+        let zero = Parameter { start: start.zero, ..zero(self.curve) };
+        named.push(NamedParameter::new("zero", zero));
         if form.grows() {
             let growth = Parameter::new(start.growth.max(0.0))
                 .with_scale(1.0 / largest)
@@ -370,6 +289,7 @@ mod tests {
     use drape_kes::{Direction, Test};
 
     use super::*;
+    use crate::settings::model::Plateau;
 
     #[test]
     fn a_guess_follows_a_loop_of_two_elements_with_lengths_of_the_grid() {
@@ -399,12 +319,12 @@ mod tests {
                 let curve = curve.expect("a loop");
                 let measured = MeasuredLoop::new(&curve, "rigidity", &history).expect("it bends");
                 let plateau = if growth > 0.0 { Plateau::Growing } else { Plateau::Constant };
-                let starts = measured.pairs(LoopForm { order, plateau });
+                let starts = measured.pairs(LoopForm { elastic: Elastic::Line, order, plateau });
                 let best = starts
                     .into_iter()
                     .min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
                     .expect("a guess");
-                let found = [&[best.stiffness, best.zero][..], &best.friction].concat();
+                let found = [&best.elastic[..], &[best.zero], &best.friction].concat();
                 let ratio = lengths[fast] / lengths[slow];
                 let exact = [1e-5, 2e-4, 3e-4, lengths[slow], part, ratio];
                 for (found, exact) in found.iter().zip(exact) {
