@@ -15,10 +15,12 @@
 //! * `residuals`: forward model and residuals, as a problem of drape-lm.
 //! * `functional`: areas and means that a fit meets beside its points; `noise`: the noise of a load.
 //! * `search`: the minimiser from several starts.
-//! * `selection`: which of several laws the data support, by Akaike's criterion.
+//! * `candidate`, `selection`: which of several laws the data support, by Akaike's criterion, their
+//!   misfits and their predictions.
 //! * `estimate`, `uncertainty`: parameters with errors, intervals and correlations.
 //! * `curve_fit`: the result.
 
+pub(crate) mod candidate;
 pub(crate) mod curve_fit;
 pub(crate) mod estimate;
 pub(crate) mod functional;

@@ -15,16 +15,19 @@
 //!   `listed`: all of them, with their use.
 //! * `schema`: JSON Schema of all that.
 //! * `plausible`, `suspect`: values and curves that cannot be right.
-//! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `model`, `sheet`: the sheet.
+//! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `repeats`: curves of specimens.
+//! * `equal_load`: the load of the tensile test; `model`, `sheet`: the sheet.
 
 pub(crate) mod axis;
 pub(crate) mod compression;
 pub(crate) mod convert;
 pub(crate) mod curve_file;
+pub(crate) mod equal_load;
 pub(crate) mod findings;
 pub(crate) mod listed;
 pub(crate) mod model;
 pub(crate) mod plausible;
+pub(crate) mod repeats;
 #[cfg(feature = "schema")]
 pub(crate) mod schema;
 pub(crate) mod section;

@@ -72,7 +72,22 @@ fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
     let curve = sheet.curves_of(Test::Tensile, Direction::Warp).next().unwrap();
     assert_eq!(curve.deformation(), [0.0, 0.01, 0.02]);
     assert!((curve.load()[2] / (200.0 * 0.980665) - 1.0).abs() < 1e-12);
-    assert_eq!(sheet.warnings(), []);
+    // The values are of 500 gf/cm, the curve ends at 200.
+    let [warning] = sheet.warnings() else { panic!("{:?}", sheet.warnings()) };
+    assert!(warning.message.contains("ends at 200.0 gf/cm"), "{warning}");
+    assert!(help(warning).contains("write FM = 200.0"), "{warning}");
+}
+
+#[test]
+fn the_load_of_the_tensile_test_is_that_of_the_curves_where_nothing_else_tells_it() {
+    let load = |text: &str| {
+        let sheet = read(&format!("name = \"poplin\"\n{text}{CURVE}"), GOOD_CURVE).unwrap();
+        assert_eq!(sheet.warnings(), [], "{text}");
+        sheet.maximum_tension() / 0.980_665
+    };
+    assert!((load("") - 200.0).abs() < 1e-9);
+    assert!((load("FM = 200\n[warp]\nLT = 0.7\n") - 200.0).abs() < 1e-9);
+    assert!((load("FM = 50\n") - 50.0).abs() < 1e-9);
 }
 
 #[test]

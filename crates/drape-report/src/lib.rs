@@ -30,8 +30,8 @@ mod page;
 pub use error::Error;
 pub use page::{
     CaptionedPicture, ComparePage, ComparedValue, EffectTable, Evidence, FabricName, FitPage,
-    KesValue, LawReport, Limits, MeasureEffects, ModelScore, Quantity, Statistics, StudyPage,
-    Trust, ValidationCase, ValidationPage, ValidationRow, Verdict,
+    KesValue, LawReport, LawValue, Limits, MeasureEffects, ModelScore, Quantity, Statistics,
+    StudyPage, Trust, ValidationCase, ValidationPage, ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};

@@ -92,6 +92,41 @@ pub enum Interval {
 }
 
 impl Interval {
+    /// Ratio of the ends of an interval beyond which the data do not determine a positive number.
+    pub const VAGUE: f64 = 10.0;
+
+    /// Returns whether the interval is one of a positive number whose upper end is more than
+    /// [`Interval::VAGUE`] times the lower end.
+    #[must_use]
+    pub fn is_vague(&self) -> bool {
+        matches!(*self, Self::Between { lower, upper } if lower > 0.0 && upper > Self::VAGUE * lower)
+    }
+
+    /// Refuses ends that are not finite or exchanged, and a reason that cannot be shown.
+    pub(crate) fn check(&self, name: &str) -> Result<(), Error> {
+        if let Some(reason) = self.reason() {
+            check::text("the reason for a missing interval", reason)?;
+        }
+        let bound = |value: f64| check::number(|| format!("the interval of {name}"), value);
+        match *self {
+            Self::Between { lower, upper } => {
+                bound(lower)?;
+                bound(upper)?;
+                if lower > upper {
+                    return Err(Error::OutOfRange {
+                        what: "the upper end of an interval",
+                        value: upper,
+                        range: "at least its lower end",
+                    });
+                }
+                Ok(())
+            }
+            Self::Above { lower, .. } => bound(lower),
+            Self::Below { upper, .. } => bound(upper),
+            Self::Unknown { .. } | Self::Fixed { .. } => Ok(()),
+        }
+    }
+
     /// Returns the reason why an end or the whole interval is missing.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {
@@ -162,26 +197,6 @@ impl Parameter {
                 });
             }
         }
-        if let Some(reason) = self.interval.reason() {
-            check::text("the reason for a missing interval", reason)?;
-        }
-        let bound = |value: f64| check::number(|| format!("the interval of {name}"), value);
-        match self.interval {
-            Interval::Between { lower, upper } => {
-                bound(lower)?;
-                bound(upper)?;
-                if lower > upper {
-                    return Err(Error::OutOfRange {
-                        what: "the upper end of an interval",
-                        value: upper,
-                        range: "at least its lower end",
-                    });
-                }
-                Ok(())
-            }
-            Interval::Above { lower, .. } => bound(lower),
-            Interval::Below { upper, .. } => bound(upper),
-            Interval::Unknown { .. } | Interval::Fixed { .. } => Ok(()),
-        }
+        self.interval.check(name)
     }
 }

@@ -1,7 +1,7 @@
 //! Report of a fit: every law with its loop, its parameters and their intervals, and what was
 //! assumed.
 
-use crate::fit::{Candidate, CurveFit, Estimate, Fit, Settings, Undetermined};
+use crate::fit::{Choice, CurveFit, Estimate, Fit, Settings, Undetermined};
 use crate::kes::{Curve, Sheet, Test};
 use crate::lm::Stop;
 use crate::report::plot::{Correlation, LoopPlot};
@@ -52,6 +52,7 @@ fn law(curve: &Curve, fit: &CurveFit) -> LawReport {
             parameters: candidate.parameters,
             misfit: candidate.misfit,
             aicc: candidate.criterion?,
+            prediction: candidate.prediction,
             chosen: candidate.law == model,
         })
     });
@@ -70,6 +71,7 @@ fn law(curve: &Curve, fit: &CurveFit) -> LawReport {
             stop: stop(fit.stop).into(),
         }),
         models: if models.len() > 1 { models } else { Vec::new() },
+        values: fit.values.iter().map(kes_value::of_law).collect(),
         parameters: fit.parameters.iter().map(|estimate| parameter(fit.test, estimate)).collect(),
         correlation: correlation(fit),
         notes: notes(fit),
@@ -89,19 +91,33 @@ fn title(fit: &CurveFit) -> String {
 
 fn parameter(test: Test, estimate: &Estimate) -> Parameter {
     let named = quantity::parameter(test, estimate.name);
-    let interval = match &estimate.interval {
-        Ok([lower, upper]) => Interval::Between { lower: *lower, upper: *upper },
-        Err(Undetermined::Fixed) => Interval::Fixed { reason: Undetermined::Fixed.to_string() },
-        Err(unknown) => Interval::Unknown { reason: unknown.to_string() },
-    };
     Parameter {
         name: named.words.into(),
         symbol: named.symbol.into(),
         value: estimate.value,
+        standard_error: estimate.standard_error.as_ref().ok().copied().filter(is_shown),
+        interval: interval(&estimate.interval, 1.0),
         units: named.units,
-        standard_error: estimate.standard_error.as_ref().ok().copied(),
-        interval,
         incidental: named.incidental,
+    }
+}
+
+/// Largest standard error and end of an interval that tells something, in SI.
+const LARGEST: f64 = 1e30;
+
+fn is_shown(number: &f64) -> bool {
+    number.abs() <= LARGEST
+}
+
+/// Returns an interval in SI, where `factor` is its unit; one without bounds is none.
+pub(super) fn interval(interval: &Result<[f64; 2], Undetermined>, factor: f64) -> Interval {
+    match interval {
+        Ok(ends) if !ends.iter().all(|end| is_shown(&(end * factor))) => {
+            Interval::Unknown { reason: "not determined by this curve".into() }
+        }
+        Ok([lower, upper]) => Interval::Between { lower: lower * factor, upper: upper * factor },
+        Err(Undetermined::Fixed) => Interval::Fixed { reason: Undetermined::Fixed.to_string() },
+        Err(unknown) => Interval::Unknown { reason: unknown.to_string() },
     }
 }
 
@@ -120,7 +136,8 @@ fn correlation(fit: &CurveFit) -> Option<Correlation> {
 const SYSTEMATIC: f64 = 0.5;
 
 fn notes(fit: &CurveFit) -> Vec<String> {
-    let mut notes: Vec<String> = preference(fit).into_iter().collect();
+    let mut notes = fit.remarks.clone();
+    notes.extend(preference(fit));
     if fit.repeats > 0 {
         notes.push(format!(
             "the mean of {} repeats; their scatter is in the errors of the parameters",
@@ -140,42 +157,21 @@ fn notes(fit: &CurveFit) -> Vec<String> {
     notes
 }
 
-/// Returns why a law was taken before the others, with the figures that decided.
+/// Returns why a law was taken before the others.
 fn preference(fit: &CurveFit) -> Option<String> {
     let chosen = fit.candidates.get(fit.chosen)?;
-    let others = fit.candidates.iter().filter(|other| other.law != chosen.law);
-    let least = fit.candidates.iter().filter_map(|candidate| candidate.criterion);
-    let least = least.fold(f64::INFINITY, f64::min);
-    let figures = |candidate: &Candidate| {
-        let misfit = format!("misfit {:.2} %", 100.0 * candidate.misfit);
-        let criterion = candidate.criterion.map_or("no AICc".to_owned(), |criterion| {
-            format!("AICc {criterion:.1}, {:.1} above the best", criterion - least)
-        });
-        let prediction = candidate.prediction.map_or(String::new(), |error| {
-            format!(", last cycle predicted to {:.2} %", 100.0 * error)
-        });
-        let parameters = candidate.parameters;
-        format!("{} ({parameters} parameters, {misfit}, {criterion}{prediction})", candidate.law)
-    };
-    let others: Vec<String> = others.map(figures).collect();
-    (!others.is_empty()).then(|| {
-        format!(
-            "taken: {}; compared: {}. Of the laws in this order of preference the first is taken \
-             whose AICc is at most {} above the best, and a later one only if it predicts better too",
-            figures(chosen),
-            others.join("; "),
-            Candidate::LEAD
-        )
-    })
+    (fit.choice != Choice::Only).then(|| format!("taken: {}; {}", chosen.law, fit.choice))
 }
 
 /// Returns the plot of the measured and the fitted loop.
 fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
-    // A load equal to the measured one to the last bit marks a point that the fit left out.
+    let half_range = 0.5 * curve.load_range().span();
+    // A load equal to the measured one to the last bit marks a point that the fit left out. A band
+    // that is wider than its loop would tell nothing and hide the loop.
     loop_plot(title(fit), curve, |i| {
         let measured = curve.load()[i];
         let fitted = Some(fit.load[i]).filter(|fitted| *fitted != measured);
-        let width = fit.band.get(i).filter(|width| width.is_finite());
+        let width = fit.band.get(i).filter(|width| **width <= half_range);
         let band = fitted.zip(width).map(|(fitted, width)| [fitted - width, fitted + width]);
         Loads { measured: Some(measured), fitted, band }
     })

@@ -1,10 +1,11 @@
 //! KES values as pages show them: in SI, with the unit of the laboratory beside it.
 
 use crate::fabric::Fabric;
-use crate::fit::{Settings, ValueComparison, compare_values, fabric_values};
+use crate::fit::{Settings, ValueComparison, ValueEstimate, compare_values, fabric_values};
 use crate::kes::{Direction, Sheet, SheetValue, Symbol};
-use crate::report::{ComparedValue, KesValue, Quantity, Units};
+use crate::report::{ComparedValue, KesValue, LawValue, Quantity, Units};
 
+use super::fit::interval;
 use super::quantity;
 
 /// Name of a KES value in words, and its units.
@@ -44,6 +45,20 @@ pub fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> SheetVal
         shown(row.direction, row.symbol, [row.sheet, row.curve.ok(), row.law])
     };
     SheetValues { values: known.map(value).collect(), warnings }
+}
+
+/// Returns a value of a fitted law, with its interval.
+pub fn of_law(estimate: &ValueEstimate) -> LawValue {
+    let Named { words, units } = named(estimate.symbol);
+    let unit = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
+    LawValue {
+        symbol: estimate.symbol.name().into(),
+        name: words.into(),
+        law: estimate.value * unit,
+        curve: estimate.curve.as_ref().ok().map(|value| value * unit),
+        interval: interval(&estimate.interval, unit),
+        units,
+    }
 }
 
 /// Returns a value of a sheet as a page shows it: with its symbol, and what the model uses it for.

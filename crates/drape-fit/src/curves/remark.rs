@@ -2,9 +2,9 @@
 
 use drape_kes::{Curve, Test};
 
+use crate::regression::candidate::Candidate;
 use crate::regression::curve_fit::CurveFit;
 use crate::regression::estimate::{Estimate, Undetermined};
-use crate::regression::selection::Candidate;
 use crate::settings::Settings;
 
 /// Number of parts of a branch whose residuals are compared.

@@ -26,6 +26,8 @@ const NORMAL_QUANTILE: f64 = 1.96;
 
 /// Returns the KES values of the law of a `fit`, where `values` reads those of the law with other
 /// parameters.
+///
+/// A test without a recovery tells nothing of the resilience: RT is left out.
 pub(crate) fn value_estimates(
     curve: &Curve,
     fit: &CurveFit,
@@ -38,6 +40,9 @@ pub(crate) fn value_estimates(
     let estimate = |(index, law): (usize, LawValue)| {
         let value = law.value?;
         let reading = readings.iter().find(|reading| reading.symbol == law.symbol)?;
+        if matches!(reading.value, Err(drape_kes::Error::NoRecovery)) {
+            return None;
+        }
         let reading = reading.value.as_ref().map(|value| *value).map_err(ToString::to_string);
         let half = half_width(fit, &gradient, index);
         let interval = half.ok_or(Undetermined::NotSmooth).map(|half| match reading {
@@ -79,15 +84,32 @@ fn tensile_noise(curve: &Curve, noise: f64, symbol: Symbol) -> f64 {
     let points = |branch: usize| branches.get(branch).map_or(1, |branch| branch.points.len());
     let work_noise = |branch: usize| noise * values.extension / (points(branch) as f64).sqrt();
     let of_work = work_noise(0) / values.work;
+    // An error of the largest strain adds a strip of the largest load to the work of both branches.
+    let of_strain = extension_noise(curve);
+    let strip = values.maximum_tension * of_strain / values.work;
     match symbol {
-        Symbol::Wt => work_noise(0),
-        Symbol::Lt => values.linearity * of_work.hypot(noise / values.maximum_tension),
-        Symbol::Rt => {
-            let resilience = values.resilience.unwrap_or(0.0);
-            (work_noise(1) / values.work).hypot(resilience * of_work)
+        Symbol::Em => of_strain,
+        Symbol::Wt => values.work * of_work.hypot(strip),
+        Symbol::Lt => {
+            let of_extension = strip - of_strain / values.extension;
+            let of_load = noise / values.maximum_tension;
+            values.linearity * of_work.hypot(of_load).hypot(of_extension)
         }
-        _ => 0.0,
+        _ => {
+            let resilience = values.resilience.unwrap_or(0.0);
+            let of_recovery = work_noise(1) / values.work;
+            of_recovery.hypot(resilience * of_work).hypot((1.0 - resilience) * strip)
+        }
     }
+}
+
+/// Returns the standard deviation of the largest strain of a tensile curve, a ratio.
+///
+/// A smoothed path turns where the lines through some ten points before and after the turn end. The
+/// end of such a line errs by `$2/\sqrt n$` of the noise, the mean of two ends by less than half.
+fn extension_noise(curve: &Curve) -> f64 {
+    let path = curve.preparation().and_then(|preparation| preparation.path.as_ref());
+    path.map_or(0.0, |path| if path.smoothed { 0.5 * path.noise } else { path.noise })
 }
 
 /// Returns the points at which the values of a curve are read: of a tensile curve at its own largest

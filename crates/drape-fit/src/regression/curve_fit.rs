@@ -6,12 +6,13 @@ use drape_kes::{Curve, Direction, Test};
 use drape_lm::{Problem, Stop};
 use nalgebra::DMatrix;
 
+use crate::regression::candidate::{Candidate, Choice};
 use crate::regression::estimate::{Estimate, ValueEstimate};
 use crate::regression::functional::Functional;
 use crate::regression::noise::load_noise;
 use crate::regression::residuals::{ForwardModel, Residuals};
 use crate::regression::search::{SearchResult, refine};
-use crate::regression::selection::{Candidate, CandidateModel, select};
+use crate::regression::selection::{CandidateModel, select};
 use crate::regression::uncertainty::{FitEnd, Independence, Uncertainty, uncertainty};
 use crate::settings::Intervals;
 
@@ -81,6 +82,8 @@ pub struct CurveFit {
     pub candidates: Vec<Candidate>,
     /// Index of the selected one.
     pub chosen: usize,
+    /// Ground on which it was selected.
+    pub choice: Choice,
     /// Deformation at each point of the curve, in SI.
     pub deformation: Vec<f64>,
     /// Measured load at each point, in SI.
@@ -163,6 +166,7 @@ pub(crate) fn fit_curve<'a>(
     }
     fit.evaluations += selection.evaluations;
     (fit.candidates, fit.chosen) = (selection.candidates, selection.chosen);
+    fit.choice = selection.choice;
     fit
 }
 
@@ -216,6 +220,7 @@ impl CurveFit {
             correlations: uncertainty.correlations,
             candidates: Vec::new(),
             chosen: 0,
+            choice: Choice::Only,
             deformation: curve.deformation().to_vec(),
             measured: curve.load().to_vec(),
             band: uncertainty.band.iter().map(|width| width * span).collect(),

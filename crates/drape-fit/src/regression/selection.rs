@@ -6,6 +6,7 @@ use drape_kes::Curve;
 use drape_lm::{Report, akaike};
 use rayon::prelude::*;
 
+use crate::regression::candidate::{Candidate, Choice};
 use crate::regression::noise::load_noise;
 use crate::regression::residuals::{ForwardModel, NamedParameter, Residuals};
 use crate::regression::search::{SearchResult, multistart};
@@ -15,67 +16,6 @@ use crate::regression::uncertainty::Independence;
 ///
 /// It is that of a converter with 24 bits. Below it, rounding would decide between laws.
 const RESOLUTION: f64 = 1e-7;
-
-/// Law that was compared with others on one curve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
-    /// Name of the law, in words.
-    pub law: String,
-    /// Number of fitted parameters.
-    pub parameters: usize,
-    /// Root mean square residual over the range of the load, without weights; a ratio.
-    pub misfit: f64,
-    /// Akaike's corrected criterion, [`drape_lm::akaike`]; `None` where the points are too few.
-    ///
-    /// Its logarithm counts the independent residuals (`CurveFit::effective_points`) of the
-    /// candidate with the smallest residual, not all: the quasi-likelihood criterion of \[BA02,
-    /// §2.5\]. Residuals of a law that misses the curve systematically are correlated, and each
-    /// would vote for any law with more parameters. For independent noise both are the same. Where
-    /// even the best law misses the curve, so few residuals are independent that the criterion can
-    /// hardly tell laws apart: there [`Candidate::SMALLER`] decides.
-    pub criterion: Option<f64>,
-    /// Root mean square error, over the range of the load, of the prediction of the last cycle from
-    /// all others; `None` where there is one cycle.
-    ///
-    /// A law is selected only if it predicts better than all laws of higher preference.
-    pub prediction: Option<f64>,
-}
-
-impl Candidate {
-    /// Lead in Akaike's criterion that a law of lower preference must have.
-    ///
-    /// A lead of four to seven leaves the other law considerably less support \[BA02, §2.6\]. The
-    /// criterion alone selects a second friction element that is not there in one of six noisy
-    /// loops, because its length is free to fit the noise; with this lead it is one in a hundred.
-    pub const LEAD: f64 = 6.0;
-
-    /// Part of the misfit of a law below which the misfit of another law is smaller beyond doubt,
-    /// as long as both are larger than the noise of the load.
-    ///
-    /// The laws compared have one or two parameters more or less, each of which reduces the misfit
-    /// of a curve of a hundred points by half a per cent if it fits nothing but noise. A fifth is
-    /// the structure of the curve.
-    pub const SMALLER: f64 = 0.8;
-
-    /// Largest misfit of a law that follows a curve, a ratio.
-    ///
-    /// It is the residual error of the laws on woven fabrics \[NB04\]. Repeated tests of one fabric
-    /// scatter by some 5 %.
-    pub const FOLLOWS: f64 = 0.02;
-
-    /// Returns whether the law follows the curve.
-    #[must_use]
-    pub fn follows(&self) -> bool {
-        self.misfit <= Self::FOLLOWS
-    }
-}
-
-impl Candidate {
-    /// Returns whether the law predicts the last cycle worse than another one.
-    fn predicts_worse(&self, other: &Self) -> bool {
-        other.prediction.is_some() && self.prediction > other.prediction
-    }
-}
 
 /// Law to try on a curve.
 pub(crate) struct CandidateModel<'a> {
@@ -91,6 +31,7 @@ pub(crate) struct CandidateModel<'a> {
 pub(crate) struct Selection {
     pub(crate) candidates: Vec<Candidate>,
     pub(crate) chosen: usize,
+    pub(crate) choice: Choice,
     /// Fit of the selected law.
     pub(crate) result: SearchResult,
     /// Number of evaluations of the others.
@@ -149,11 +90,17 @@ pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection 
         |i: &usize| criterion(*i).is_some_and(|criterion| criterion <= least + Candidate::LEAD);
     // With too few points for any criterion, the law of highest preference.
     let supported = (0..candidates.len()).find(supported).unwrap_or(0);
-    let closer = much_closer(&candidates, supported, load_noise(curve)).unwrap_or(supported);
-    let chosen = first_that_follows(&candidates, closer).unwrap_or(closer);
+    let mut chosen = supported;
+    let mut choice = if models.len() > 1 { Choice::Supported } else { Choice::Only };
+    if let Some(closer) = much_closer(&candidates, chosen, load_noise(curve)) {
+        (chosen, choice) = (closer, Choice::Closer);
+    }
+    if let Some(first) = first_that_follows(&candidates, chosen) {
+        (chosen, choice) = (first, Choice::Follows);
+    }
     let all: usize = results.iter().map(|result| result.evaluations).sum();
     let result = results.swap_remove(chosen);
-    Selection { candidates, chosen, evaluations: all - result.evaluations, result }
+    Selection { candidates, chosen, choice, evaluations: all - result.evaluations, result }
 }
 
 /// Returns the first law that follows the curve closer than a `chosen` one beyond doubt; `None` where

@@ -1,7 +1,7 @@
 //! KES values of a sheet, of its curves and of the identified laws, side by side.
 
 use drape_fabric::Fabric;
-use drape_kes::{Direction, Sheet, Symbol};
+use drape_kes::{Direction, EvaluationPoints, Sheet, Symbol, Test};
 
 use crate::settings::Settings;
 use crate::values::simulated::fabric_values;
@@ -63,11 +63,22 @@ pub fn compare_values(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> Ve
             symbol,
             sheet: sheet.values(direction).get(symbol),
             curve: measured(symbol),
-            law: law.get(symbol),
+            law: law.get(symbol).filter(|_| reaches(sheet, direction, symbol, &points)),
         };
         Symbol::ALL.into_iter().map(row).collect::<Vec<_>>()
     };
     [Direction::Warp, Direction::Weft].into_iter().flat_map(rows).collect()
+}
+
+/// Part of FM to which a tensile curve must go for the values of its law at FM.
+const REACHED: f64 = 0.95;
+
+/// Returns whether the curve of a law goes to where a value is read: the tensile values of a law
+/// beyond its curve are a guess. A law without a curve was made of values.
+fn reaches(sheet: &Sheet, direction: Direction, symbol: Symbol, points: &EvaluationPoints) -> bool {
+    let curve = sheet.curves_of(symbol.test(), direction).next();
+    let reached = curve.filter(|curve| curve.test == Test::Tensile && !curve.slack);
+    reached.is_none_or(|curve| curve.load_range().high >= REACHED * points.maximum_tension)
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ pub struct CurveValue {
 /// of FM.
 ///
 /// Machines overshoot by as much, and EM moves by half of it: less than two specimens differ by.
-const NEAR_MAXIMUM: f64 = 0.05;
+pub(crate) const NEAR_MAXIMUM: f64 = 0.05;
 
 impl Curve {
     /// Reads the KES values of the curve's test, in laboratory units.

@@ -14,6 +14,8 @@ const BREAK_FALL: f64 = 0.5;
 const BREAK_LOAD: f64 = 0.3;
 /// Strain over the largest strain within which the load of a recovery that is none vanishes.
 const SUDDEN: f64 = 0.005;
+/// Step of a recovery over [`SUDDEN`] beyond which it does not tell how the load fell.
+const SHORT: f64 = 4.0;
 /// Load over the largest load below which the load has vanished.
 const VANISHED: f64 = 0.1;
 
@@ -189,9 +191,10 @@ fn rupture(curve: &Curve) -> Option<Rupture> {
             // The load is gone as soon as the strip is released.
             let top = points.start;
             let carried = load[top] - start;
-            let released = |&i: &usize| strain[top] - strain[i] >= SUDDEN * strain[top].abs();
-            let next = points.clone().find(released)?;
-            let enough = points.len() > 2 && carried >= BREAK_LOAD * all_time;
+            let released = |i: usize| (strain[top] - strain[i]) / strain[top].abs();
+            let Some(next) = points.clone().find(|&i| released(i) >= SUDDEN) else { continue };
+            // Over a long step of a curve of few points the load may fall by friction.
+            let enough = released(next) <= SHORT * SUDDEN && carried >= BREAK_LOAD * all_time;
             if enough && load[next] - start < VANISHED * carried {
                 return Some(at(top));
             }

@@ -13,6 +13,9 @@ const NORMAL_MEDIAN: f64 = 0.6745;
 /// only.
 const NOISY: f64 = 0.02;
 
+/// Part of the range of a deformation that a branch covers which is no noise.
+const CLEAR: f64 = 0.05;
+
 /// Trend over a window of the smoothing over the error of its mean.
 ///
 /// With this much, the smoothed path hardly turns back, and the windows stay short against a branch.
@@ -65,6 +68,9 @@ impl SteadyPath {
 /// nothing to do.
 pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, SteadyPath)> {
     let range = q.iter().fold([q[0], q[0]], |[low, high], &q| [low.min(q), high.max(q)]);
+    if turns_only_at_ends(q) {
+        return None;
+    }
     let noise = noise(q);
     let threshold = (REVERSAL_THRESHOLD * (range[1] - range[0])).max(excursion(noise, q.len()));
     let turns = reversals_beyond(q, threshold);
@@ -104,6 +110,15 @@ pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, 
     }
     let turns = turns.len() - 2;
     Some((path, SteadyPath { backward_steps, largest_step, noise, turns, smoothed }))
+}
+
+/// Returns whether every branch covers a good part of the range: then nothing goes back that could be
+/// noise, and steps of a curve of few points are not taken for noise.
+fn turns_only_at_ends(q: &[f64]) -> bool {
+    let range = q.iter().fold([q[0], q[0]], |[low, high], &q| [low.min(q), high.max(q)]);
+    let least = CLEAR * (range[1] - range[0]);
+    let turns = reversals_beyond(q, 0.0);
+    turns.windows(2).all(|ends| (q[ends[1]] - q[ends[0]]).abs() >= least)
 }
 
 /// Returns the standard deviation of the noise of a history that moves at a steady rate but for its
@@ -351,5 +366,12 @@ mod tests {
         let (path, done) = steady_path(&q, None).expect("it turns back");
         assert_eq!(done.turns, 1, "{done:?}");
         assert!((path[750] - 0.5).abs() < 0.01, "{}", path[750]);
+    }
+
+    #[test]
+    fn a_curve_of_few_points_at_any_distance_is_left_as_it_is() {
+        // Points read off a printed loop.
+        let q = [0.0, 0.03, 0.11, 0.31, 0.35, 0.72, 1.0, 0.93, 0.4, 0.38, 0.12, 0.05];
+        assert_eq!(steady_path(&q, None), None);
     }
 }

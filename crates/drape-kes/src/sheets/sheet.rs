@@ -12,7 +12,7 @@ use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
 use crate::sheets::section::{Choice, Measured, Section};
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
-use crate::sheets::{curve_file, plausible};
+use crate::sheets::{curve_file, plausible, repeats};
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
 use crate::values::Values;
@@ -73,7 +73,8 @@ pub struct Sheet {
     pub rc: Option<f64>,
     /// MIU, coefficient of friction of the surface test, a ratio: the mean of both directions.
     pub miu: Option<f64>,
-    /// FM, maximum load of the tensile test, in gf/cm; 500 in the standard test when not given.
+    /// FM, maximum load of the tensile test, in gf/cm; see [`Sheet::maximum_tension`] where it is
+    /// not given.
     pub fm: Option<f64>,
     /// Values along the warp.
     pub warp: Values,
@@ -139,6 +140,7 @@ impl Sheet {
             .iter()
             .flat_map(|section| curve_file::read(section, findings))
             .collect();
+        let curves = repeats::joined(curves, findings);
         let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
         let known: Vec<f64> = [warp.miu, weft.miu].into_iter().flatten().collect();
         let miu = match known.as_slice() {
@@ -168,6 +170,7 @@ impl Sheet {
             readings: Vec::new(),
         };
         sheet.compare_compression(root, findings);
+        sheet.compare_loads(findings);
         sheet
     }
 
@@ -183,10 +186,16 @@ impl Sheet {
         self.t0.or(self.t).map(|t| t * Quantity::Length.laboratory().factor)
     }
 
-    /// Returns FM: the maximum load of the tensile test, given or standard, in N/m.
+    /// Returns FM: the maximum load of the tensile test, in N/m.
+    ///
+    /// It is the given one; without, and without values of the tensile test, the largest load of the
+    /// tensile curves; else the standard one.
     #[must_use]
     pub fn maximum_tension(&self) -> f64 {
-        self.fm.unwrap_or(STANDARD_MAXIMUM_TENSION) * Quantity::ForcePerWidth.laboratory().factor
+        let given = self.fm.map(|fm| fm * Quantity::ForcePerWidth.laboratory().factor);
+        let of_curves = || self.load_of_curves().filter(|_| !self.has_tensile_values());
+        let standard = STANDARD_MAXIMUM_TENSION * Quantity::ForcePerWidth.laboratory().factor;
+        given.or_else(of_curves).unwrap_or(standard)
     }
 
     /// Returns the KES values of one direction.

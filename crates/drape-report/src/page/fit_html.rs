@@ -5,7 +5,8 @@ use askama::Template;
 use super::assets::{PAGE_SCRIPT, PAGE_STYLE};
 use super::fit_page::{FitPage, KesValue, Quantity};
 use super::law_report::{LawReport, Limits, ModelScore, Trust, Verdict};
-use super::shown::{Marked, ShownParameter, ShownValue};
+use super::law_value::LawValue;
+use super::shown::{Marked, ShownLawValue, ShownParameter, ShownValue};
 use crate::error::Error;
 use crate::parameter::Interval;
 use crate::plot::{
@@ -55,10 +56,17 @@ struct LawView<'a> {
     r_squared: String,
     /// Length of the bar of the misfit, in per cent; the limit lies at half of it.
     bar: String,
+    values: Vec<LawValueRow<'a>>,
     parameters: Vec<ShownParameter<'a>>,
     uncertainty: Option<String>,
     correlation: Option<HeatMap>,
     models: Vec<ModelRow<'a>>,
+}
+
+/// Value of a law, and whether it is known no better than the limit.
+struct LawValueRow<'a> {
+    shown: ShownLawValue<'a>,
+    is_wide: bool,
 }
 
 /// Heat map with its side in px, beyond which it is not stretched.
@@ -67,10 +75,10 @@ struct HeatMap {
     side: f64,
 }
 
-/// Model of a comparison: misfit, AICc, AICc above the best, weight.
+/// Model of a comparison: misfit, AICc, AICc above the best, weight, error of its prediction.
 struct ModelRow<'a> {
     model: &'a ModelScore,
-    texts: [String; 4],
+    texts: [String; 5],
 }
 
 /// KES value: the numbers of the laboratory above, SI below.
@@ -196,6 +204,7 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
             let part = 50.0 * s.misfit / limits.misfit;
             format!("{:.1}", if part.is_finite() { part.clamp(0.0, 100.0) } else { 100.0 })
         }),
+        values: law.values.iter().map(|value| law_value_row(value, limits)).collect(),
         parameters: law.parameters.iter().map(ShownParameter::new).collect(),
         uncertainty: uncertain.then(|| {
             let plot = UncertaintyPlot { parameters: &law.parameters };
@@ -212,11 +221,19 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
                     typeset(&format!("{:.1}", model.aicc)),
                     format!("{:.1}", evidence.above_best),
                     format!("{:.3}", evidence.weight),
+                    model.prediction.map_or_else(String::new, percent),
                 ];
                 ModelRow { model, texts }
             })
             .collect(),
         law,
+    }
+}
+
+fn law_value_row<'a>(value: &'a LawValue, limits: &Limits) -> LawValueRow<'a> {
+    LawValueRow {
+        shown: ShownLawValue::new(value),
+        is_wide: value.relative_error().is_none_or(|error| error > limits.difference),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::fit_page::{FitPage, KesValue};
 use super::law_report::{LawReport, Limits, Statistics, Trust};
-use super::shown::{Shown, ShownParameter, ShownValue};
+use super::shown::{Shown, ShownLawValue, ShownParameter, ShownValue};
 use crate::error::Error;
 use crate::parameter::Units;
 use crate::text::number::{percent, signed_percent, significant};
@@ -116,6 +116,9 @@ fn law_lines(law: &LawReport, limits: &Limits) -> Vec<String> {
     if let Some(statistics) = &law.statistics {
         statistics_lines(&mut lines, law, statistics);
     }
+    if !law.values.is_empty() {
+        lines.extend(law_values(law, limits));
+    }
     if !law.models.is_empty() {
         lines.extend(models(law));
     }
@@ -161,8 +164,8 @@ fn statistics_lines(lines: &mut Vec<String>, law: &LawReport, statistics: &Stati
 }
 
 fn models(law: &LawReport) -> Vec<String> {
-    let head = ["model", "parameters", "misfit", "AICc", "above best", "weight", ""];
-    let mut table = Table::new(&head, &[1, 2, 3, 4, 5]);
+    let head = ["model", "parameters", "misfit", "AICc", "above best", "weight", "last cycle", ""];
+    let mut table = Table::new(&head, &[1, 2, 3, 4, 5, 6]);
     for (model, evidence) in law.models.iter().zip(law.evidence()) {
         table.row(vec![
             model.name.clone(),
@@ -171,7 +174,27 @@ fn models(law: &LawReport) -> Vec<String> {
             format!("{:.1}", model.aicc),
             format!("{:.1}", evidence.above_best),
             format!("{:.3}", evidence.weight),
+            model.prediction.map_or_else(String::new, percent),
             if model.chosen { "chosen" } else { "" }.to_owned(),
+        ]);
+    }
+    table.lines(2)
+}
+
+fn law_values(law: &LawReport, limits: &Limits) -> Vec<String> {
+    let head = ["value", "", "curve", "law", "", "error", "95 % interval"];
+    let mut table = Table::new(&head, &[2, 3, 5, 6]);
+    for value in &law.values {
+        let shown = ShownLawValue::new(value);
+        let is_wide = value.relative_error().is_none_or(|error| error > limits.difference);
+        table.row(vec![
+            value.symbol.clone(),
+            value.name.clone(),
+            shown.curve.as_ref().map_or_else(String::new, Shown::number),
+            shown.law.number(),
+            shown.law.unit.clone(),
+            format!("{}{}", shown.relative, if is_wide { " !" } else { "" }),
+            shown.interval,
         ]);
     }
     table.lines(2)

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::law_value::LawValue;
 use crate::check;
 use crate::error::Error;
 use crate::parameter::Parameter;
@@ -19,6 +20,8 @@ pub struct LawReport {
     pub plots: Vec<LoopPlot>,
     /// Statistics of the fit; `None` where the law was set from values.
     pub statistics: Option<Statistics>,
+    /// KES values of the law; empty for a test that has none.
+    pub values: Vec<LawValue>,
     /// Models that were compared; empty where there was no choice.
     pub models: Vec<ModelScore>,
     /// Parameters, fitted or not.
@@ -62,6 +65,9 @@ pub struct ModelScore {
     /// Akaike's information criterion, corrected for the number of points (AICc); the smallest is
     /// best.
     pub aicc: f64,
+    /// Root mean square error of its prediction of the last cycle from all others, over the range of
+    /// the measured load, a ratio; `None` where that was not tried.
+    pub prediction: Option<f64>,
     /// Whether the report is of this model.
     pub chosen: bool,
 }
@@ -71,9 +77,11 @@ pub struct ModelScore {
 pub struct Limits {
     /// Largest misfit of a law that counts as good, a ratio.
     pub misfit: f64,
-    /// Largest relative standard error of a parameter that counts as known, a ratio.
+    /// Largest relative standard error of a parameter that counts as known, a ratio, in a test that
+    /// has no KES values.
     pub error: f64,
-    /// Largest relative difference between the value of a sheet and a recomputed one, a ratio.
+    /// Largest relative difference between the value of a sheet and a recomputed one, a ratio, and
+    /// largest relative error of the value of a law that counts as known.
     pub difference: f64,
     /// Correlation above which pairs are listed.
     pub correlation: f64,
@@ -96,10 +104,9 @@ impl Default for Limits {
 pub enum Trust {
     /// Set from values or defaults: there is no curve to judge it by.
     Unjudged,
-    /// Follows its curves, and the curves determine its parameters.
+    /// Follows its curves, and has their KES values.
     Good,
-    /// Follows its curves, but not all parameters are determined; or its misfit is up to twice the
-    /// limit.
+    /// Follows its curves, but not all KES values are known; or its misfit is up to twice the limit.
     Doubtful,
     /// Does not follow its curves, or the search did not end at a minimum.
     Poor,
@@ -128,7 +135,10 @@ pub struct Verdict {
 }
 
 impl LawReport {
-    /// Judges the law by its statistics and its parameters.
+    /// Judges the law by its search, its misfit and its KES values.
+    ///
+    /// The law of a test that has no KES values is judged by its parameters instead. Elsewhere
+    /// parameters do not count: two of them may be uncertain together and the loads certain.
     #[must_use]
     pub fn verdict(&self, limits: &Limits) -> Verdict {
         let Some(statistics) = &self.statistics else {
@@ -137,39 +147,64 @@ impl LawReport {
                 reasons: vec!["set from values, not from a curve".to_owned()],
             };
         };
-        let mut trust = Trust::Good;
-        let mut reasons = Vec::new();
-        let mut against = |level: Trust, reason: String| {
-            trust = trust.max(level);
-            reasons.push(reason);
-        };
+        let mut grounds = Vec::new();
         if !statistics.converged {
-            against(Trust::Poor, format!("the search did not end: {}", statistics.stop));
+            grounds.push((Trust::Poor, format!("the search did not end: {}", statistics.stop)));
         }
         let misfit = statistics.misfit;
         if misfit > limits.misfit {
             let level = if misfit > 2.0 * limits.misfit { Trust::Poor } else { Trust::Doubtful };
             let (misfit, limit) = (percent(misfit), percent(limits.misfit));
-            against(level, format!("misfit {misfit}, more than {limit}"));
+            let reason = "no law of the set follows this curve";
+            grounds.push((level, format!("{reason}: misfit {misfit}, more than {limit}")));
         }
+        let doubts = if self.values.is_empty() {
+            self.parameter_doubts(limits)
+        } else {
+            self.value_doubts(limits)
+        };
+        grounds.extend(doubts.into_iter().map(|reason| (Trust::Doubtful, reason)));
+        Verdict {
+            trust: grounds.iter().map(|(trust, _)| *trust).fold(Trust::Good, Trust::max),
+            reasons: grounds.into_iter().map(|(_, reason)| reason).collect(),
+        }
+    }
+
+    /// Returns which KES values the curve does not determine, or not to the limit.
+    fn value_doubts(&self, limits: &Limits) -> Vec<String> {
+        let (known, vague): (Vec<&LawValue>, Vec<&LawValue>) =
+            self.values.iter().partition(|value| value.is_determined());
+        let symbols: Vec<&str> = vague.iter().map(|value| value.symbol.as_str()).collect();
+        let vague = format!("not determined by this curve: {}", symbols.join(", "));
+        let error = |value: &&LawValue| Some((value.symbol.clone(), value.relative_error()?));
+        let errors = known.iter().filter_map(error);
+        let wide: Vec<String> = errors
+            .filter(|(_, error)| *error > limits.difference)
+            .map(|(symbol, error)| format!("{symbol} (to {})", percent(error)))
+            .collect();
+        let limit = percent(limits.difference);
+        let wide_text = format!("not known to {limit}: {}", wide.join(", "));
+        let present = [(!symbols.is_empty(), vague), (!wide.is_empty(), wide_text)];
+        present.into_iter().filter(|(there, _)| *there).map(|(_, text)| text).collect()
+    }
+
+    /// Returns which parameters of the fabric have no interval, or a large standard error.
+    fn parameter_doubts(&self, limits: &Limits) -> Vec<String> {
         let symbols = |unknown: &dyn Fn(&&Parameter) -> bool| -> Option<String> {
             let of_the_fabric = self.parameters.iter().filter(|parameter| !parameter.incidental);
             let found = of_the_fabric.filter(unknown);
             let found: Vec<String> = found.map(|parameter| self.named(&parameter.symbol)).collect();
             (!found.is_empty()).then(|| found.join(", "))
         };
-        if let Some(symbols) = symbols(&|parameter| parameter.is_undetermined()) {
-            against(Trust::Doubtful, format!("no 95 % interval for {symbols}"));
-        }
         let vague = |parameter: &&Parameter| {
             let error = parameter.relative_error();
             !parameter.is_undetermined() && error.is_some_and(|error| error > limits.error)
         };
-        if let Some(symbols) = symbols(&vague) {
-            let limit = percent(limits.error);
-            against(Trust::Doubtful, format!("standard error above {limit} for {symbols}"));
-        }
-        Verdict { trust, reasons }
+        let missing = symbols(&|parameter| parameter.is_undetermined())
+            .map(|symbols| format!("no 95 % interval for {symbols}"));
+        let vague = symbols(&vague)
+            .map(|symbols| format!("standard error above {} for {symbols}", percent(limits.error)));
+        missing.into_iter().chain(vague).collect()
     }
 
     /// Returns a symbol with the name of its parameter, as in "k_b (bending rigidity)".
@@ -211,10 +246,14 @@ impl LawReport {
             number("R²", statistics.r_squared)?;
             check::text(&format!("{title}: the reason for stopping"), &statistics.stop)?;
         }
+        for value in &self.values {
+            value.check()?;
+        }
         for model in &self.models {
             check::text(&format!("{title}: the name of a model"), &model.name)?;
             number("the misfit of a model", model.misfit)?;
             number("the AICc of a model", model.aicc)?;
+            number("the prediction of a model", model.prediction.unwrap_or(0.0))?;
         }
         for parameter in &self.parameters {
             parameter.check()?;
@@ -294,6 +333,32 @@ mod tests {
         zero.parameters[0].incidental = true;
         assert_eq!(trust(zero), Trust::Good);
         assert_eq!(trust(LawReport::default()), Trust::Unjudged);
+    }
+
+    #[test]
+    fn a_law_with_kes_values_is_judged_by_them_and_not_by_its_parameters() {
+        let vague = Interval::Unknown { reason: "flat".to_owned() };
+        let value = |lower: f64, upper: f64| LawValue {
+            symbol: "2HB".to_owned(),
+            name: "bending loop width".to_owned(),
+            units: Units::si("N"),
+            law: 1.0,
+            curve: Some(1.0),
+            interval: Interval::Between { lower, upper },
+        };
+        let verdict = |value: LawValue| {
+            let law = LawReport { values: vec![value], ..law(0.01, true, vague.clone()) };
+            law.verdict(&Limits::default())
+        };
+        assert_eq!(verdict(value(0.96, 1.04)).trust, Trust::Good);
+        let wide = verdict(value(0.9, 1.05));
+        assert_eq!(wide.trust, Trust::Doubtful);
+        assert_eq!(wide.reasons, ["not known to 5.00 %: 2HB (to 10.0 %)"]);
+        for undetermined in [value(0.1, 1.1), value(-0.1, 1.1)] {
+            let verdict = verdict(undetermined);
+            assert_eq!(verdict.trust, Trust::Doubtful);
+            assert_eq!(verdict.reasons, ["not determined by this curve: 2HB"]);
+        }
     }
 
     #[test]

@@ -1,7 +1,11 @@
 //! Quantities as text, before a page or a terminal lays them out.
 
+use super::law_value::LawValue;
 use crate::parameter::{Interval, Parameter, Units};
 use crate::text::number::{DIGITS, Notation, percent, significant, typeset};
+
+/// Words for an interval that tells nothing.
+const NOT_DETERMINED: &str = "not determined by this curve";
 
 /// Value with its error and unit, rounded together, as plain text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -91,9 +95,15 @@ pub(crate) struct ShownParameter<'a> {
 impl<'a> ShownParameter<'a> {
     /// Returns the text of a parameter.
     pub(crate) fn new(parameter: &'a Parameter) -> ShownParameter<'a> {
+        let estimate = Estimate {
+            value: parameter.value,
+            standard_error: parameter.standard_error,
+            interval: &parameter.interval,
+            is_positive: !parameter.incidental && parameter.value > 0.0,
+        };
         let kes = parameter.units.kes.as_ref();
-        let in_kes = kes.map(|unit| Scaled::new(parameter, unit.in_si, &unit.name));
-        let in_si = Scaled::new(parameter, 1.0, &parameter.units.si);
+        let in_kes = kes.map(|unit| estimate.scaled(unit.in_si, &unit.name));
+        let in_si = estimate.scaled(1.0, &parameter.units.si);
         let (kes, interval) = match in_kes {
             Some(Scaled { shown, interval }) => (Some(shown), interval),
             None => (None, in_si.interval),
@@ -119,25 +129,80 @@ impl<'a> ShownParameter<'a> {
     }
 }
 
-/// Parameter and its interval in one unit, rounded to the same decimal place.
+/// Value of a law as text, in the unit of the laboratory, or in SI where there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ShownLawValue<'a> {
+    pub(crate) value: &'a LawValue,
+    pub(crate) law: Shown,
+    pub(crate) curve: Option<Shown>,
+    pub(crate) relative: String,
+    pub(crate) interval: String,
+}
+
+impl<'a> ShownLawValue<'a> {
+    /// Returns the text of a value.
+    pub(crate) fn new(value: &'a LawValue) -> ShownLawValue<'a> {
+        let estimate = Estimate {
+            value: value.law,
+            standard_error: None,
+            interval: &value.interval,
+            is_positive: true,
+        };
+        let kes = value.units.kes.as_ref();
+        let (in_si, unit) = kes.map_or((1.0, &value.units.si), |unit| (unit.in_si, &unit.name));
+        let Scaled { shown, interval } = estimate.scaled(in_si, unit);
+        ShownLawValue {
+            value,
+            law: shown,
+            curve: value.curve.map(|curve| Shown::bare(curve / in_si, unit)),
+            relative: value.relative_error().map_or_else(String::new, percent),
+            interval: match value.interval.reason() {
+                Some(reason) if interval.is_empty() => reason.to_owned(),
+                Some(reason) => format!("{interval}: {reason}"),
+                None => interval,
+            },
+        }
+    }
+
+    /// Returns the interval, typeset.
+    pub(crate) fn print_interval(&self) -> String {
+        typeset(&self.interval)
+    }
+}
+
+/// Number in SI with its uncertainty.
+struct Estimate<'a> {
+    value: f64,
+    standard_error: Option<f64>,
+    interval: &'a Interval,
+    /// Whether the number can only be positive: an interval that reaches zero has no lower end.
+    is_positive: bool,
+}
+
+/// Number and its interval in one unit, rounded to the same decimal place.
 struct Scaled {
     shown: Shown,
     interval: String,
 }
 
-impl Scaled {
-    fn new(parameter: &Parameter, in_si: f64, unit: &str) -> Scaled {
+impl Estimate<'_> {
+    /// Returns the number in a unit.
+    fn scaled(&self, in_si: f64, unit: &str) -> Scaled {
         let scale = |number: f64| number / in_si;
         // A 95 % interval is four standard errors wide.
-        let width = match parameter.interval {
+        let width = match *self.interval {
             Interval::Between { lower, upper } => Some(0.25 * (upper - lower)),
             _ => None,
         };
-        let uncertainty = parameter.standard_error.or(width).map(scale);
-        let notation = Notation::of(scale(parameter.value), uncertainty);
+        let uncertainty = self.standard_error.or(width).map(scale);
+        let notation = Notation::of(scale(self.value), uncertainty);
         let write = |number: f64| notation.mantissa(scale(number));
         let power = notation.power();
-        let interval = match parameter.interval {
+        let interval = match *self.interval {
+            _ if self.is_positive && self.interval.is_vague() => NOT_DETERMINED.to_owned(),
+            Interval::Between { lower, upper } if self.is_positive && lower <= 0.0 => {
+                format!("below {}", notation.whole(scale(upper)))
+            }
             Interval::Between { lower, upper } => match [lower, upper].map(scale) {
                 bounds if bounds.iter().all(|bound| notation.suits(*bound)) => {
                     format!("[{}, {}]{power}", write(lower), write(upper))
@@ -146,13 +211,13 @@ impl Scaled {
                     format!("[{}, {}]", significant(lower, DIGITS), significant(upper, DIGITS))
                 }
             },
-            Interval::Above { lower, .. } => format!("> {}", notation.whole(scale(lower))),
-            Interval::Below { upper, .. } => format!("< {}", notation.whole(scale(upper))),
+            Interval::Above { lower, .. } => format!("above {}", notation.whole(scale(lower))),
+            Interval::Below { upper, .. } => format!("below {}", notation.whole(scale(upper))),
             Interval::Unknown { .. } | Interval::Fixed { .. } => String::new(),
         };
         let shown = Shown {
-            value: write(parameter.value),
-            error: parameter.standard_error.map(write),
+            value: write(self.value),
+            error: self.standard_error.map(write),
             power,
             unit: unit.to_owned(),
         };
@@ -197,13 +262,18 @@ mod tests {
             incidental: false,
         };
         let shown = ShownParameter::new(&parameter);
-        assert_eq!(shown.interval, "< 9.250");
+        assert_eq!(shown.interval, "below 9.250");
         assert_eq!(shown.reason, Some("the fit is as good without"));
         let wide = Interval::Between { lower: 0.5, upper: 7.9e47 };
         let parameter = Parameter { interval: wide, standard_error: Some(2.5), ..parameter };
-        assert_eq!(ShownParameter::new(&parameter).interval, "[0.5000, 7.900e47]");
+        assert_eq!(ShownParameter::new(&parameter).interval, "not determined by this curve");
+        let signed = Parameter { incidental: true, ..parameter.clone() };
+        assert_eq!(ShownParameter::new(&signed).interval, "[0.5000, 7.900e47]");
+        let to_zero = Interval::Between { lower: -1.0, upper: 9.0 };
+        let parameter = Parameter { interval: to_zero, ..parameter };
+        assert_eq!(ShownParameter::new(&parameter).interval, "below 9.0");
         let far = Interval::Below { upper: 7.9e47, reason: String::new() };
         let parameter = Parameter { interval: far, ..parameter };
-        assert_eq!(ShownParameter::new(&parameter).interval, "< 7.900e47");
+        assert_eq!(ShownParameter::new(&parameter).interval, "below 7.900e47");
     }
 }

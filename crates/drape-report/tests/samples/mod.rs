@@ -7,7 +7,8 @@ use drape_report::plot::{
     Point, Trace,
 };
 use drape_report::{
-    FitPage, Interval, KesValue, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
+    FitPage, Interval, KesValue, LawReport, LawValue, ModelScore, Parameter, Quantity, Statistics,
+    Units,
 };
 
 pub const GRAM_FORCE_PER_CM: f64 = 0.980_665;
@@ -72,11 +73,20 @@ pub fn a_page() -> FitPage {
             converged: true,
             stop: "the sum of squares no longer falls".to_owned(),
         }),
+        values: vec![LawValue {
+            symbol: "2HB".to_owned(),
+            name: "bending loop width".to_owned(),
+            units: Units::si("N").with_kes("gf·cm/cm", 9.80665e-3),
+            law: 0.1245 * 9.80665e-3,
+            curve: Some(0.112 * 9.80665e-3),
+            interval: Interval::Between { lower: 0.11 * 9.80665e-3, upper: 0.13 * 9.80665e-3 },
+        }],
         models: vec![ModelScore {
             name: "first order".to_owned(),
             parameters: 3,
             misfit: 0.0123,
             aicc: -812.4,
+            prediction: None,
             chosen: true,
         }],
         parameters: vec![
