@@ -91,11 +91,11 @@ fn cases() -> Vec<Case> {
     let bending = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: 6e-6 },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(3e-4, 15.0).into(),
+        friction: BlimanSorine::first_order(3e-4, 15.0),
     };
     let shear = ShearLaw {
         backbone: ShearBackbone::Linear { stiffness: 30.0 },
-        friction: BlimanSorine::first_order(0.9, 0.008).into(),
+        friction: BlimanSorine::first_order(0.9, 0.008),
         growth: 8.0,
         locking: None,
     };

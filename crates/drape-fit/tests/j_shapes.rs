@@ -6,7 +6,7 @@
 
 mod random;
 
-use drape_fit::{CurveFit, Settings, ValueEstimate, identify_tensile};
+use drape_fit::{Candidate, CurveFit, Settings, ValueEstimate, identify_tensile};
 use drape_kes::{Curve, Direction, Symbol, Test};
 use random::Random;
 
@@ -159,110 +159,94 @@ fn limit(symbol: Symbol) -> f64 {
     if symbol == Symbol::Rt { 0.03 } else { 0.02 }
 }
 
-/// Outcome of the draws of one kind.
+/// Largest relative error of a value that is called known.
+const KNOWN: f64 = 0.05;
+
+/// What the fits of some kinds gave.
 #[derive(Default)]
-struct Outcome {
-    draws: usize,
-    misfit: f64,
-    /// Largest relative deviation of each value.
-    deviations: [f64; 4],
-    /// Values within their interval.
-    held: usize,
+struct Tally {
     values: usize,
+    /// Values within their intervals.
+    held: usize,
+    /// Part of its values within their intervals, for the kind with the fewest.
+    worst: Option<(f64, Kind)>,
     faults: Vec<String>,
 }
 
-impl Outcome {
-    fn note(&mut self, kind: &Kind, fit: &CurveFit) {
-        self.draws += 1;
-        self.misfit = self.misfit.max(fit.misfit);
-        if fit.misfit > 0.02 {
-            self.faults.push(format!("misfit {:.2} %", 100.0 * fit.misfit));
+impl Tally {
+    /// Adds some draws of a kind.
+    fn add(&mut self, kind: &Kind, draws: usize, random: &mut Random) {
+        let (mut values, mut held) = (0, 0);
+        for _ in 0..draws {
+            let Some(curve) = kind.curve(random) else { return };
+            let fit = identify_tensile(&curve, &Settings::default()).expect("a law").fit;
+            self.faults.extend(faults(kind, &fit).into_iter().map(|f| format!("{kind:?}: {f}")));
+            values += fit.values.len();
+            held += fit.values.iter().filter(|value| holds(value, kind)).count();
         }
-        if !fit.stop.converged() {
-            self.faults.push(format!("{:?}", fit.stop));
+        let part = held as f64 / values as f64;
+        if self.worst.is_none_or(|(least, _)| part < least) {
+            self.worst = Some((part, *kind));
         }
-        assert_eq!(fit.values.len(), 4, "{kind:?}: {:?}", fit.values);
-        for (index, estimate) in fit.values.iter().enumerate() {
-            let ValueEstimate { symbol, value, interval, .. } = estimate;
-            let truth = kind.truth(*symbol);
-            let deviation = value / truth - 1.0;
-            self.deviations[index] = self.deviations[index].max(deviation.abs());
-            if deviation.abs() > limit(*symbol) {
-                self.faults.push(format!("{} {:+.2} %", symbol.name(), 100.0 * deviation));
-            }
-            if estimate.relative_error().is_none_or(|error| error > 0.05) {
-                self.faults.push(format!("{} {interval:?}", symbol.name()));
-            }
-            self.values += 1;
-            if let Ok([low, high]) = interval
-                && (truth < *low || truth > *high)
-                && std::env::var("OUT").is_ok()
-            {
-                println!(
-                    "out {} truth {truth} law {value} curve {:?} [{low}, {high}] {kind:?}",
-                    symbol.name(),
-                    estimate.curve
-                );
-            }
-            let holds = |[low, high]: &[f64; 2]| (*low..=*high).contains(&truth);
-            self.held += usize::from(interval.as_ref().is_ok_and(holds));
-        }
+        self.values += values;
+        self.held += held;
+    }
+
+    fn assert_good(&self) {
+        assert_eq!(self.faults, [""; 0]);
+        let part = self.held as f64 / self.values as f64;
+        assert!(part >= 0.9, "{} of {} values in their intervals", self.held, self.values);
     }
 }
 
-fn study(kinds: &[Kind], draws: usize) -> (usize, usize) {
-    let mut random = Random(11);
-    let (mut held, mut values, mut faulty) = (0, 0, 0);
-    let mut worst_cell = (1.0, String::new());
-    for kind in kinds {
-        let mut outcome = Outcome::default();
-        for _ in 0..draws {
-            let Some(curve) = kind.curve(&mut random) else { continue };
-            let found = identify_tensile(&curve, &Settings::default()).expect("identified");
-            outcome.note(kind, &found.fit);
-            if draws > 0 && !outcome.faults.is_empty() && outcome.draws <= 2 {
-                let chosen = &found.fit.candidates[found.fit.chosen];
-                println!("  {} {:?}", chosen.law, found.law);
-                for candidate in &found.fit.candidates {
-                    println!(
-                        "    {} {:.2} % {:?} {:?}",
-                        candidate.law,
-                        100.0 * candidate.misfit,
-                        candidate.criterion,
-                        candidate.prediction
-                    );
-                }
-                println!("    noise {} effective {}", found.fit.noise, found.fit.effective_points);
-            }
-        }
-        if outcome.draws == 0 {
-            continue;
-        }
-        let coverage = outcome.held as f64 / outcome.values as f64;
-        if coverage < worst_cell.0 {
-            worst_cell = (coverage, format!("{kind:?}"));
-        }
-        (held, values) = (held + outcome.held, values + outcome.values);
-        if !outcome.faults.is_empty() {
-            faulty += 1;
-            let deviations = outcome.deviations.map(|deviation| 100.0 * deviation);
-            println!(
-                "{kind:?}: misfit {:.2} %, LT WT RT EM {deviations:.2?}, {} of {}; {:?}",
-                100.0 * outcome.misfit,
-                outcome.held,
-                outcome.values,
-                &outcome.faults[..outcome.faults.len().min(4)]
-            );
+/// Returns whether the interval of a value holds the truth.
+fn holds(estimate: &ValueEstimate, kind: &Kind) -> bool {
+    let truth = kind.truth(estimate.symbol);
+    estimate.interval.as_ref().is_ok_and(|[low, high]| (*low..=*high).contains(&truth))
+}
+
+/// Returns what is wrong with the fit of a curve: a misfit, a value that is off, or one that is not
+/// known well enough for a verdict of good.
+fn faults(kind: &Kind, fit: &CurveFit) -> Vec<String> {
+    let mut faults = Vec::new();
+    if fit.misfit > Candidate::FOLLOWS || !fit.stop.converged() {
+        faults.push(format!("misfit {:.2} %, {:?}", 100.0 * fit.misfit, fit.stop));
+    }
+    assert_eq!(fit.values.len(), 4, "{kind:?}: {:?}", fit.values);
+    for estimate in &fit.values {
+        let deviation = estimate.value / kind.truth(estimate.symbol) - 1.0;
+        let known = estimate.relative_error().is_some_and(|error| error <= KNOWN);
+        if deviation.abs() > limit(estimate.symbol) || !known {
+            faults.push(format!("{:+.2} %: {estimate:?}", 100.0 * deviation));
         }
     }
-    println!("{held} of {values} values in their intervals; worst {worst_cell:?}; {faulty} faulty");
-    (held, values)
+    faults
 }
 
 #[test]
-#[ignore = "takes minutes"]
 fn curves_of_every_shape_give_laws_with_their_values() {
+    let mut tally = Tally::default();
+    let mut random = Random(11);
+    // Every shape and linearity once, with the other properties in turn.
+    for (index, kind) in kinds().iter().enumerate().filter(|(index, _)| index % 19 == 0) {
+        tally.add(kind, 1 + index % 2, &mut random);
+    }
+    assert!(tally.values > 80, "{}", tally.values);
+    tally.assert_good();
+}
+
+#[test]
+#[ignore = "takes an hour"]
+fn curves_of_every_kind_give_laws_with_their_values() {
     let draws = std::env::var("DRAWS").map_or(20, |draws| draws.parse().expect("a number"));
-    study(&kinds(), draws);
+    let mut tally = Tally::default();
+    let mut random = Random(11);
+    for kind in kinds() {
+        tally.add(&kind, draws, &mut random);
+    }
+    println!(
+        "{} of {} values in their intervals, worst {:?}",
+        tally.held, tally.values, tally.worst
+    );
+    tally.assert_good();
 }

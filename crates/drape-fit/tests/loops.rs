@@ -62,10 +62,6 @@ fn value(fit: &CurveFit, symbol: Symbol) -> f64 {
 /// Asserts that a law follows its curve and has the values that are read off it.
 fn assert_followed(name: &str, fit: &CurveFit) {
     let law = &fit.candidates[fit.chosen].law;
-    println!("{name}: {law}, misfit {:.2} %, {:?}", 100.0 * fit.misfit, fit.remarks);
-    for v in &fit.values {
-        println!("   {v:?}");
-    }
     assert!(fit.misfit < 0.02, "{name}: {law} misses by {}", fit.misfit);
     for value in &fit.values {
         let Ok(read) = value.curve else { continue };
@@ -136,7 +132,6 @@ fn loops_to_other_limits_give_the_laws_of_the_fabric() {
     let mut random = Random(4);
     for (limit, named) in [(100.0, true), (250.0, false), (400.0, false)] {
         let fit = Loop { limit, ..BENDING }.fit(&mut random);
-        println!("{limit} {:?} {:?}", fit.candidates, fit.parameters);
         assert!(
             (value(&fit, Symbol::B) / 0.101_97 - 1.0).abs() < 0.02,
             "{limit}: {:?}",
@@ -165,7 +160,6 @@ fn faces_that_differ_and_offsets_are_told_and_their_mean_is_kept() {
     let mut random = Random(5);
     let elastic: fn(f64) -> f64 = |k| if k > 0.0 { 1.15e-5 * k } else { 0.85e-5 * k } + 3e-4;
     let fit = Loop { elastic, ..BENDING }.fit(&mut random);
-    println!("{:?} {:?}", fit.values, fit.remarks);
     assert!((value(&fit, Symbol::B) / 0.101_97 - 1.0).abs() < 0.03, "{:?}", fit.values);
     assert!((value(&fit, Symbol::TwoHb) / 0.101_97 - 1.0).abs() < 0.03, "{:?}", fit.values);
     assert!(fit.remarks.iter().any(|remark| remark.contains("sides of the fabric differ")));

@@ -137,7 +137,7 @@ fn primed(random: &mut Random) -> (Vec<f64>, TractionLaw, f64) {
     if let TractionBackbone::Primed(primed) = &mut law.backbone {
         primed.stiffness = stiffness;
     }
-    law.friction = BlimanSorine::first_order(plateau, length).into();
+    law.friction = BlimanSorine::first_order(plateau, length);
     (vec![stiffness, toe_ratio, toe_strain, growth, plateau, length], law, top)
 }
 
@@ -170,7 +170,7 @@ fn a_polynomial_traction_law_is_recovered() {
         let (plateau, length) = (random.between(2.0, 40.0), top * random.logarithmic(0.01, 0.2));
         let law = TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic, quartic }),
-            friction: BlimanSorine::first_order(plateau, length).into(),
+            friction: BlimanSorine::first_order(plateau, length),
             buckling: Buckling::default(),
         };
         let curve = curve(Test::Tensile, &law, history(&[0.0, top, 0.0], top / 120.0), 0.0);
@@ -207,7 +207,7 @@ fn a_bending_law_with_first_order_friction_is_recovered() {
         let law = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity },
             rest_curvature: 0.0,
-            friction: BlimanSorine::first_order(plateau, length).into(),
+            friction: BlimanSorine::first_order(plateau, length),
         };
         let curve = curve(Test::Bending, &law, bending_history(), zero);
         let truth = vec![rigidity, zero, plateau, length];
@@ -271,7 +271,7 @@ fn shear(random: &mut Random, grows: bool) -> (Vec<f64>, Curve) {
     let zero = stiffness * random.between(-0.01, 0.01);
     let law = ShearLaw {
         backbone: ShearBackbone::Linear { stiffness },
-        friction: BlimanSorine::first_order(plateau, length).into(),
+        friction: BlimanSorine::first_order(plateau, length),
         growth,
         locking: None,
     };

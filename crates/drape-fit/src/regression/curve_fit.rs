@@ -135,7 +135,7 @@ pub(crate) const COMPARED_POINTS: usize = 1500;
 /// the selected one at all points of the curve. The selection is made without weights: a criterion of weighted
 /// residuals would take the noise of heavy points for structure.
 pub(crate) fn fit_curve<'a>(
-    curve: &'a Curve,
+    curve: &Curve,
     compared: &Curve,
     models: &[CandidateModel<'_>],
     forward: impl FnOnce(usize) -> Box<dyn ForwardModel + 'a>,

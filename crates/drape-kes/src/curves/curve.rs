@@ -180,7 +180,7 @@ impl Curve {
     }
 
     /// Returns the curve with strains that count from `zero`, a ratio.
-    pub(crate) fn from_strain(&self, zero: f64) -> Self {
+    pub(crate) fn counted_from(&self, zero: f64) -> Self {
         let mut curve = self.clone();
         curve.deformation.iter_mut().for_each(|strain| *strain -= zero);
         if let Some(Preparation { rupture: Some(rupture), .. }) = &mut curve.preparation {

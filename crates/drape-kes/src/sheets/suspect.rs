@@ -329,7 +329,7 @@ fn from_zero(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<C
     }
     let message = format!("starts at a strain of {start:.4e} without load");
     findings.warn(&keys.deformation, message, "the start was taken as zero");
-    Some(curve.from_strain(start))
+    Some(curve.counted_from(start))
 }
 
 /// Shifts a tensile test to begin at a given zero of strain, and leaves out the slack before it.
@@ -339,7 +339,7 @@ fn from_given_zero(
     keys: &Keys,
     findings: &mut Findings<'_>,
 ) -> Option<Curve> {
-    let shifted = curve.from_strain(zero).taut();
+    let shifted = curve.counted_from(zero).taut();
     if shifted.is_none() {
         let range = curve.deformation_range();
         let message = format!(
