@@ -4,6 +4,8 @@
 //! The curves come from formulas that are none of the laws. `cargo test --release -p drape-fit --test
 //! j_shapes -- --ignored --nocapture` prints the whole study.
 
+#![allow(clippy::print_stdout, reason = "a study prints its figures")]
+
 mod random;
 
 use drape_fit::{Candidate, CurveFit, Settings, ValueEstimate, identify_tensile};

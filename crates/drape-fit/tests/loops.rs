@@ -7,6 +7,9 @@ use drape_fit::{CurveFit, Settings, identify_bending, identify_shear};
 use drape_kes::{Curve, Direction, Symbol, Test};
 use random::Random;
 
+/// Name of a shape, and its load at a deformation; both are ratios.
+type NamedShape = (&'static str, fn(f64) -> f64);
+
 /// Loop with an elastic part and friction that follows Dahl's equation with a plateau of its own at
 /// each deformation.
 struct Loop {
@@ -94,7 +97,7 @@ const BENDING: Loop = Loop {
 fn shear_that_stiffens_within_the_test_is_followed() {
     let mut random = Random(1);
     // The wool of 283, 393 and 596 N/m at 0.5 to 2.5, 2.5 to 5 and 5 to 7.9 degrees, and two more.
-    let shapes: [(&str, fn(f64) -> f64); 3] = [
+    let shapes: [NamedShape; 3] = [
         ("cubic", |s| 270.0 * s + 9000.0 * s.powi(3)),
         ("hyperbolic sine", |s| 20.0 * 0.04 * (s / 0.04).sinh()),
         ("locking", |s| 30.0 * s / (1.0 - (s / 0.19).powi(2))),
@@ -108,7 +111,7 @@ fn shear_that_stiffens_within_the_test_is_followed() {
 #[test]
 fn bending_that_softens_is_followed() {
     let mut random = Random(2);
-    let shapes: [(&str, fn(f64) -> f64); 3] = [
+    let shapes: [NamedShape; 3] = [
         ("tangent hyperbolic", |k| 1.2e-5 * 180.0 * (k / 180.0).tanh()),
         ("two lines", |k| 5e-6 * k + 8e-6 * k.clamp(-60.0, 60.0)),
         ("root", |k| 1.5e-4 * k.signum() * ((1.0 + k.abs() / 10.0).sqrt() - 1.0)),

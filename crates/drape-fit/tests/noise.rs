@@ -2,6 +2,8 @@
 //!
 //! `cargo test --release -p drape-fit --test noise -- --ignored --nocapture` prints the whole study.
 
+#![allow(clippy::print_stdout, reason = "a study prints its figures")]
+
 mod random;
 
 use drape_fit::{CurveFit, Settings, identify_bending, identify_shear, identify_tensile};

@@ -137,7 +137,7 @@ fn primed(random: &mut Random) -> (Vec<f64>, TractionLaw, f64) {
     if let TractionBackbone::Primed(primed) = &mut law.backbone {
         primed.stiffness = stiffness;
     }
-    law.friction = BlimanSorine::first_order(plateau, length);
+    law.friction = BlimanSorine::first_order(plateau, length).into();
     (vec![stiffness, toe_ratio, toe_strain, growth, plateau, length], law, top)
 }
 
@@ -170,7 +170,7 @@ fn a_polynomial_traction_law_is_recovered() {
         let (plateau, length) = (random.between(2.0, 40.0), top * random.logarithmic(0.01, 0.2));
         let law = TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic, quartic }),
-            friction: BlimanSorine::first_order(plateau, length),
+            friction: BlimanSorine::first_order(plateau, length).into(),
             buckling: Buckling::default(),
         };
         let curve = curve(Test::Tensile, &law, history(&[0.0, top, 0.0], top / 120.0), 0.0);
