@@ -21,6 +21,9 @@ const INCH: f64 = 0.0254;
 /// Standard pound-force, in newtons.
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
+/// Ounce of avoirdupois over a square yard, in kg/m².
+const OUNCE_PER_SQUARE_YARD: f64 = 0.028_349_523_125 / (0.9144 * 0.9144);
+
 /// One degree, in radians.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -147,6 +150,7 @@ impl Quantity {
                 ("N/5cm", 20.0),
                 ("lbf/in", POUND_FORCE / INCH),
                 ("g/cm", 1e2 * GRAM_FORCE),
+                ("mN/cm", 1e-1),
             ],
             Self::Moment => &[
                 ("gf.cm", 1e-2 * GRAM_FORCE),
@@ -171,6 +175,9 @@ impl Quantity {
                 ("N.mm/mm", 1.0),
                 ("gf.mm/mm", GRAM_FORCE),
                 ("g.cm/cm", GRAM_FORCE),
+                ("cN.cm/cm", 1e-2),
+                ("uN.m/m", 1e-6),
+                ("cN", 1e-2),
             ],
             Self::BendingRigidity => &[
                 ("gf.cm2/cm", 1e-2 * GRAM_FORCE),
@@ -181,20 +188,48 @@ impl Quantity {
                 ("mN.mm", 1e-6),
                 ("mN.cm2/cm", 1e-5),
                 ("gf.cm", 1e-2 * GRAM_FORCE),
+                // Japanese laboratories print the force of a mass by the mass.
+                ("g.cm2/cm", 1e-2 * GRAM_FORCE),
+                ("g.cm", 1e-2 * GRAM_FORCE),
+                // The flexural rigidity of the cantilever test is the force of a mass times a length.
+                ("mgf.cm", 1e-5 * GRAM_FORCE),
+                ("mg.cm", 1e-5 * GRAM_FORCE),
+                ("cN.cm2/cm", 1e-4),
+                ("N.cm2/cm", 1e-2),
+                ("mN.m2/m", 1e-3),
+                ("uN.m2/m", 1e-6),
+                ("mN.mm2/mm", 1e-6),
+                ("N.mm2/mm", 1e-3),
+                ("mN.cm", 1e-5),
+                ("cN.cm", 1e-4),
+                ("N.mm", 1e-3),
+                ("uN.mm", 1e-9),
+                ("nN.m", 1e-9),
             ],
             Self::ShearStiffness => &[
                 ("gf/(cm.deg)", 1e2 * GRAM_FORCE / DEGREE),
                 ("gf/cm.deg", 1e2 * GRAM_FORCE / DEGREE),
                 ("gf/cm/deg", 1e2 * GRAM_FORCE / DEGREE),
+                ("g/(cm.deg)", 1e2 * GRAM_FORCE / DEGREE),
+                ("g/cm.deg", 1e2 * GRAM_FORCE / DEGREE),
+                ("g/cm/deg", 1e2 * GRAM_FORCE / DEGREE),
+                ("cN/(cm.deg)", 1.0 / DEGREE),
+                ("cN/cm.deg", 1.0 / DEGREE),
+                ("cN/cm/deg", 1.0 / DEGREE),
                 ("N/(m.rad)", 1.0),
                 ("N/m.rad", 1.0),
                 ("N/m/rad", 1.0),
                 ("N/(m.deg)", 1.0 / DEGREE),
+                ("N/m.deg", 1.0 / DEGREE),
                 ("N/m/deg", 1.0 / DEGREE),
                 ("N/m", 1.0),
             ],
             Self::WorkPerArea => &[
                 ("gf.cm/cm2", 1e2 * GRAM_FORCE),
+                ("g.cm/cm2", 1e2 * GRAM_FORCE),
+                ("gf/cm", 1e2 * GRAM_FORCE),
+                ("cN.cm/cm2", 1.0),
+                ("N.cm/cm2", 1e2),
                 ("J/m2", 1.0),
                 ("N.m/m2", 1.0),
                 ("N/m", 1.0),
@@ -211,9 +246,15 @@ impl Quantity {
                 ("kgf/cm2", 1e7 * GRAM_FORCE),
             ],
             Self::Roughness => &[("um", 1e-6), ("mm", 1e-3), ("m", 1.0)],
-            Self::MassPerArea => {
-                &[("mg/cm2", 1e-2), ("kg/m2", 1.0), ("g/m2", 1e-3), ("g/cm2", 10.0), ("gsm", 1e-3)]
-            }
+            Self::MassPerArea => &[
+                ("mg/cm2", 1e-2),
+                ("kg/m2", 1.0),
+                ("g/m2", 1e-3),
+                ("g/cm2", 10.0),
+                ("gsm", 1e-3),
+                ("gr/m2", 1e-3),
+                ("oz/yd2", OUNCE_PER_SQUARE_YARD),
+            ],
             Self::Time => &[("s", 1.0), ("ms", 1e-3), ("min", 60.0)],
             Self::Speed => &[("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)],
             Self::AngularSpeed => &[("deg/s", DEGREE), ("rad/s", 1.0), ("1/min", 6.0 * DEGREE)],
@@ -295,8 +336,9 @@ pub fn is_unit(text: &str) -> bool {
         Quantity::MomentPerWidth,
         Quantity::Pressure,
     ];
-    const OTHERS: [&str; 14] = [
-        "s", "sec", "min", "ms", "h", "MPa", "Pa", "kPa", "N/mm2", "J", "mJ", "C", "mm/min", "mm/s",
+    const OTHERS: [&str; 26] = [
+        "s", "sec", "min", "ms", "h", "MPa", "Pa", "kPa", "N/mm2", "J", "mJ", "C", "mm/min",
+        "mm/s", "degC", "degF", "V", "mV", "mA", "Hz", "1/s", "s-1", "%/s", "%/min", "uJ", "GPa",
     ];
     let text = text.trim();
     let bare_number = text.parse::<f64>().is_ok();
@@ -341,23 +383,43 @@ fn normal_form(text: &str) -> String {
     let mut normal = String::with_capacity(text.len());
     for c in text.trim().chars() {
         match c {
-            '·' | '*' | '×' | '⋅' | ' ' | '・' | '･' | '•' => normal.push('.'),
+            '·' | '*' | '×' | '⋅' | ' ' | '・' | '･' | '•' | '‧' | '∙' | '．' | '＊'
+            | '\u{3000}' => normal.push('.'),
+            // Units that Japanese and Chinese programs write as one sign.
+            '㎎' => normal.push_str("mg"),
+            '㎏' => normal.push_str("kg"),
+            '㎜' => normal.push_str("mm"),
+            '㎝' => normal.push_str("cm"),
+            '㎛' => normal.push_str("um"),
+            '㎟' => normal.push_str("mm2"),
+            '㎠' => normal.push_str("cm2"),
+            '㎡' => normal.push_str("m2"),
+            '℃' => normal.push_str("degC"),
+            '\u{ff10}'..='\u{ff19}' => normal.extend(char::from_u32(c as u32 - 0xfee0)),
+            '－' => normal.push('-'),
             '／' => normal.push('/'),
             '％' => normal.push('%'),
             '（' => normal.push('('),
             '）' => normal.push(')'),
             '\u{ff21}'..='\u{ff5a}' => normal.extend(char::from_u32(c as u32 - 0xfee0)),
             '²' => normal.push('2'),
+            '³' => normal.push('3'),
             '⁻' | '−' => normal.push('-'),
             '¹' => normal.push('1'),
             '^' => {}
             'µ' | 'μ' => normal.push('u'),
-            '°' => normal.push_str("deg"),
+            '°' | 'º' | '゜' | '度' => normal.push_str("deg"),
             other => normal.push(other),
         }
     }
+    let normal = normal.replace("degrees", "deg").replace("degree", "deg");
     match normal.as_str() {
-        "degree" | "degrees" | "deg." | "Deg" | "DEG" | "Grad" | "度" => "deg".to_owned(),
+        "deg." | "Deg" | "DEG" | "Grad" | "grados" | "graus" => "deg".to_owned(),
+        "micron" | "microns" | "Micron" | "ミクロン" | "微米" => "um".to_owned(),
+        // German programs write the product without a sign.
+        "Nm" | "Nmm" | "Ncm" | "mNm" | "mNmm" | "mNcm" | "uNm" | "cNcm" | "cNmm" => {
+            normal.replacen('N', "N.", 1)
+        }
         "percent" | "Percent" | "pct" | "Prozent" => "%".to_owned(),
         // Capitals where they mean nothing else; MN would be a million newtons.
         "MM" | "CM" | "GF" | "KGF" | "Kgf" | "Gf" | "GF/CM" | "gF/cm" | "Gf/cm" | "KN" | "IN" => {
@@ -367,7 +429,11 @@ fn normal_form(text: &str) -> String {
                 normal.to_lowercase()
             }
         }
-        _ => normal.replace("grf", "gf").replace("gfcm", "gf.cm"),
+        _ => {
+            let parts = normal.replace("grf", "gf").replace("gfcm", "gf.cm");
+            // gf/cm° and (cm°) have no sign between.
+            parts.replace("cmdeg", "cm.deg")
+        }
     }
 }
 
@@ -410,6 +476,36 @@ mod tests {
             let unit = parse_unit(text, &[Quantity::ForcePerWidth]).unwrap();
             assert_eq!(unit.spelling, "gf/cm", "{text}");
         }
+    }
+
+    #[test]
+    fn units_of_japanese_and_german_sheets_are_those_of_kes() {
+        let cases = [
+            (Quantity::BendingRigidity, "g·cm²/cm", "gf.cm2/cm"),
+            (Quantity::BendingRigidity, "ｇｆ・ｃｍ２／ｃｍ", "gf.cm2/cm"),
+            (Quantity::BendingRigidity, "gf・㎠/㎝", "gf.cm2/cm"),
+            (Quantity::MomentPerWidth, "g・cm/cm", "gf.cm/cm"),
+            (Quantity::ShearStiffness, "g/cm･deg", "gf/(cm.deg)"),
+            (Quantity::ShearStiffness, "gf/cm・degree", "gf/(cm.deg)"),
+            (Quantity::ShearStiffness, "gf/cm・度", "gf/(cm.deg)"),
+            (Quantity::ShearStiffness, "gf/(cm°)", "gf/(cm.deg)"),
+            (Quantity::WorkPerArea, "gf・cm/cm²", "gf.cm/cm2"),
+            (Quantity::WorkPerArea, "g.cm/cm2", "gf.cm/cm2"),
+            (Quantity::Roughness, "micron", "um"),
+            (Quantity::Roughness, "ミクロン", "um"),
+            (Quantity::MassPerArea, "ｍｇ／ｃｍ２", "mg/cm2"),
+            (Quantity::Ratio, "％", "%"),
+            (Quantity::Moment, "Nmm", "N.mm"),
+        ];
+        for (quantity, text, same) in cases {
+            let [unit, same] = [text, same].map(|text| parse_unit(text, &[quantity]).unwrap());
+            assert!((unit.factor / same.factor - 1.0).abs() < 1e-12, "{text}: {unit:?}");
+        }
+        // 1 mg·cm of the cantilever test is 9.80665e-8 N·m, 1 oz/yd² is 33.906 g/m².
+        let flexural = parse_unit("mg.cm", &[Quantity::BendingRigidity]).unwrap().factor;
+        assert!((flexural / 9.806_65e-8 - 1.0).abs() < 1e-12, "{flexural}");
+        let ounces = parse_unit("oz/yd2", &[Quantity::MassPerArea]).unwrap().factor;
+        assert!((ounces / 0.033_905_75 - 1.0).abs() < 1e-6, "{ounces}");
     }
 
     #[test]

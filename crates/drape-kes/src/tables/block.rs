@@ -211,8 +211,12 @@ fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
     let ruled =
         |row: &Row| row.filled().all(|(_, cell)| cell.text().chars().all(|c| "-=_+|~".contains(c)));
     block.above.retain(|row| !ruled(row) || declared == Some(row.line));
-    let units = block.above.last().filter(|row| is_row_of_units(row) && declared != Some(row.line));
-    let units = units.cloned();
+    let units = match block.above.as_slice() {
+        [.., names, units] => Some(units).filter(|units| is_row_of_units(units, Some(names))),
+        [units] => Some(units).filter(|units| is_row_of_units(units, None)),
+        [] => None,
+    };
+    let units = units.filter(|row| declared != Some(row.line)).cloned();
     if units.is_some() {
         block.above.pop();
     }
@@ -309,16 +313,38 @@ pub(crate) fn unbracketed(text: &str) -> &str {
     pairs.into_iter().find_map(inside).map_or(text, str::trim)
 }
 
-/// Returns whether every cell of a row is a unit.
-fn is_row_of_units(row: &Row) -> bool {
-    row.filled().count() > 0
-        && row.filled().all(|(_, cell)| {
-            let text = cell.text();
-            let text = text.trim();
-            // A closing bracket belongs to the unit where there is one within, as in gf/(cm.deg).
-            let seconds = unbracketed(text).eq_ignore_ascii_case("sec");
-            is_unit(text) || is_unit(unbracketed(text)) || seconds || text == "-" || text == "()"
-        })
+/// Letters of a unit that is not known, at most: a longer text is a name.
+const UNKNOWN_UNIT_MAX: usize = 12;
+/// Known units that a row has at least, where others of its units are not known.
+const KNOWN_UNITS_LEAST: usize = 2;
+
+/// Returns whether every cell of a row is a unit. Below a row of names some of the units may be unknown: their
+/// columns are of no use, the others are.
+fn is_row_of_units(row: &Row, names: Option<&Row>) -> bool {
+    let is_known = |cell: &Cell| {
+        let text = cell.text();
+        let text = text.trim();
+        // A closing bracket belongs to the unit where there is one within, as in gf/(cm.deg).
+        let seconds = unbracketed(text).eq_ignore_ascii_case("sec");
+        is_unit(text) || is_unit(unbracketed(text)) || seconds
+    };
+    let is_none = |cell: &Cell| ["-", "()", "[-]", "(-)", "–"].contains(&cell.text().trim());
+    let (known, others): (Vec<_>, Vec<_>) = row.filled().partition(|(_, cell)| is_known(cell));
+    let unknown: Vec<_> = others.iter().filter(|(_, cell)| !is_none(cell)).collect();
+    if unknown.is_empty() {
+        return row.filled().count() > 0;
+    }
+    let may_be = |(column, cell): &&(usize, &Cell)| {
+        let text = cell.text();
+        let name = names.and_then(|names| names.cells.get(*column));
+        let is_named = name.is_some_and(|name| !name.is_empty() && !name.is_number());
+        is_named
+            && !cell.is_number()
+            && text.chars().count() <= UNKNOWN_UNIT_MAX
+            && !unbracketed(&text).contains(' ')
+            && heading::kind(&text).is_none_or(|_| text.chars().count() == 1)
+    };
+    known.len() >= KNOWN_UNITS_LEAST && unknown.len() <= known.len() && unknown.iter().all(may_be)
 }
 
 /// Returns whether a row names the columns of the numbers below it: text over two of them at least.
@@ -364,6 +390,20 @@ mod tests {
         let text = "Warp 1,,Warp 2,\nStrain (%),Force (gf/cm),Strain (%),Force (gf/cm)\n0,0,0,0\n1,2,1,3\n";
         let [block] = &of(text, Lines::default())[..] else { panic!("not one block") };
         assert_eq!(block.groups, ["Warp 1", "Warp 1", "Warp 2", "Warp 2"]);
+    }
+
+    #[test]
+    fn a_unit_that_is_not_known_costs_its_column_only() {
+        for unit in ["Nmm/rev", "Ohm", "1/min²", "灰度"] {
+            let text = format!("Time,Weg,Kraft,Sonst\ns,mm,N,{unit}\n0,0,0,1.5\n1,0.5,2,1.5\n");
+            let [block] = &of(&text, Lines::default())[..] else { panic!("not one block") };
+            assert_eq!((block.header_line, block.units_line), (Some(1), Some(2)), "{unit}");
+            assert_eq!(block.headings[2].unit.as_deref(), Some("N"), "{unit}");
+        }
+        // A row of names below a title is no row of units.
+        let text = "Test,of,cotton\nF,mm,x\n0,0,0\n1,0.5,2\n";
+        let [block] = &of(text, Lines::default())[..] else { panic!("not one block") };
+        assert_eq!((block.header_line, block.units_line), (Some(2), None));
     }
 
     #[test]

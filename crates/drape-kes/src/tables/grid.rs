@@ -1,5 +1,6 @@
 //! Grid of cells: a text file split at its separators, or a sheet of a spreadsheet.
 
+use crate::tables::number::scattered::scattered;
 use crate::tables::number::{self, Decimal, Evidence};
 use drape_input::is_unit;
 
@@ -32,6 +33,12 @@ impl Cell {
             Self::Text(text) => number::evidence(parted(text).0).is_some(),
             Self::Number(_) => true,
         }
+    }
+
+    /// Returns whether the cell is a number, alone or with its scatter: `0.085 ± 0.004`.
+    pub(crate) fn is_value(&self) -> bool {
+        let is_scattered = || matches!(self, Self::Text(text) if scattered(text).is_some());
+        self.is_number() || is_scattered()
     }
 
     /// Returns the number of the cell, without its unit.
@@ -264,7 +271,9 @@ pub(crate) fn separator(text: &str) -> Separator {
     let score = |separator: Separator, least: usize| -> f64 {
         let rows = separator.split(&text[..end]).unwrap_or_default();
         let share = |row: &Row| {
-            let (numbers, filled) = (row.numbers(), row.filled().count());
+            let scattered = |(_, cell): &(usize, &Cell)| !cell.is_number() && cell.is_value();
+            let numbers = row.numbers() + row.filled().filter(scattered).count();
+            let filled = row.filled().count();
             if numbers < least || filled < 2 { 0.0 } else { numbers as f64 / filled as f64 }
         };
         rows.iter().map(share).sum()
@@ -299,6 +308,8 @@ mod tests {
             ("Load cell; 1\n0,5 1,25\n1,0   2\n", Separator::Space),
             ("a|b\n0.5|1.25\n", Separator::Bar),
             ("\"0,5\",\"1,25\"\n\"1,5\",\"2,25\"\n", Separator::Comma),
+            ("a,b\n0.5 ± 0.1,1.25 (0.2)\n", Separator::Comma),
+            ("a;b\n0,5±0,1;1,25±0,2\n3,5;\n", Separator::Semicolon),
             ("nothing\n", Separator::Comma),
         ];
         for (text, found) in cases {

@@ -1,5 +1,11 @@
 //! Headings of columns: name and unit, and the words that tell what a column holds.
 
+pub(crate) mod words;
+
+pub(crate) use self::words::Kind;
+use self::words::{
+    BIAS, DIRECTIONS, JOINED, PARTS, SPECIMENS, SYMBOLS, TESTS, WORDS, Words, single,
+};
 use crate::test::{Direction, Test};
 use drape_input::is_unit;
 
@@ -81,198 +87,11 @@ pub(crate) fn normal(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Kind of a column, by the words of its heading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Strain,
-    /// Lengthening of the specimen, zero at the start.
-    Extension,
-    /// Place of the moving clamp, whose zero is arbitrary.
-    Position,
-    /// Distance of the clamps, the gauge at the start.
-    Distance,
-    Angle,
-    Curvature,
-    Force,
-    Moment,
-    Cycle,
-    Specimen,
-    /// Something else, known by name: time, width, stress, temperature.
-    Other,
-}
-
-/// Words of headings; the first line that has one of them decides, so that "cycle time" is a time,
-/// and "bending moment" no bend.
-///
-/// The words are those of the instruments' programs in English, German, French, Italian, Spanish and
-/// Japanese.
-const WORDS: [(Kind, &[&str]); 11] = [
-    (
-        Kind::Other,
-        &[
-            "time",
-            "zeit",
-            "temps",
-            "tiempo",
-            "tempo",
-            "時間",
-            "stress",
-            "spannung",
-            "contrainte",
-            "応力",
-            "temperature",
-            "temperatur",
-            "温度",
-            "width",
-            "breite",
-            "largeur",
-            "幅",
-            "thickness",
-            "dicke",
-            "épaisseur",
-            "厚",
-            "speed",
-            "geschwindigkeit",
-            "速度",
-            "energy",
-            "work",
-            "仕事",
-            "modulus",
-            "area",
-            "index",
-            "remark",
-            "note",
-            "bemerkung",
-            "備考",
-            "specimen length",
-            "date",
-            "point",
-        ],
-    ),
-    (Kind::Cycle, &["cycle", "zyklus", "zyklen", "ciclo", "サイクル", "回数", "loop no"]),
-    (
-        Kind::Distance,
-        &[
-            "distance",
-            "grip separation",
-            "jaw separation",
-            "einspannlänge",
-            "abstand",
-            "つかみ間",
-            "チャック間",
-        ],
-    ),
-    (
-        Kind::Strain,
-        &[
-            "strain",
-            "dehnung",
-            "déformation",
-            "deformation",
-            "deformazione",
-            "deformación",
-            "ひずみ",
-            "歪",
-            "伸び率",
-            "伸長率",
-            "伸度",
-            "elongation (%)",
-            "nominal strain",
-        ],
-    ),
-    (
-        Kind::Angle,
-        &["angle", "winkel", "angolo", "ángulo", "せん断角", "角度", "ずり角", "φ", "phi"],
-    ),
-    (Kind::Curvature, &["curvature", "krümmung", "courbure", "curvatura", "曲率"]),
-    (
-        Kind::Moment,
-        &["moment", "momento", "モーメント", "曲げ m", "drehmoment", "torque", "トルク"],
-    ),
-    (
-        Kind::Force,
-        &[
-            "force", "load", "kraft", "charge", "forza", "carico", "fuerza", "carga", "荷重", "力",
-            "張力", "tension",
-        ],
-    ),
-    (
-        Kind::Extension,
-        &[
-            "extension",
-            "elongation",
-            "verlängerung",
-            "standardweg",
-            "standard travel",
-            "weg",
-            "allongement",
-            "allungamento",
-            "elongación",
-            "alargamiento",
-            "伸び",
-            "伸長",
-            "変位",
-            "displacement",
-            "déplacement",
-            "extensometer",
-            "längenänderung",
-            "travel",
-            "verfahrweg",
-        ],
-    ),
-    (
-        Kind::Position,
-        &[
-            "position",
-            "crosshead",
-            "traverse",
-            "traverso",
-            "stroke",
-            "ストローク",
-            "クロスヘッド",
-            "hub",
-            "kolbenweg",
-        ],
-    ),
-    (
-        Kind::Specimen,
-        &[
-            "specimen",
-            "sample",
-            "probe",
-            "prüfling",
-            "échantillon",
-            "éprouvette",
-            "provino",
-            "probeta",
-            "試料",
-            "試験片",
-            "サンプル",
-            "test",
-            "repeat",
-            "replicate",
-            "run",
-            "versuch",
-            "essai",
-            "prüfung",
-        ],
-    ),
-];
-
-/// Single letters that are symbols of a column.
-const SYMBOLS: [(Kind, &[&str]); 5] = [
-    (Kind::Strain, &["e", "ε", "eps"]),
-    (Kind::Force, &["f", "p", "fs", "ft"]),
-    (Kind::Curvature, &["k", "κ"]),
-    (Kind::Moment, &["m"]),
-    (Kind::Angle, &["φ", "γ", "θ"]),
-];
-
 /// Returns the kind of a column by its name; `None` where no word is known.
 pub(crate) fn kind(name: &str) -> Option<Kind> {
     let name = normal(name);
     // "Crosshead position" is a place, "crosshead travel" a lengthening: the weaker word is last.
-    let has = |words: &[&str]| words.iter().any(|word| has_word(&name, word));
+    let has = |words: Words| single(words).any(|word| has_word(&name, word));
     let by_word = WORDS.iter().find(|(_, words)| has(words)).map(|(kind, _)| *kind);
     by_word.or_else(|| {
         let letter = name.split(' ').next().unwrap_or("").trim_end_matches(char::is_numeric);
@@ -282,7 +101,7 @@ pub(crate) fn kind(name: &str) -> Option<Kind> {
 
 /// Returns whether a name has a word: at the start of one of its words, or anywhere for the scripts
 /// and languages that join words.
-fn has_word(name: &str, word: &str) -> bool {
+pub(crate) fn has_word(name: &str, word: &str) -> bool {
     let joins = |word: &str| !word.is_ascii() || JOINED.contains(&word);
     name.match_indices(word).any(|(place, _)| {
         let before = name[..place].chars().next_back();
@@ -292,98 +111,6 @@ fn has_word(name: &str, word: &str) -> bool {
         joins(word) || (starts && (ends || word.len() > 4))
     })
 }
-
-/// German words that end others: Standardkraft, Prüfzeit, Schubwinkel.
-const JOINED: [&str; 8] =
-    ["kraft", "weg", "zeit", "winkel", "dehnung", "spannung", "abstand", "moment"];
-
-/// Words of the two directions, in titles, names of sheets and headings.
-const DIRECTIONS: [(Direction, &[&str]); 2] = [
-    (
-        Direction::Warp,
-        &[
-            "warp",
-            "kette",
-            "kettrichtung",
-            "chaîne",
-            "chaine",
-            "ordito",
-            "urdimbre",
-            "たて",
-            "タテ",
-            "経",
-            "经",
-            "wale",
-            "lengthwise",
-            "machine direction",
-            "md",
-        ],
-    ),
-    (
-        Direction::Weft,
-        &[
-            "weft",
-            "filling",
-            "fill",
-            "woof",
-            "schuss",
-            "schussrichtung",
-            "trame",
-            "trama",
-            "よこ",
-            "ヨコ",
-            "緯",
-            "纬",
-            "course",
-            "widthwise",
-            "crosswise",
-            "cross direction",
-            "cd",
-        ],
-    ),
-];
-
-/// Words of the tests, in titles and names of sheets.
-const TESTS: [(Test, &[&str]); 3] = [
-    (
-        Test::Tensile,
-        &[
-            "tensile",
-            "tension",
-            "fb1 tensile",
-            "zug",
-            "zugversuch",
-            "traction",
-            "tens",
-            "extensibility",
-            "trazione",
-            "tracción",
-            "引張",
-            "引っ張り",
-            "拉伸",
-        ],
-    ),
-    (
-        Test::Shear,
-        &["shear", "schub", "scher", "cisaillement", "taglio", "cizalla", "せん断", "剪断", "剪切"],
-    ),
-    (
-        Test::Bending,
-        &[
-            "bending",
-            "pure bending",
-            "fb2",
-            "biege",
-            "biegung",
-            "flexion",
-            "flessione",
-            "flexión",
-            "bend",
-            "曲げ",
-            "弯曲",
-        ],
-    ),
-];
 
 /// Returns the directions that a label names.
 pub(crate) fn directions(label: &str) -> Vec<Direction> {
@@ -395,58 +122,40 @@ pub(crate) fn tests(label: &str) -> Vec<Test> {
     named(&TESTS, label)
 }
 
-fn named<T: Copy>(known: &[(T, &[&str])], label: &str) -> Vec<T> {
-    let label = normal(label);
-    let has = |words: &[&str]| words.iter().any(|word| has_word(&label, word));
-    known.iter().filter(|(_, words)| has(words)).map(|(found, _)| *found).collect()
+/// Returns whether a label names a strip that is cut at 45° to the yarns.
+pub(crate) fn is_bias(label: &str) -> bool {
+    let (label, written) = (normal(label), label.to_lowercase());
+    let is_word = |word: &str| {
+        // "Diagonal twill" is a weave, and so is "斜纹"; the words stand alone.
+        label.match_indices(word).any(|(place, _)| {
+            let before = label[..place].chars().next_back();
+            let after = label[place + word.len()..].chars().next();
+            !word.is_ascii() || [before, after].iter().flatten().all(|c| !c.is_alphabetic())
+        })
+    };
+    // At 45 degrees; a bare 45 is the number of something.
+    let at_45 = written.match_indices("45").any(|(place, _)| {
+        let before = written[..place].chars().next_back();
+        let after = written[place + 2..].trim_start_matches([' ', '_', '-', '\u{a0}']);
+        let is_degree = ["°", "º", "deg", "grad", "度", "゜"].iter().any(|d| after.starts_with(d));
+        let is_signed = matches!(before, Some('±' | '+'));
+        let is_number = before.is_none_or(|c| !c.is_ascii_digit() && !".,".contains(c));
+        is_number && (is_degree || is_signed && !after.starts_with(|c: char| c.is_ascii_digit()))
+    });
+    at_45 || single(BIAS).any(is_word)
 }
 
-/// Words of a part of one history.
-const PARTS: [&str; 17] = [
-    "cycle",
-    "zyklus",
-    "サイクル",
-    "loading",
-    "unloading",
-    "recovery",
-    "return",
-    "belastung",
-    "entlastung",
-    "hin",
-    "rück",
-    "retour",
-    "aller",
-    "往",
-    "復",
-    "回復",
-    "戻り",
-];
+fn named<T: Copy>(known: &[(T, Words)], label: &str) -> Vec<T> {
+    let label = normal(label);
+    let has = |words: Words| single(words).any(|word| has_word(&label, word));
+    known.iter().filter(|(_, words)| has(words)).map(|(found, _)| *found).collect()
+}
 
 /// Returns whether a label names a part of one history: a cycle, the way back.
 pub(crate) fn is_part(label: &str) -> bool {
     let label = normal(label);
-    PARTS.iter().any(|word| has_word(&label, word))
+    single(PARTS).any(|word| has_word(&label, word))
 }
-
-/// Words of a specimen of several, besides its number.
-const SPECIMENS: [&str; 16] = [
-    "specimen",
-    "sample",
-    "probe",
-    "prüfling",
-    "test",
-    "versuch",
-    "repeat",
-    "replicate",
-    "run",
-    "échantillon",
-    "éprouvette",
-    "essai",
-    "試料",
-    "試験片",
-    "n",
-    "no",
-];
 
 /// Returns whether a label is that of one specimen of several: a number, with a word for specimens.
 pub(crate) fn is_specimen(label: &str) -> bool {
@@ -457,7 +166,7 @@ pub(crate) fn is_specimen(label: &str) -> bool {
             let word = word
                 .trim_matches(|letter: char| letter.is_ascii_digit() || "()[],;/".contains(letter));
             word.is_empty()
-                || SPECIMENS.contains(&word)
+                || single(SPECIMENS).any(|specimen| specimen == word)
                 || word == "of"
                 || !directions(word).is_empty()
                 || !tests(word).is_empty()
@@ -524,6 +233,61 @@ mod tests {
             assert_eq!(kind(name), Some(found), "{name}");
         }
         assert_eq!(kind("Quux"), None);
+    }
+
+    #[test]
+    fn a_strip_at_45_degrees_is_neither_warp_nor_weft() {
+        for label in [
+            "warp_bias_45deg",
+            "Bias",
+            "45°",
+            "+45",
+            "±45 degrees",
+            "Schräg",
+            "バイアス方向",
+            "45 度",
+            "sens biais",
+        ] {
+            assert!(is_bias(label), "{label}");
+        }
+        for label in
+            ["warp", "sample 45 warp", "145 deg", "0.45 deg", "biased clamp", "斜纹 经向", "W45"]
+        {
+            assert!(!is_bias(label), "{label}");
+        }
+    }
+
+    #[test]
+    fn headings_in_further_languages_tell_what_a_column_holds() {
+        let cases = [
+            ("伸长率(%)", Kind::Strain),
+            ("力 (N)", Kind::Force),
+            ("弯矩", Kind::Moment),
+            ("时间", Kind::Other),
+            ("应力", Kind::Other),
+            ("位移", Kind::Extension),
+            ("Kuvvet", Kind::Force),
+            ("Uzama", Kind::Extension),
+            ("Força", Kind::Force),
+            ("Alongamento", Kind::Extension),
+            ("Deformação", Kind::Strain),
+            ("Tensão", Kind::Other),
+        ];
+        for (name, found) in cases {
+            assert_eq!(kind(&Heading::parse(name).name), Some(found), "{name}");
+        }
+        let cases = [
+            ("经向", Direction::Warp),
+            ("纬向", Direction::Weft),
+            ("縦", Direction::Warp),
+            ("Çözgü yönü", Direction::Warp),
+            ("ATKI", Direction::Weft),
+            ("Urdume", Direction::Warp),
+            ("Trama", Direction::Weft),
+        ];
+        for (label, direction) in cases {
+            assert_eq!(directions(label), [direction], "{label}");
+        }
     }
 
     #[test]

@@ -1,4 +1,6 @@
-//! Numbers as they are written: decimal point or comma, digits in groups, exponents.
+//! Numbers as they are written: decimal point or comma, digits in groups, exponents; with their scatter.
+
+pub(crate) mod scattered;
 
 /// Sign between the whole part of a number and its fraction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -86,10 +86,10 @@ impl Series {
         Diagnostic::new(&self.path, message).on_line(row.line).help(help)
     }
 
-    /// Returns the unit of a column, of its heading or within its cells.
+    /// Returns the unit of a column, within its cells or of its heading.
     pub(crate) fn unit(&self, column: usize) -> Option<&str> {
         let heading = self.block.headings.get(column);
-        heading.and_then(|heading| heading.unit.as_deref()).or(self.cell_unit(column))
+        self.cell_unit(column).or(heading.and_then(|heading| heading.unit.as_deref()))
     }
 
     /// Returns the column of the gauge or the width: its heading is one of some names, and all its rows hold
