@@ -18,6 +18,7 @@ use crate::tables::grid::Grid;
 use crate::tables::layout::Layout;
 use crate::tables::number::Decimal;
 use crate::tables::series::Series;
+use crate::tables::stated::Around;
 use crate::test::{Direction, Test};
 
 /// Endings of files that hold no tables.
@@ -213,7 +214,7 @@ impl Parts {
                 pair: Pair { deformation, load, label: String::new() },
                 decimal: Decimal::Point,
                 label: String::new(),
-                stated: Vec::new(),
+                around: Around::default(),
                 several: false,
                 block,
             };

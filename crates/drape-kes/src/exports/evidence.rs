@@ -30,6 +30,14 @@ pub(crate) struct Evidence {
 struct Scope {
     text: String,
     place: String,
+    /// Whether it is the name of the file or of its folder.
+    is_path: bool,
+}
+
+impl Scope {
+    fn new(text: String, place: String) -> Self {
+        Self { text, place, is_path: false }
+    }
 }
 
 /// Words of the key of a line that says the direction.
@@ -84,9 +92,9 @@ impl Evidence {
     /// Collects the texts about a series: its columns, its title, its sheet, the lines above, the
     /// names of the file and its folder.
     pub(crate) fn of_series(series: &Series, path: &Path) -> Self {
-        let Series { block, pair, stated, .. } = series;
+        let Series { block, pair, around, .. } = series;
         let mut scopes = Vec::new();
-        let mut add = |text: String, place: String| scopes.push(Scope { text, place });
+        let mut add = |text: String, place: String| scopes.push(Scope::new(text, place));
         add(pair.label.clone(), format!("the title \"{}\" of the columns", pair.label));
         let names = [pair.deformation, pair.load].map(|column| block.headings.get(column));
         let names: Vec<&str> = names.into_iter().flatten().map(|h| h.name.as_str()).collect();
@@ -96,7 +104,7 @@ impl Evidence {
         add(title.clone(), format!("the title \"{title}\""));
         let mut evidence = Self { scopes, ..Self::default() };
         evidence.add_lines(&block.above);
-        evidence.add_place(&block.sheet, stated, path);
+        evidence.add_place(&block.sheet, &around.rows, path);
         evidence
     }
 
@@ -108,14 +116,14 @@ impl Evidence {
     }
 
     fn add_place(&mut self, sheet: &str, rows: &[Row], path: &Path) {
-        self.scopes.push(Scope { text: parted(sheet), place: format!("the sheet \"{sheet}\"") });
+        self.scopes.push(Scope::new(parted(sheet), format!("the sheet \"{sheet}\"")));
         self.add_lines(rows);
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let folder = path.parent().and_then(Path::file_name);
         let folder = folder.map(|name| name.to_string_lossy().into_owned());
         for (text, place) in [(stem, "the name of the file"), (folder, "the name of its folder")] {
-            let scope = Scope { text: parted(&text.unwrap_or_default()), place: place.into() };
-            self.scopes.push(scope);
+            let scope = Scope::new(parted(&text.unwrap_or_default()), place.into());
+            self.scopes.push(Scope { is_path: true, ..scope });
         }
         let mut words: Vec<String> = self.scopes.iter().map(|scope| normal(&scope.text)).collect();
         words.extend(rows.iter().map(|row| normal(&of_row(row))));
@@ -134,9 +142,43 @@ impl Evidence {
             if told && cells.len() <= 4 && !YARN.iter().any(|word| has(&key, word)) {
                 let text = cells.join(" ");
                 let place = format!("line {}, \"{text}\"", row.line);
-                self.scopes.push(Scope { text, place });
+                self.scopes.push(Scope::new(text, place));
             }
         }
+        rows.windows(2).for_each(|pair| self.add_values_below(&pair[0], &pair[1]));
+    }
+
+    /// Adds the values that stand below keys of direction or test.
+    fn add_values_below(&mut self, keys: &Row, values: &Row) {
+        let is_table = keys.filled().count() > 1 && keys.numbers() == 0;
+        if !is_table || values.line != keys.line + 1 {
+            return;
+        }
+        for (column, key) in keys.filled() {
+            let key = normal(&key.text());
+            let is_keyed = DIRECTION_KEYS.iter().chain(&TEST_KEYS).any(|word| has(&key, word));
+            let value = values.cells.get(column).filter(|cell| !cell.is_empty());
+            if let Some(value) = value.filter(|_| is_keyed) {
+                let text = value.text();
+                let place = format!("line {}, \"{text}\"", values.line);
+                self.scopes.push(Scope::new(text, place));
+            }
+        }
+    }
+
+    /// Returns the text that says that the strip was cut at 45° to its yarns; `None` where there is none, or a nearer
+    /// text of the file says warp or weft. The names of the file and of its folder are equally near.
+    pub(crate) fn bias(&self) -> Option<String> {
+        for Scope { text, place, .. } in self.scopes.iter().filter(|scope| !scope.is_path) {
+            if heading::is_bias(text) {
+                return Some(place.clone());
+            }
+            if heading::directions(text).len() == 1 {
+                return None;
+            }
+        }
+        let mut names = self.scopes.iter().filter(|scope| scope.is_path);
+        names.find(|scope| heading::is_bias(&scope.text)).map(|scope| scope.place.clone())
     }
 
     /// Returns the direction that the nearest text names; `Err` holds why there is none.
@@ -177,7 +219,7 @@ impl Evidence {
     /// Returns what the nearest text names that names one; `Err` holds a place that names several.
     fn nearest<T: Copy>(&self, of: impl Fn(&str) -> Vec<T>) -> Result<Told<T>, Option<String>> {
         let mut several = None;
-        for Scope { text, place } in &self.scopes {
+        for Scope { text, place, .. } in &self.scopes {
             match of(text).as_slice() {
                 [] => {}
                 [value] => return Ok(Told { value: *value, why: format!("by {place}") }),
@@ -238,6 +280,22 @@ mod tests {
         let told = of("weft/TensileWarp.csv", "").direction().expect("by its name");
         assert_eq!((told.value, told.why.as_str()), (Direction::Warp, "by the name of the file"));
         assert_eq!(of("a/FB2_WP1.txt", "").direction().map(|t| t.value), Ok(Direction::Warp));
+    }
+
+    #[test]
+    fn a_strip_on_the_bias_is_no_warp_unless_a_nearer_text_says_so() {
+        assert!(of("lab/warp_bias_45deg.csv", "").bias().is_some());
+        assert!(of("bias/warp.csv", "").bias().is_some());
+        assert!(of("lab/warp.csv", "Cut;45° to the warp\n").bias().is_some());
+        assert_eq!(of("warp weft bias/a.csv", "Direction;Warp\n").bias(), None);
+        assert_eq!(of("lab/warp 45.csv", "").bias(), None);
+    }
+
+    #[test]
+    fn values_below_their_keys_name_test_and_direction() {
+        let evidence = of("a/b.csv", "試験名;試験日\n織物たて引張;2024/5/1\n");
+        assert_eq!(evidence.test().map(|told| told.value), Some(Test::Tensile));
+        assert_eq!(evidence.direction().map(|told| told.value), Ok(Direction::Warp));
     }
 
     #[test]

@@ -15,7 +15,8 @@ use crate::tables::heading::{self, Kind};
 use crate::tables::layout::{Column, Layout, Take};
 use crate::tables::number::{Decimal, Evidence as Sign};
 use crate::tables::series::Series;
-use crate::tables::stated::{GAUGE, WIDTH, stated};
+use crate::tables::heading::words::Words;
+use crate::tables::stated::{GAUGE, WIDTH};
 use crate::test::{Direction, Test};
 
 /// Tests whose curves are looked for.
@@ -284,11 +285,10 @@ impl Item {
         let whole = quantity(series.pair.load, loads(*test)) == Some(loads(*test)[1]);
         let mut axes = [Vec::new(), Vec::new()];
         let mut missing = Vec::new();
-        let is_open = |words: &[&str]| {
-            stated(&series.stated, words).is_none() && series.size_column(words).is_none()
-        };
-        let gauge = (of_length && is_open(&GAUGE)).then_some(("gauge", "5 cm"));
-        let width = (whole && is_open(&WIDTH)).then_some(("width", "20 cm"));
+        let is_open =
+            |words: Words| series.stated(words).is_none() && series.size_column(words).is_none();
+        let gauge = (of_length && is_open(GAUGE)).then_some(("gauge", "5 cm"));
+        let width = (whole && is_open(WIDTH)).then_some(("width", "20 cm"));
         for (axis, needed) in [gauge, width].into_iter().enumerate() {
             let Some((key, usual)) = needed else { continue };
             let why = if is_kes {
@@ -310,7 +310,7 @@ impl Item {
         let axis = |column: usize,
                     accepted: &[Quantity],
                     assumed: &[Key],
-                    words: &[&str],
+                    words: Words,
                     size: &'static str| {
             let mut keys = Vec::new();
             let heading = series.block.headings.get(column);
@@ -337,8 +337,8 @@ impl Item {
             keys
         };
         [
-            axis(series.pair.deformation, deformations(*test), &assumed[0], &GAUGE, "gauge"),
-            axis(series.pair.load, loads(*test), &assumed[1], &WIDTH, "width"),
+            axis(series.pair.deformation, deformations(*test), &assumed[0], GAUGE, "gauge"),
+            axis(series.pair.load, loads(*test), &assumed[1], WIDTH, "width"),
         ]
     }
 }
@@ -432,8 +432,8 @@ impl Series {
     }
 
     /// Returns the key of the gauge or of the width that the file states.
-    fn size_key(&self, name: &'static str, words: &[&str]) -> Option<Key> {
-        if let Some(found) = stated(&self.stated, words) {
+    fn size_key(&self, name: &'static str, words: Words) -> Option<Key> {
+        if let Some(found) = self.stated(words) {
             let length = format!("{} mm", drape_input::figure(1e3 * found.length));
             let why = format!("\"{}\" on line {}", found.name, found.line);
             return Some(Key::new(name, toml_string(&length), why));

@@ -18,7 +18,8 @@ use crate::sheets::suspect::AsWritten;
 use crate::tables::columns::named;
 use crate::tables::heading::{self, Kind};
 use crate::tables::series::Series;
-use crate::tables::stated::{GAUGE, WIDTH, stated};
+use crate::tables::heading::words::Words;
+use crate::tables::stated::{GAUGE, WIDTH};
 use crate::test::Test;
 use drape_input::{Quantity, Unit, parse_unit};
 
@@ -78,7 +79,7 @@ pub(crate) fn deformation(
         return Some(AxisValues { si, written, reading: name });
     }
     let given = sizes(axis, series, findings)?;
-    let Some((gauge, of_gauge)) = or_of_file(given, series, &GAUGE, findings)? else {
+    let Some((gauge, of_gauge)) = or_of_file(given, series, GAUGE, findings)? else {
         let help = "add gauge = \"5 cm\", or the name of the column that holds it";
         findings.error(&axis.size_key, "is missing: a clamp distance needs it", help);
         return None;
@@ -179,7 +180,7 @@ pub(crate) fn load(
         let si = written.numbers.iter().map(|&load| sign * (load * unit.factor)).collect();
         return Some(AxisValues { si, written: written.as_written(None, None), reading: name });
     }
-    let Some((width, of_width)) = or_of_file(width, series, &WIDTH, findings)? else {
+    let Some((width, of_width)) = or_of_file(width, series, WIDTH, findings)? else {
         let message = format!("is missing: a load in {} needs it", unit.spelling);
         let help = "add width = \"20 cm\", or the name of the column that holds it";
         findings.error(&axis.size_key, message, help);
@@ -275,13 +276,13 @@ fn sizes(
 fn or_of_file(
     given: Option<Vec<f64>>,
     series: &Series,
-    words: &[&str],
+    words: Words,
     findings: &mut Findings<'_>,
 ) -> Option<Option<(Vec<f64>, String)>> {
     if let Some(sizes) = given {
         return Some(Some((sizes, String::new())));
     }
-    if let Some(found) = stated(&series.stated, words) {
+    if let Some(found) = series.stated(words) {
         let place = format!(", \"{}\" on line {}", found.name, found.line);
         return Some(Some((vec![found.length; series.block.rows.len()], place)));
     }

@@ -1,6 +1,26 @@
 //! Characters of a text file: its bytes made into text, by the encoding that they are in.
 
-use encoding_rs::{Encoding, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
+use encoding_rs::{
+    BIG5, EUC_JP, EUC_KR, Encoding, GB18030, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1250,
+    WINDOWS_1251, WINDOWS_1252, WINDOWS_1253, WINDOWS_1254,
+};
+
+use crate::tables::heading;
+
+/// Encodings of files that are not Unicode: those whose characters are letters of the words of tables are taken.
+const CANDIDATES: [&'static Encoding; 10] = [
+    WINDOWS_1252,
+    SHIFT_JIS,
+    GBK,
+    BIG5,
+    EUC_JP,
+    EUC_KR,
+    WINDOWS_1254,
+    WINDOWS_1250,
+    WINDOWS_1251,
+    WINDOWS_1253,
+];
 
 /// Share of zero bytes at even or odd places from which on a text is UTF-16 without a mark.
 ///
@@ -24,6 +44,8 @@ pub(crate) fn by_label(label: &str) -> Option<&'static Encoding> {
         "cp1252" | "ansi" => "windows-1252",
         "utf16" | "utf-16" => "utf-16le",
         "utf8" => "utf-8",
+        "cp936" | "ms936" | "gb" => "gbk",
+        "cp1254" => "windows-1254",
         _ => label.trim(),
     };
     Encoding::for_label(known.as_bytes())
@@ -62,10 +84,48 @@ pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Resul
     if std::str::from_utf8(bytes).is_ok() {
         return taken(UTF_8, bytes, "valid as such");
     }
-    if is_japanese(bytes) {
+    let sample = lines_beyond_ascii(bytes);
+    if let Some(encoding) = by_words(&sample) {
+        return taken(encoding, bytes, "not UTF-8, and its characters are words of tables");
+    }
+    if is_japanese(&sample) {
         return taken(SHIFT_JIS, bytes, "not UTF-8, and its characters are Japanese words");
     }
-    taken(WINDOWS_1252, bytes, "not UTF-8, no Japanese")
+    let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
+    detector.feed(&sample, true);
+    let guess = detector.guess(None, Utf8Detection::Deny);
+    let is_wide = [GBK, GB18030, BIG5, EUC_JP, EUC_KR].contains(&guess);
+    if is_wide && strict(guess, &sample).is_some_and(|text| is_of_words(&text)) {
+        return taken(guess, bytes, "not UTF-8, and its characters are East Asian words");
+    }
+    taken(WINDOWS_1252, bytes, "not UTF-8, no East Asian words")
+}
+
+/// Bytes by which an encoding is told, at most: the words of a table are few.
+const SAMPLE_MAX: usize = 1 << 16;
+
+/// Returns the first lines that have characters beyond ASCII. No encoding has the end of a line within a character.
+fn lines_beyond_ascii(bytes: &[u8]) -> Vec<u8> {
+    let lines = bytes.split_inclusive(|&byte| byte == b'\n').filter(|line| !line.is_ascii());
+    let mut sample = Vec::new();
+    for line in lines {
+        if sample.len() + line.len() > SAMPLE_MAX && !sample.is_empty() {
+            break;
+        }
+        sample.extend_from_slice(line);
+    }
+    sample
+}
+
+/// Returns the encoding in which a text has most letters of known words beyond ASCII; `None` where it has none in
+/// any.
+fn by_words(bytes: &[u8]) -> Option<&'static Encoding> {
+    let scores = CANDIDATES.map(|encoding| {
+        strict(encoding, bytes).map_or(0, |text| heading::known_letters(&text))
+    });
+    let most = *scores.iter().max()?;
+    let first = scores.iter().position(|score| *score == most)?;
+    (most > 0).then_some(CANDIDATES[first])
 }
 
 fn strict(encoding: &'static Encoding, bytes: &[u8]) -> Option<String> {
@@ -107,7 +167,11 @@ fn unmarked_utf_16(bytes: &[u8]) -> Option<&'static Encoding> {
 /// A Western letter followed by another is a valid two-byte character too, but it stands alone among
 /// the letters of its word.
 fn is_japanese(bytes: &[u8]) -> bool {
-    let Some(text) = strict(SHIFT_JIS, bytes) else { return false };
+    strict(SHIFT_JIS, bytes).is_some_and(|text| is_of_words(&text))
+}
+
+/// Returns whether most East Asian letters of a text stand side by side.
+fn is_of_words(text: &str) -> bool {
     let wide = |letter: char| matches!(letter, '\u{3000}'..='\u{30ff}' | '\u{4e00}'..='\u{9fff}' | '\u{ff01}'..='\u{ff5e}');
     let letters: Vec<char> = text.chars().collect();
     let (mut together, mut alone) = (0, 0);
@@ -151,6 +215,23 @@ mod tests {
         for text in ["Déformation;Force (N)", "Prüfzeit;Standardkraft", "Winkel in °", "µm;é"]
         {
             let bytes = WINDOWS_1252.encode(text).0;
+            let decoded = decode(&bytes, None).expect("it is detected");
+            assert_eq!(decoded.text, text, "{}", decoded.reading);
+        }
+    }
+
+    #[test]
+    fn encodings_of_other_countries_are_known_by_the_words_of_tables() {
+        let cases = [
+            (GBK, "项目,经向,纬向\n弯曲刚度 B,0.11,0.06\n"),
+            (GBK, "样品名称：纯棉府绸\n12,13\n"),
+            (BIG5, "項目,經向,緯向\n彎曲剛度,0.11,0.06\n"),
+            (WINDOWS_1254, "Özellik;Çözgü;Atkı\nKalınlık;0,5;\n"),
+            (WINDOWS_1252, "Propriété;Chaîne;Trame\nÉpaisseur;0,5;\n"),
+            (SHIFT_JIS, "項目,たて,よこ\n曲げ剛性,0.11,0.06\n"),
+        ];
+        for (encoding, text) in cases {
+            let bytes = encoding.encode(text).0;
             let decoded = decode(&bytes, None).expect("it is detected");
             assert_eq!(decoded.text, text, "{}", decoded.reading);
         }

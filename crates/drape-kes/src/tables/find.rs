@@ -13,6 +13,7 @@ use crate::tables::layout::{Column, Layout, Take};
 use crate::tables::number::{Decimal, Evidence};
 use crate::tables::parts::parts;
 use crate::tables::series::Series;
+use crate::tables::stated::{Around, has_sizes};
 use crate::test::{Direction, Test};
 
 /// Share of the rows of the largest table below which a table is one of results, and no curve.
@@ -73,7 +74,7 @@ pub(crate) fn every(
     let mut found = Found { reading: file.reading.clone(), ..Found::default() };
     let tables = tables(path, file, layout, &mut found)?;
     let mut refused: Option<(usize, NoColumns)> = None;
-    for Table { block, stated } in tables {
+    for Table { block, around } in tables {
         refuse_comma_twice(path, file, &block)?;
         match pairs(&block, &request.deformation, &request.load) {
             Ok(pairs) => {
@@ -87,7 +88,7 @@ pub(crate) fn every(
                         pair,
                         decimal: Decimal::Point,
                         label,
-                        stated: stated.clone(),
+                        around: around.clone(),
                         several,
                     };
                     found.series.extend(parts(series, layout));
@@ -131,10 +132,10 @@ fn refuse_comma_twice(path: &Path, file: &TableFile, block: &Block) -> Result<()
     Err(Diagnostic::new(path, message).on_line(block.first_line()).help(help).into())
 }
 
-/// Table with the text of its sheet.
+/// Table with what its sheet holds around the curves.
 struct Table {
     block: Block,
-    stated: Vec<Row>,
+    around: Around,
 }
 
 /// Returns the tables of a file that may be curves.
@@ -190,8 +191,15 @@ fn tables(
                 .reading
                 .push(format!("means and deviations on line {} left out", lines.join(", ")));
         }
-        let stated: Vec<Row> =
-            of_grid.blocks.iter().flat_map(|block| block.above.clone()).collect();
+        let around = Around {
+            rows: of_grid.blocks.iter().flat_map(|block| block.above.clone()).collect(),
+            tables: of_grid
+                .blocks
+                .iter()
+                .filter(|block| block.rows.len() <= FEW_ROWS && has_sizes(block))
+                .cloned()
+                .collect(),
+        };
         let first = tables.len();
         for block in of_grid.blocks {
             let part = heading::is_part(&block.title()) && !heading::is_specimen(&block.title());
@@ -199,7 +207,7 @@ fn tables(
                 Some(before) if part && before.block.headings == block.headings => {
                     before.block.rows.extend(block.rows);
                 }
-                _ => tables.push(Table { block, stated: stated.clone() }),
+                _ => tables.push(Table { block, around: around.clone() }),
             }
         }
         if grid.breaks_off

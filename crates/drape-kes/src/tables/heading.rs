@@ -4,7 +4,7 @@ pub(crate) mod words;
 
 pub(crate) use self::words::Kind;
 use self::words::{
-    BIAS, DIRECTIONS, JOINED, PARTS, SPECIMENS, SYMBOLS, TESTS, WORDS, Words, single,
+    BIAS, DIRECTIONS, JOINED, NAMES, PARTS, SPECIMENS, SYMBOLS, TESTS, WORDS, Words, single,
 };
 use crate::test::{Direction, Test};
 use drape_input::is_unit;
@@ -120,6 +120,17 @@ pub(crate) fn directions(label: &str) -> Vec<Direction> {
 /// Returns the tests that a label names.
 pub(crate) fn tests(label: &str) -> Vec<Test> {
     named(&TESTS, label)
+}
+
+/// Returns the number of letters of known words beyond ASCII that a text has.
+pub(crate) fn known_letters(text: &str) -> usize {
+    let text = text.to_lowercase();
+    let kinds = WORDS.iter().map(|(_, words)| *words);
+    let directions = DIRECTIONS.iter().map(|(_, words)| *words);
+    let tests = TESTS.iter().map(|(_, words)| *words);
+    let all = kinds.chain(directions).chain(tests).chain([BIAS, SPECIMENS, NAMES]);
+    let known = all.flat_map(single).filter(|word| !word.is_ascii());
+    known.filter(|word| text.contains(word)).map(|word| word.chars().count()).sum()
 }
 
 /// Returns whether a label names a strip that is cut at 45° to the yarns.

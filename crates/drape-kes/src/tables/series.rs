@@ -8,7 +8,8 @@ use crate::tables::block::Block;
 use crate::tables::columns::Pair;
 use crate::tables::grid::{Cell, Row};
 use crate::tables::number::Decimal;
-use crate::tables::stated::size_column;
+use crate::tables::heading::words::Words;
+use crate::tables::stated::{Around, Stated, size_column};
 
 /// Points of one specimen as they are written.
 #[derive(Clone, Debug)]
@@ -20,8 +21,8 @@ pub(crate) struct Series {
     pub(crate) decimal: Decimal,
     /// Label of the specimen.
     pub(crate) label: String,
-    /// Text of its file or sheet outside of the tables.
-    pub(crate) stated: Vec<Row>,
+    /// Text and small tables of its file or sheet.
+    pub(crate) around: Around,
     /// Whether its table holds others beside it.
     pub(crate) several: bool,
 }
@@ -92,9 +93,14 @@ impl Series {
         self.cell_unit(column).or(heading.and_then(|heading| heading.unit.as_deref()))
     }
 
+    /// Returns the length of one of some names that its file states around the numbers.
+    pub(crate) fn stated(&self, words: Words) -> Option<Stated> {
+        self.around.stated(&self.block.title(), words)
+    }
+
     /// Returns the column of the gauge or the width: its heading is one of some names, and all its rows hold
     /// the same length.
-    pub(crate) fn size_column(&self, words: &[&str]) -> Option<usize> {
+    pub(crate) fn size_column(&self, words: Words) -> Option<usize> {
         let column = size_column(&self.block, &[self.pair.deformation, self.pair.load], words)?;
         let is_one = |all: Vec<f64>| all.iter().all(|length| *length > 0.0 && *length == all[0]);
         self.numbers(column).is_ok_and(is_one).then_some(column)

@@ -130,7 +130,7 @@ pub(super) const DIRECTIONS: [(Direction, Words); 2] = [
         &[
             "warp, wale, lengthwise, machine direction, md, kette, kettrichtung, kett",
             "chaîne, chaine, ordito, urdimbre, urdume, teia, çözgü, cozgu, osnowa, основа",
-            "たて, タテ, 経, 縦, 经, 縱",
+            "たて, タテ, 経, 縦, tate, 经, 縱",
         ],
     ),
     (
@@ -138,7 +138,7 @@ pub(super) const DIRECTIONS: [(Direction, Words); 2] = [
         &[
             "weft, filling, fill, woof, course, widthwise, crosswise, cross direction, cd",
             "schuss, schuß, schussrichtung, trame, trama, atkı, atki, wątek, уток",
-            "よこ, ヨコ, 緯, 横, 纬",
+            "よこ, ヨコ, 緯, 横, yoko, 纬",
         ],
     ),
 ];
@@ -184,4 +184,15 @@ pub(super) const PARTS: Words = &[
 pub(super) const SPECIMENS: Words = &[
     "specimen, sample, test, repeat, replicate, run, n, no, probe, prüfling, versuch, nr",
     "échantillon, éprouvette, essai, provino, probeta, numune, 試料, 試験片, サンプル, 试样",
+];
+
+/// Further words of tables of results, by which the encoding of a file is known.
+pub(super) const NAMES: Words = &[
+    "biegesteifigkeit, flächengewicht, flächenmasse, prüfbericht, größe, maß, mäßig, für",
+    "propriété, rigidité, résilience, unité, échantillon, moyenne, écart-type, linéarité, énergie",
+    "propiedad, rigidez, flexión, tracción, cizallamiento, fricción, resiliência, atrito, compressão",
+    "özellik, birim, ağırlık, gramaj, rijitlik, rijitliği, kayma, sıkıştırma, sürtünme, ortalama, yön",
+    "項目, 単位, 平均, 標準偏差, 曲げ剛性, せん断剛性, 引張, 圧縮, 表面, 厚さ, 目付, 方向, 試験, 測定",
+    "項目, 單位, 標準差, 彎曲剛度, 剪切剛度, 拉伸, 壓縮, 表面, 厚度, 克重, 經向, 緯向, 方向, 樣品",
+    "项目, 单位, 平均值, 标准差, 弯曲刚度, 剪切刚度, 拉伸, 压缩, 表面, 厚度, 克重, 经向, 纬向, 样品, 测试",
 ];
