@@ -22,6 +22,8 @@ mod values;
 mod curves;
 // Sheets and their files.
 mod sheets;
+// Tables of results.
+mod results;
 // Tables of any instrument.
 mod tables;
 // Folders of exports, drafted as sheets.

@@ -433,19 +433,22 @@ fn units_below_the_symbols_are_those_of_the_values() {
 }
 
 #[test]
-fn rows_that_are_neither_directions_nor_a_mean_are_not_taken_for_one_of_them() {
-    let tables = [
-        "Fabric;B;2HB\nWarp 1;0,118;0,124\nWarp 2;0,13;0,14\nWeft;0,1;0,09\n",
-        "Fabric;B;2HB\nWarp;0,118;0,124\nWeft;0,1;0,09\nOther;0,3;0,4\n",
-    ];
-    for table in tables {
-        let folder = folder(&[("a.csv", table.as_bytes()), ("b.csv", b"Property;Value\nW;12\n")]);
-        let (draft, sheet) = drafted(folder.path());
-        assert_eq!((sheet.w, draft.values), (Some(12.0), 1), "{}", draft.text);
-        assert!(draft.notes.iter().any(|note| note.starts_with("a.csv is left out")), "{table}");
+fn rows_of_specimens_are_averaged_and_a_row_that_is_neither_warp_nor_weft_is_left_out() {
+    let specimens = "Fabric;B;2HB\nWarp 1;0,118;0,124\nWarp 2;0,13;0,14\nWeft;0,1;0,09\n";
+    for table in [specimens.to_owned(), format!("{specimens}Mean warp;0,124;0,132\n")] {
+        let sheet = of_results(&table);
+        assert_eq!((sheet.warp.b, sheet.warp.two_hb), (Some(0.124), Some(0.132)), "{table}");
+        assert_eq!((sheet.weft.b, sheet.weft.two_hb), (Some(0.1), Some(0.09)), "{table}");
+        let scatter = sheet.scatter.iter().find(|scatter| scatter.symbol == Symbol::B);
+        let deviation = scatter.map(|scatter| scatter.deviation).unwrap_or(f64::NAN);
+        assert!((deviation - 0.006 * 2.0_f64.sqrt()).abs() < 1e-6, "{table}: {deviation}");
     }
-    let sheet = of_results(&format!("{}Mean warp;0,124;0,132\n", tables[0]));
-    assert_eq!((sheet.warp.b, sheet.warp.two_hb, sheet.weft.b), (Some(0.124), Some(0.132), None));
+    let table = "Fabric;B;2HB\nWarp;0,118;0,124\nWeft;0,1;0,09\nOther;0,3;0,4\n";
+    let folder = folder(&[("a.csv", table.as_bytes())]);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((sheet.warp.b, sheet.weft.b, draft.values), (Some(0.118), Some(0.1), 4));
+    let told = |note: &String| note.contains("\"Other\" (line 4) is left out");
+    assert!(draft.notes.iter().any(told), "{:?}", draft.notes);
 }
 
 /// Compression to 50 gf/cm² and back, along straight lines between few points.

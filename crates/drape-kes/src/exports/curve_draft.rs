@@ -77,6 +77,14 @@ impl CurveDraft {
         text
     }
 
+    /// Returns the texts about the curve: names of its files, titles of its tables, reasons.
+    pub(crate) fn texts(&self) -> Vec<String> {
+        let keys = self.layout.iter().flat_map(|key| [key.value.clone(), key.why.clone()]);
+        let direction = self.direction.as_ref().ok().map(|told| told.why.clone());
+        let told = [Some(self.test.why.clone()), direction].into_iter().flatten();
+        self.files.iter().cloned().chain(keys).chain(told).collect()
+    }
+
     /// Reads the section as a sheet beside the files would be read.
     pub(crate) fn read(&self, folder: &Path) -> Result<Vec<Curve>, Diagnostics> {
         read(&self.to_toml(), folder).map(|sheet| sheet.curves)

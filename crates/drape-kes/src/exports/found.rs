@@ -40,9 +40,12 @@ pub(crate) struct Export<'a> {
 pub(crate) struct Drafts {
     pub(crate) good: Vec<CurveDraft>,
     pub(crate) open: Vec<OpenDraft>,
+    /// Drafts of strips on the bias, to which no law is fitted.
+    pub(crate) bias: Vec<OpenDraft>,
 }
 
 /// Draft of a section that a person has to complete, with the reason.
+#[derive(Clone)]
 pub(crate) struct OpenDraft {
     pub(crate) draft: CurveDraft,
     pub(crate) reason: String,
@@ -69,6 +72,8 @@ struct Group {
     direction: Result<Told<Direction>, String>,
     items: Vec<Item>,
     is_kes: bool,
+    /// Text that says that the strip was cut on the bias.
+    bias: Option<String>,
 }
 
 impl Export<'_> {
@@ -117,6 +122,7 @@ impl Export<'_> {
             let same = |other: &&mut Group| {
                 let value = |group: &Group| group.direction.as_ref().ok().map(|told| told.value);
                 other.items[0].test == group.items[0].test
+                    && other.bias.is_some() == group.bias.is_some()
                     && other.test.is_ok() == group.test.is_ok()
                     && value(other) == value(&group)
             };
@@ -167,7 +173,8 @@ impl Export<'_> {
             )),
             _ => test,
         };
-        Group { direction: evidence.direction(), is_kes: evidence.is_kes, items: vec![item], test }
+        let (direction, bias) = (evidence.direction(), evidence.bias());
+        Group { direction, is_kes: evidence.is_kes, items: vec![item], test, bias }
     }
 
     /// Drafts a group, and verifies the draft.
@@ -201,7 +208,13 @@ impl Export<'_> {
             }
             Err(_) => {}
         }
-        if reasons.is_empty() {
+        if let Some(place) = &group.bias {
+            let reason = format!(
+                "by {place} it is a strip at 45° to the yarns, on the bias: a law has a warp and a weft, and none is \
+                 fitted to the bias"
+            );
+            drafts.bias.push(OpenDraft { draft, reason });
+        } else if reasons.is_empty() {
             drafts.good.push(draft);
         } else {
             drafts.open.push(OpenDraft { draft, reason: reasons.join("; ") });

@@ -238,7 +238,7 @@ impl CurveKeys {
                 return None;
             }
         };
-        if path.is_file() {
+        if file::is_there(&path) {
             return Some(path);
         }
         let help = suggestion(&path, file);

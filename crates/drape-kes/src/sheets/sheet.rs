@@ -174,6 +174,12 @@ impl Sheet {
         sheet
     }
 
+    /// Adds what values were taken for, and what was assumed or left out.
+    pub(crate) fn add_readings(&mut self, readings: &[String], notes: &[String]) {
+        self.readings.splice(0..0, readings.iter().cloned());
+        self.readings.extend(notes.iter().map(|note| format!("note: {note}")));
+    }
+
     /// Returns W: mass per area, in kg/m².
     #[must_use]
     pub fn density(&self) -> Option<f64> {

@@ -45,15 +45,7 @@ pub(crate) struct Spelt {
 /// EMT   T_0   2HG_5   2hg5   B_warp   B-1 (warp)   B-2 (weft)
 /// ```
 pub(crate) fn value(written: &str) -> Option<Spelt> {
-    let plain = |text: &str| -> String {
-        text.to_lowercase().chars().filter(|letter| !"_- .·".contains(*letter)).collect()
-    };
-    let key_of = |text: &str| {
-        let wanted = plain(text);
-        let exact = VALUES.into_iter().find(|key| key.to_lowercase() == wanted);
-        exact.or_else(|| OTHERS.iter().find(|(other, _)| *other == wanted).map(|(_, key)| *key))
-    };
-    if let Some(key) = key_of(written) {
+    if let Some(key) = key(written) {
         return Some(Spelt { key, direction: None });
     }
     let (start, end) = written.rsplit_once(['_', '-', ' ', '.'])?;
@@ -62,7 +54,15 @@ pub(crate) fn value(written: &str) -> Option<Spelt> {
         "2" => Direction::Weft,
         word => direction(word)?,
     };
-    Some(Spelt { key: key_of(start)?, direction: Some(direction) })
+    Some(Spelt { key: key(start)?, direction: Some(direction) })
+}
+
+/// Returns the value that a symbol stands for, without a direction; `None` where it is none.
+pub(crate) fn key(written: &str) -> Option<&'static str> {
+    let signs = |letter: &char| !"_- .·".contains(*letter);
+    let wanted: String = written.to_lowercase().chars().filter(signs).collect();
+    let exact = VALUES.into_iter().find(|key| key.to_lowercase() == wanted);
+    exact.or_else(|| OTHERS.iter().find(|(other, _)| *other == wanted).map(|(_, key)| *key))
 }
 
 /// Directions by all of their names, as a regular expression.

@@ -1,6 +1,8 @@
-//! A file made into grids: spreadsheet or text, its encoding and its separator.
+//! A file, or a member of an archive, made into grids: spreadsheet or text, its encoding and its separator.
 
-use std::path::Path;
+pub(crate) mod archive;
+
+use std::path::{Path, PathBuf};
 
 use drape_input::{Diagnostic, Diagnostics, SizeLimit};
 use encoding_rs::Encoding;
@@ -24,8 +26,23 @@ pub(crate) struct TableFile {
     pub(crate) encoding: Option<&'static Encoding>,
 }
 
-/// Reads a file.
+/// Returns whether there is a file at a path, or a member of an archive.
+pub(crate) fn is_there(path: &Path) -> bool {
+    let is_member = |(archive, name): (PathBuf, String)| {
+        archive::members(&archive).is_ok_and(|members| members.contains(&name))
+    };
+    path.is_file() || archive::split(path).is_some_and(is_member)
+}
+
+/// Reads a file, or a member of an archive.
 pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostics> {
+    if let Some((archive, name)) = archive::split(path) {
+        let bytes = archive::read(&archive, &name, LIMIT.bytes()).map_err(|reason| {
+            Diagnostic::new(&archive, format!("the archive cannot be read: {reason}"))
+                .help("pack it again as .zip without a password, or name the folder of its files")
+        })?;
+        return parse(path, &bytes, layout);
+    }
     let unreadable = |error: std::io::Error| {
         Diagnostic::new(path, format!("cannot read the file: {error}"))
             .help("check the path and that the file can be read")

@@ -114,7 +114,7 @@ fn by_brackets(text: &str) -> Option<Scattered<'_>> {
 }
 
 /// Splits a text behind the longest number at its start; `None` where it begins otherwise.
-fn leading_number(text: &str) -> Option<(&str, &str)> {
+pub(crate) fn leading_number(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
     let of_number = |letter: char| letter.is_numeric() || "+-−－.,．，' \u{a0}eE".contains(letter);
     let end = text.find(|letter| !of_number(letter)).unwrap_or(text.len());

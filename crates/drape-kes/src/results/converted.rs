@@ -1,0 +1,180 @@
+//! Averaged values made into values of a sheet: bare numbers get their units, and values of FAST and of cantilevers
+//! become those of a sheet.
+
+use drape_input::{Quantity, Unit, figure, parse_unit};
+
+use crate::results::average::{Averaged, rounded};
+use crate::results::item::Item;
+use crate::results::{cantilever, fast};
+use crate::test::Direction;
+
+/// Largest bare W, in mg/cm², that a garment's fabric has; a larger number is in g/m².
+const HEAVIEST: f64 = 60.0;
+/// RT and RC in percent below which no fabric gives back: the number is a ratio.
+const RESILIENCE_LEAST: f64 = 1.5;
+/// EM in percent below which no fabric extends: the number is a ratio.
+const EXTENSION_LEAST: f64 = 0.35;
+/// Bending length and overhang above which a bare number is in mm and not in cm.
+const CENTIMETRES_MOST: f64 = 8.0;
+
+/// Averaged value with its place in the files.
+#[derive(Clone, Debug)]
+pub(crate) struct Sourced {
+    pub(crate) value: Averaged,
+    pub(crate) source: String,
+}
+
+/// Value of a sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SheetValue {
+    pub(crate) key: &'static str,
+    pub(crate) direction: Option<Direction>,
+    pub(crate) number: f64,
+    pub(crate) deviation: Option<f64>,
+    /// Spelling of the unit; `None` for a bare number.
+    pub(crate) unit: Option<&'static str>,
+    /// Where it comes from and how.
+    pub(crate) why: String,
+}
+
+/// Values of a sheet, and what a sheet has no key for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Converted {
+    pub(crate) values: Vec<SheetValue>,
+    /// Values that stand in the files and have no use in the sheet, each with the reason.
+    pub(crate) unused: Vec<String>,
+    pub(crate) notes: Vec<String>,
+}
+
+/// Values of one fabric while they are converted.
+pub(crate) struct Values {
+    all: Vec<Sourced>,
+}
+
+impl Values {
+    /// Returns the value of an item and a direction.
+    pub(crate) fn get(&self, item: Item, direction: Option<Direction>) -> Option<&Sourced> {
+        self.all.iter().find(|one| one.value.item == item && one.value.direction == direction)
+    }
+
+    /// Returns whether there is a value of an item in any direction.
+    pub(crate) fn has(&self, item: Item) -> bool {
+        self.all.iter().any(|one| one.value.item == item)
+    }
+
+    /// Returns whether there are values of FAST or of a cantilever, and none that only KES has.
+    fn is_fast(&self) -> bool {
+        let has = |is: fn(Item) -> bool| self.all.iter().any(|one| is(one.value.item));
+        has(Item::is_of_fast) && !has(Item::is_of_kes)
+    }
+}
+
+/// Converts the values of one fabric.
+pub(crate) fn converted(all: Vec<Sourced>) -> Converted {
+    let mut converted = Converted::default();
+    let mut values = Values { all };
+    give_units(&mut values, &mut converted);
+    cantilever::rigidities(&mut values, &mut converted);
+    let own = values.all.iter().filter_map(|one| match one.value.item {
+        Item::Key(key) => Some(of_key(key, one)),
+        _ => None,
+    });
+    let own: Vec<SheetValue> = own.collect();
+    converted.values.splice(0..0, own);
+    fast::convert(&values, &mut converted);
+    converted
+}
+
+impl Values {
+    /// Removes the value of an item and a direction.
+    pub(crate) fn remove(&mut self, item: Item, direction: Option<Direction>) {
+        self.all.retain(|one| (one.value.item, one.value.direction) != (item, direction));
+    }
+}
+
+/// Returns a value of a key with its unit.
+fn of_key(key: &'static str, one: &Sourced) -> SheetValue {
+    let Averaged { number, deviation, unit, direction, .. } = one.value;
+    SheetValue {
+        key,
+        direction,
+        number,
+        deviation,
+        unit: unit.map(spelling),
+        why: why(one),
+    }
+}
+
+/// Returns the spelling of a unit; of units that are the same, that of the laboratory.
+fn spelling(unit: Unit) -> &'static str {
+    let own = unit.quantity.laboratory();
+    if unit.factor == own.factor { own.spelling } else { unit.spelling }
+}
+
+/// Returns where a value comes from.
+pub(crate) fn why(one: &Sourced) -> String {
+    let remark = &one.value.remark;
+    let remark = if remark.is_empty() { String::new() } else { format!(": {remark}") };
+    format!("{}{remark}", one.source)
+}
+
+/// Gives bare numbers the units that they can only have, and percentages that are ratios their unit.
+fn give_units(values: &mut Values, converted: &mut Converted) {
+    let is_fast = values.is_fast();
+    let unit = |text: &str, quantity: Quantity| -> Option<Unit> { parse_unit(text, &[quantity]).ok() };
+    let is_ratio = |one: &Sourced| {
+        let Averaged { item, number, unit, .. } = one.value;
+        let is_percent = unit.is_none_or(|unit| unit.spelling == "%");
+        let least = match item {
+            Item::Key("RT" | "RC") => RESILIENCE_LEAST,
+            Item::Key("EM") | Item::Extension(100) => EXTENSION_LEAST,
+            _ => return false,
+        };
+        is_percent && number > 0.0 && number < least
+    };
+    let are_ratios = values.all.iter().any(|one| one.value.item == Item::Extension(100) && is_ratio(one));
+    for one in &mut values.all {
+        let of_fast = are_ratios && matches!(one.value.item, Item::Extension(_) | Item::BiasExtension);
+        if is_ratio(one) || of_fast {
+            let Sourced { value, source } = one;
+            let symbol = value.item.symbol();
+            converted.notes.push(format!(
+                "ASSUMED: {symbol} of {}, {source}, is a ratio and no percentage: no fabric has so little",
+                figure(value.number)
+            ));
+            value.unit = unit("-", Quantity::Ratio);
+            value.remark = "ASSUMED: a ratio, no percentage".to_owned();
+        }
+    }
+    for Sourced { value, source } in &mut values.all {
+        if value.unit.is_some() {
+            continue;
+        }
+        let (text, is_assumed) = match value.item {
+            Item::Key("W") if is_fast => ("g/m2", false),
+            Item::Key("W") if value.number > HEAVIEST => ("g/m2", true),
+            Item::Key("B") if is_fast => ("uN.m", true),
+            Item::Key("G") if is_fast => ("N/m", true),
+            Item::BendingLength | Item::Overhang if value.number < CENTIMETRES_MOST => ("cm", true),
+            Item::BendingLength | Item::Overhang | Item::Thickness(_) => ("mm", false),
+            Item::Extension(_) | Item::BiasExtension => ("%", false),
+            _ => continue,
+        };
+        let Some(quantity) = value.item.quantity() else { continue };
+        value.unit = unit(text, quantity);
+        if is_assumed {
+            let symbol = value.item.symbol();
+            let number = figure(value.number);
+            converted.notes.push(format!(
+                "ASSUMED: {symbol} {number}, {source}, is in {text}: the table gives no unit"
+            ));
+            let remark = format!("ASSUMED: in {text}, the table gives no unit");
+            value.remark = if value.remark.is_empty() { remark } else { format!("{}; {remark}", value.remark) };
+        }
+    }
+}
+
+/// Returns a computed number with its digits.
+pub(crate) fn computed(number: f64) -> f64 {
+    rounded(number, 5)
+}
