@@ -91,6 +91,12 @@ pub(crate) fn source(path: &Path) -> Option<Cow<'static, str>> {
     is_file.then(|| std::fs::read_to_string(path).ok()).flatten().map(Cow::Owned)
 }
 
+/// Returns a document of a text, with the values that the user set.
+pub(crate) fn with_settings(path: &Path, text: &str) -> Result<Document, Diagnostics> {
+    let settings = SETTINGS.get().map_or(&[][..], Vec::as_slice);
+    Document::new(path, text).allowing(allowed()).with_settings(settings)
+}
+
 /// Returns the path by which messages name a file.
 pub(crate) fn shown(path: &Path) -> &Path {
     if is_standard(path) { Path::new(NAME) } else { path }

@@ -7,6 +7,7 @@ use drape::fit::{
     identify_with, parameter_key,
 };
 use drape::input::{Diagnostic, Document};
+use drape::kes::SheetDraft;
 use drape::report::FitPage;
 use drape::reports::fit_page;
 use pyo3::prelude::*;
@@ -107,8 +108,9 @@ fn of_sheet(error: drape::kes::Error, file: &str) -> PyErr {
 #[pymethods]
 impl Sheet {
     #[staticmethod]
-    fn read(path: PathBuf) -> PyResult<Self> {
-        let sheet = drape::kes::Sheet::read(&path);
+    #[pyo3(signature = (path, fabric=None))]
+    fn read(path: PathBuf, fabric: Option<&str>) -> PyResult<Self> {
+        let sheet = SheetDraft::sheet(&path, fabric);
         sheet.map(Self).map_err(|error| of_sheet(error, &path.display().to_string()))
     }
 
@@ -130,6 +132,10 @@ impl Sheet {
 
     fn warnings(&self) -> Vec<String> {
         self.0.warnings().iter().map(ToString::to_string).collect()
+    }
+
+    fn readings(&self) -> Vec<String> {
+        self.0.readings().to_vec()
     }
 
     fn fit(&self, py: Python<'_>, laws: Laws) -> PyResult<Fit> {
@@ -173,7 +179,7 @@ impl From<drape::fit::Error> for NoFit {
 pub(crate) fn fit_all(py: Python<'_>, paths: Vec<PathBuf>, laws: Laws) -> PyResult<Vec<Py<PyAny>>> {
     let settings = laws.settings()?;
     let work = move || {
-        let read = |path: &PathBuf| drape::kes::Sheet::read(path).map_err(NoFit::Sheet);
+        let read = |path: &PathBuf| SheetDraft::sheet(path, None).map_err(NoFit::Sheet);
         identify_all(&paths, &settings, read, |path, found| {
             let fit = found.and_then(|FittedSheet { sheet, fit }| {
                 Fit::new(sheet, fit.clone(), &settings).map_err(NoFit::Fit)

@@ -29,7 +29,7 @@ use drape::file;
 #[derive(Args)]
 pub(crate) struct CheckArguments {
     /// Scenes, fabrics, sheets, patterns, bodies (OBJ, STL, PLY), or folders of runs; - for standard
-    /// input.
+    /// input. Or tables of a laboratory: a workbook, a .csv, a .zip, or a folder of exports.
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Draws the cut panels of a pattern (SVG), or a scene at its start (SVG or PNG): both sides of a

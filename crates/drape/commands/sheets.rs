@@ -1,11 +1,13 @@
 //! Sheets that paths of the command line stand for: where they are, what they are called, and their
-//! mistakes.
+//! mistakes; and tables, of which sheets are drafted ([`drafted`]).
+
+pub(crate) mod drafted;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use drape::input::{Diagnostic, Diagnostics};
-use drape::kes::Sheet;
+use drape::kes::{Sheet, SheetDraft};
 
 use crate::failure::Failure;
 use crate::input;
@@ -50,6 +52,17 @@ fn search(folder: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) -> Result<
     Ok(())
 }
 
+/// Returns whether a path stands for tables: a workbook, a table, an archive, or a folder without a sheet in it or
+/// below.
+pub(crate) fn is_of_tables(path: &Path) -> bool {
+    if path.is_dir() {
+        let mut found = BTreeSet::new();
+        let is_sheet = path.join(SHEET_FILE).exists();
+        return !is_sheet && search(path, DEEPEST, &mut found).is_ok() && found.is_empty();
+    }
+    !input::is_standard(path) && SheetDraft::reads(path)
+}
+
 /// Returns the name that the files of a sheet get: its folder's, or the file's.
 pub(crate) fn stem(sheet: &Path) -> String {
     let sheet = input::named(sheet);
@@ -59,7 +72,9 @@ pub(crate) fn stem(sheet: &Path) -> String {
         sheet
     };
     let name = if named.is_dir() { named.file_name() } else { named.file_stem() };
-    name.map_or("fabric".into(), |name| name.to_string_lossy().into_owned())
+    let name = name.map_or("fabric".into(), |name| name.to_string_lossy().into_owned());
+    // That of a drafted sheet is NAME.sheet.toml.
+    name.strip_suffix(".sheet").filter(|name| !name.is_empty()).map_or(name.clone(), str::to_owned)
 }
 
 /// Returns the sheet that a path stands for, if it is one: a file called so, or a folder with it; a
@@ -80,8 +95,13 @@ pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
         true => Sheet::from_document(&input::document(&path.join(SHEET_FILE))?),
         false => Sheet::from_document(&input::document(path)?),
     };
-    sheet.map_err(|error| match error {
+    sheet.map_err(|error| in_input(error, path))
+}
+
+/// Returns the mistakes of an error about a file.
+pub(crate) fn in_input(error: drape::kes::Error, path: &Path) -> Diagnostics {
+    match error {
         drape::kes::Error::Input(diagnostics) => diagnostics,
         other => Diagnostic::new(input::shown(path), other.to_string()).into(),
-    })
+    }
 }

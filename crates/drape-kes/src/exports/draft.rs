@@ -101,6 +101,43 @@ impl SheetDraft {
         Ok(drafts.swap_remove(0))
     }
 
+    /// Reads a sheet, a file or the `sheet.toml` of a folder; or drafts and reads the sheet of a workbook, a table, an
+    /// archive or a folder of exports, that of one `fabric` where they hold several.
+    ///
+    /// # Errors
+    /// As for [`Sheet::read`] and [`of`](Self::of); or there are several fabrics, and none of them is named.
+    pub fn sheet(path: &Path, fabric: Option<&str>) -> Result<Sheet, Error> {
+        let is_folder = path.is_dir() && !path.join("sheet.toml").exists();
+        if !is_folder && !Self::reads(path) {
+            return Sheet::read(path);
+        }
+        let beside = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
+        let drafts = Self::of(path, beside)?;
+        Self::chosen(drafts, path, fabric)?.read(beside)
+    }
+
+    /// Returns the draft of a fabric, or the only one.
+    ///
+    /// # Errors
+    /// There is no such fabric; or there are several, and none of them is named.
+    pub fn chosen(drafts: Vec<Self>, path: &Path, fabric: Option<&str>) -> Result<Self, Error> {
+        let names: Vec<String> = drafts.iter().map(|draft| draft.name.clone()).collect();
+        let found = match fabric {
+            None if drafts.len() == 1 => drafts.into_iter().next(),
+            None => None,
+            Some(wanted) => drafts.into_iter().find(|draft| draft.name == wanted),
+        };
+        found.ok_or_else(|| {
+            let message = match fabric {
+                Some(wanted) => format!("there is no fabric \"{wanted}\" in it"),
+                None => "it holds several fabrics".to_owned(),
+            };
+            let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+            let help = format!("name one of {} by --fabric (in Python fabric=)", names.join(", "));
+            Error::Input(Diagnostic::new(path, message).help(help).into())
+        })
+    }
+
     /// Returns whether a file holds tables, or is an archive of them: a workbook, a text file of one of the usual
     /// endings, a zip.
     #[must_use]

@@ -76,7 +76,8 @@ fn of_name(name: &str, names: &[String], parts: &Parts) -> OfFabric {
             }),
         }
     }
-    let may_be = |open: &&OpenDraft| fabric(&open.draft.texts()).is_none_or(|fabric| fabric == name);
+    let may_be =
+        |open: &&OpenDraft| fabric(&open.draft.texts()).is_none_or(|fabric| fabric == name);
     own.open.extend(parts.open.iter().filter(may_be).cloned());
     own.bias.extend(parts.bias.iter().filter(may_be).cloned());
     OfFabric { name: Some(name.to_owned()), values, parts: own }
@@ -84,7 +85,10 @@ fn of_name(name: &str, names: &[String], parts: &Parts) -> OfFabric {
 
 /// Joins the values of several tables of one fabric. Tables of one specimen each are averaged; of values that differ
 /// otherwise the first is taken, which is noted.
-fn joined<'v>(values: impl Iterator<Item = &'v FileValue>, notes: &mut Vec<String>) -> Vec<Sourced> {
+fn joined<'v>(
+    values: impl Iterator<Item = &'v FileValue>,
+    notes: &mut Vec<String>,
+) -> Vec<Sourced> {
     let mut groups: Vec<Vec<&FileValue>> = Vec::new();
     for value in values {
         let key = |value: &FileValue| (value.value.item, value.value.direction);
@@ -111,7 +115,8 @@ fn of_group(group: &[&FileValue], notes: &mut Vec<String>) -> Sourced {
             }
             continue;
         }
-        let direction = taken.value.direction.map_or(String::new(), |d| format!(" of the {}", d.name()));
+        let direction =
+            taken.value.direction.map_or(String::new(), |d| format!(" of the {}", d.name()));
         notes.push(format!(
             "{}{direction} is there twice; {} is taken, {} is not",
             taken.value.item.symbol(),
@@ -179,7 +184,8 @@ fn name_by_table(parts: &mut Parts) {
         ratios.len() >= SHARED_LEAST && 2 * apart > ratios.len()
     };
     let is_apart = |a: usize| (0..tables.len()).any(|b| a != b && differ(a, b));
-    let apart: Vec<&Table> = (0..tables.len()).filter(|&a| is_apart(a)).map(|a| &tables[a]).collect();
+    let apart: Vec<&Table> =
+        (0..tables.len()).filter(|&a| is_apart(a)).map(|a| &tables[a]).collect();
     if apart.is_empty() {
         return;
     }
@@ -194,5 +200,7 @@ fn name_by_table(parts: &mut Parts) {
         names.push(name);
     }
     let names = names.join(", ");
-    parts.notes.push(format!("ASSUMED: {names} are several fabrics, since most of their values differ"));
+    parts
+        .notes
+        .push(format!("ASSUMED: {names} are several fabrics, since most of their values differ"));
 }

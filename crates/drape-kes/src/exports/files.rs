@@ -1,8 +1,9 @@
 //! Files of a draft: those of a folder, of an archive, or one.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostic, Diagnostics};
+use drape_input::{Diagnostic, Diagnostics, Document};
 
 use crate::tables::file::archive;
 
@@ -13,8 +14,8 @@ const OTHER_FILES: [&str; 26] = [
 ];
 /// Endings of files that hold tables, and of archives.
 const TABLE_FILES: [&str; 17] = [
-    "xlsx", "xlsm", "xlsb", "xls", "ods", "csv", "tsv", "tab", "txt", "asc", "dat", "prn", "lst", "tra",
-    "raw", "log", "zip",
+    "xlsx", "xlsm", "xlsb", "xls", "ods", "csv", "tsv", "tab", "txt", "asc", "dat", "prn", "lst",
+    "tra", "raw", "log", "zip",
 ];
 /// Deepest folder below the one that is named.
 const DEEPEST: usize = 3;
@@ -44,7 +45,8 @@ impl Files {
             let mut paths = Vec::new();
             search(path, DEEPEST, &mut paths)?;
             paths.sort();
-            let files = paths.into_iter().map(|file| (file.clone(), relative(&file, path))).collect();
+            let files =
+                paths.into_iter().map(|file| (file.clone(), relative(&file, path))).collect();
             let name = named(whole.file_name());
             let title = format!("the exports in the folder {name}");
             return Ok(Self { folder: path.to_owned(), name, title, files });
@@ -67,17 +69,28 @@ impl Files {
 /// Returns whether a file holds tables, or is an archive, by its ending or its first bytes.
 pub(crate) fn is_of_tables(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    if ending.as_deref().is_some_and(|ending| TABLE_FILES.contains(&ending)) {
-        return true;
+    match ending.as_deref() {
+        Some(ending) if TABLE_FILES.contains(&ending) => !is_sheet(path),
+        Some(ending) if OTHER_FILES.contains(&ending) => false,
+        _ => begins_as_workbook(path).unwrap_or(false),
     }
-    // A workbook under another name.
+}
+
+/// Returns whether a file of text is a sheet: TOML with the name of a fabric.
+fn is_sheet(path: &Path) -> bool {
+    let document = path.is_file().then(|| Document::read(path).ok()).flatten();
+    let table = document.and_then(|document| document.text().parse().ok());
+    table.is_some_and(|table: toml::Table| table.contains_key("name"))
+}
+
+/// Returns whether a file of any name has the first bytes of a workbook.
+fn begins_as_workbook(path: &Path) -> std::io::Result<bool> {
+    if !path.is_file() {
+        return Ok(false);
+    }
     let mut start = [0; 4];
-    let read = || {
-        use std::io::Read;
-        std::fs::File::open(path)?.read_exact(&mut start)
-    };
-    let is_other = ending.is_some_and(|ending| OTHER_FILES.contains(&ending.as_str()));
-    !is_other && path.is_file() && { read }().is_ok() && [*b"PK\x03\x04", [0xd0, 0xcf, 0x11, 0xe0]].contains(&start)
+    std::fs::File::open(path)?.read_exact(&mut start)?;
+    Ok([*b"PK\x03\x04", [0xd0, 0xcf, 0x11, 0xe0]].contains(&start))
 }
 
 /// Returns whether a file of a folder or of an archive holds no tables, by its ending.

@@ -11,11 +11,11 @@ use crate::sheets::axis::{AxisKeys, deformations, loads};
 use crate::tables::file::TableFile;
 use crate::tables::find::{Request, decimal, every, is_repeat};
 use crate::tables::grid::{Cell, Grid};
+use crate::tables::heading::words::Words;
 use crate::tables::heading::{self, Kind};
 use crate::tables::layout::{Column, Layout, Take};
 use crate::tables::number::{Decimal, Evidence as Sign};
 use crate::tables::series::Series;
-use crate::tables::heading::words::Words;
 use crate::tables::stated::{GAUGE, WIDTH};
 use crate::test::{Direction, Test};
 

@@ -58,7 +58,11 @@ impl FileValue {
         let (file, sheet) = &self.table;
         let sheet = if sheet.is_empty() { String::new() } else { format!(", sheet \"{sheet}\"") };
         let (first, last) = self.value.lines;
-        let lines = if first == last { format!("line {first}") } else { format!("lines {first} to {last}") };
+        let lines = if first == last {
+            format!("line {first}")
+        } else {
+            format!("lines {first} to {last}")
+        };
         format!("{file}{sheet}, {lines}")
     }
 }

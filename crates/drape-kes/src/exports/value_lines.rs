@@ -31,7 +31,10 @@ pub(crate) struct ValueLines {
 pub(crate) fn value_lines(converted: &Converted, folder: &Path) -> ValueLines {
     let mut lines = ValueLines { notes: converted.notes.clone(), ..ValueLines::default() };
     let mut groups: BTreeMap<Option<Direction>, Vec<&SheetValue>> = BTreeMap::new();
-    converted.values.iter().for_each(|value| groups.entry(value.direction).or_default().push(value));
+    converted
+        .values
+        .iter()
+        .for_each(|value| groups.entry(value.direction).or_default().push(value));
     groups.entry(None).or_default();
     for (direction, values) in groups {
         let head = direction.map_or(String::new(), |d| format!("\n[{}]\n", d.name()));

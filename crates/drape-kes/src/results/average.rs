@@ -190,8 +190,7 @@ fn of_one_table<'r>(
     let others: Vec<_> = readings.iter().copied().filter(|reading| !is_of_first(reading)).collect();
     let collides = |other: &&&Reading| {
         own.iter().any(|reading| {
-            key(reading) == key(other)
-                && (reading.number / other.number - 1.0).abs() > ROUNDED
+            key(reading) == key(other) && (reading.number / other.number - 1.0).abs() > ROUNDED
         })
     };
     // Repeats in rows that follow each other are specimens without numbers.

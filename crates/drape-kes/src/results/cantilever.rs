@@ -57,8 +57,9 @@ pub(crate) fn rigidities(values: &mut Values, converted: &mut Converted) {
         if keeps_given(values, direction, rigidity, converted) {
             continue;
         }
-        let variation =
-            length.deviation.map(|deviation| (3.0 * deviation / length.length).hypot(mass.variation));
+        let variation = length
+            .deviation
+            .map(|deviation| (3.0 * deviation / length.length).hypot(mass.variation));
         converted.values.push(SheetValue {
             key: "B",
             direction,

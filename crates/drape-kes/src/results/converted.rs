@@ -95,14 +95,7 @@ impl Values {
 /// Returns a value of a key with its unit.
 fn of_key(key: &'static str, one: &Sourced) -> SheetValue {
     let Averaged { number, deviation, unit, direction, .. } = one.value;
-    SheetValue {
-        key,
-        direction,
-        number,
-        deviation,
-        unit: unit.map(spelling),
-        why: why(one),
-    }
+    SheetValue { key, direction, number, deviation, unit: unit.map(spelling), why: why(one) }
 }
 
 /// Returns the spelling of a unit; of units that are the same, that of the laboratory.
@@ -121,7 +114,8 @@ pub(crate) fn why(one: &Sourced) -> String {
 /// Gives bare numbers the units that they can only have, and percentages that are ratios their unit.
 fn give_units(values: &mut Values, converted: &mut Converted) {
     let is_fast = values.is_fast();
-    let unit = |text: &str, quantity: Quantity| -> Option<Unit> { parse_unit(text, &[quantity]).ok() };
+    let unit =
+        |text: &str, quantity: Quantity| -> Option<Unit> { parse_unit(text, &[quantity]).ok() };
     let is_ratio = |one: &Sourced| {
         let Averaged { item, number, unit, .. } = one.value;
         let is_percent = unit.is_none_or(|unit| unit.spelling == "%");
@@ -132,9 +126,11 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
         };
         is_percent && number > 0.0 && number < least
     };
-    let are_ratios = values.all.iter().any(|one| one.value.item == Item::Extension(100) && is_ratio(one));
+    let are_ratios =
+        values.all.iter().any(|one| one.value.item == Item::Extension(100) && is_ratio(one));
     for one in &mut values.all {
-        let of_fast = are_ratios && matches!(one.value.item, Item::Extension(_) | Item::BiasExtension);
+        let of_fast =
+            are_ratios && matches!(one.value.item, Item::Extension(_) | Item::BiasExtension);
         if is_ratio(one) || of_fast {
             let Sourced { value, source } = one;
             let symbol = value.item.symbol();
@@ -169,7 +165,11 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
                 "ASSUMED: {symbol} {number}, {source}, is in {text}: the table gives no unit"
             ));
             let remark = format!("ASSUMED: in {text}, the table gives no unit");
-            value.remark = if value.remark.is_empty() { remark } else { format!("{}; {remark}", value.remark) };
+            value.remark = if value.remark.is_empty() {
+                remark
+            } else {
+                format!("{}; {remark}", value.remark)
+            };
         }
     }
 }

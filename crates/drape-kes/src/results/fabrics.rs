@@ -142,7 +142,8 @@ fn are_alike(readings: &[Reading]) -> bool {
         let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
         (squares / (numbers.len() - 1).max(1) as f64).sqrt() / mean.abs()
     };
-    let of_body = |item: &Item| matches!(item, Item::Key("W" | "T" | "T0" | "TM") | Item::Thickness(_));
+    let of_body =
+        |item: &Item| matches!(item, Item::Key("W" | "T" | "T0" | "TM") | Item::Thickness(_));
     let bodies = groups.iter().filter(|((item, _), _)| of_body(item));
     let is_one_body = bodies.map(|(_, numbers)| variation(numbers)).all(|cv| cv <= ALIKE);
     let mut all: Vec<f64> = groups.values().map(variation).collect();

@@ -98,8 +98,10 @@ fn extension(direction: Option<Direction>, points: &[(u32, &Sourced)], converted
 /// The slope at an inner point is the harmonic mean of the slopes on both sides, so that the curve rises where the
 /// points do.
 fn work(points: &[[f64; 2]]) -> f64 {
-    let slopes: Vec<f64> =
-        points.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).collect();
+    let slopes: Vec<f64> = points
+        .windows(2)
+        .map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]))
+        .collect();
     let width = |i: usize| points[i + 1][0] - points[i][0];
     let inner = |i: usize| {
         let (left, right) = (slopes[i - 1], slopes[i]);
@@ -164,9 +166,7 @@ fn shear(values: &Values, converted: &mut Converted) {
 
 /// Adds T by the thickness at 2 gf/cm², and TM by that at 100 gf/cm², where they are not given.
 fn thickness(values: &Values, converted: &mut Converted) {
-    for (pressure, key, others) in
-        [(2, "T", &["T", "T0"][..]), (100, "TM", &["TM"][..])]
-    {
+    for (pressure, key, others) in [(2, "T", &["T", "T0"][..]), (100, "TM", &["TM"][..])] {
         let Some(one) = values.get(Item::Thickness(pressure), None) else { continue };
         let unit = one.value.unit.map(|unit| unit.spelling);
         if others.iter().any(|other| values.has(Item::Key(other))) {
@@ -193,7 +193,9 @@ fn thickness(values: &Values, converted: &mut Converted) {
             why: format!("{}, {remark}", why(one)),
         });
         if key == "TM" {
-            converted.notes.push(format!("ASSUMED: TM is the thickness at 100 gf/cm2, {}", one.source));
+            converted
+                .notes
+                .push(format!("ASSUMED: TM is the thickness at 100 gf/cm2, {}", one.source));
         }
     }
 }
@@ -214,7 +216,10 @@ mod tests {
             points.extend([5.0, 20.0, 100.0].map(|load| [extension(load), load]));
             let linearity = 2.0 * work(&points) / 400.0;
             let wanted = 2.0 / (exponent + 1.0);
-            assert!((linearity / wanted - 1.0).abs() < 0.02, "{exponent}: {linearity}, not {wanted}");
+            assert!(
+                (linearity / wanted - 1.0).abs() < 0.02,
+                "{exponent}: {linearity}, not {wanted}"
+            );
         }
     }
 }

@@ -49,7 +49,8 @@ impl<'m> Heads<'m> {
         let number = |slot: &crate::results::matrix::Slot| -> Option<f64> {
             slot.cell.text().trim().parse().ok()
         };
-        let is_small = |number: f64| number.fract() == 0.0 && (1.0..=SPECIMEN_MAX).contains(&number);
+        let is_small =
+            |number: f64| number.fract() == 0.0 && (1.0..=SPECIMEN_MAX).contains(&number);
         let fits = over().all(|slot| match &slot.label {
             Some(_) => true,
             None => number(slot).is_some_and(is_small),
@@ -76,7 +77,8 @@ impl<'m> Heads<'m> {
             let own = |v: usize| {
                 let slot = &row[v];
                 let specimen = || slot.cell.text().parse().ok();
-                let count = slot.is_number.then(|| Label { specimen: specimen(), ..Label::default() });
+                let count =
+                    slot.is_number.then(|| Label { specimen: specimen(), ..Label::default() });
                 slot.label.clone().or(count)
             };
             // A merged cell stands over its first column only.

@@ -187,7 +187,8 @@ impl Label {
         let Some((item, name)) = there.max_by_key(|(_, name)| name.chars().count()) else { return };
         let numbers = numbers(text);
         let has = |number: f64| numbers.contains(&number);
-        let is_loaded = ["gf", "g/cm", "n/m", "cn"].iter().any(|unit| text.to_lowercase().contains(unit));
+        let is_loaded =
+            ["gf", "g/cm", "n/m", "cn"].iter().any(|unit| text.to_lowercase().contains(unit));
         let item = match item {
             Item::Key("2HG") if has(5.0) && !has(0.5) => Item::Key("2HG5"),
             Item::Key("T") if is_loaded && has(0.5) => Item::Key("T0"),
@@ -242,7 +243,12 @@ impl Label {
         if self.cut == Some(Cut::Bias) {
             words.retain(|letter| letter != '°' && letter != '±');
             *words = words.replacen("45", " ", 1).replace(" deg ", " ");
-            take(words, &["bias, biais, sbieco, bies, sesgo, viés, verev, schräg, diagonal, バイアス, 斜め, 斜向"]);
+            take(
+                words,
+                &[
+                    "bias, biais, sbieco, bies, sesgo, viés, verev, schräg, diagonal, バイアス, 斜め, 斜向",
+                ],
+            );
         }
         self.take_statistic(words, inside);
         for (face, known) in [(Face::Face, FACE), (Face::Back, BACK)] {
@@ -278,8 +284,9 @@ impl Label {
 
     fn take_statistic(&mut self, words: &mut String, inside: &[String]) {
         let taken = [MEAN, DEVIATION, VARIATION, ERROR, OTHER].map(|known| take(words, known));
-        let is_count = words.split_whitespace().all(|word| single(COUNT).any(|known| known == word))
-            || single(COUNT).any(|name| name.contains(' ') && words.trim() == name);
+        let is_count =
+            words.split_whitespace().all(|word| single(COUNT).any(|known| known == word))
+                || single(COUNT).any(|name| name.contains(' ') && words.trim() == name);
         self.statistic = match taken {
             [true, _, true, ..] => Some(Statistic::MeanWithVariation),
             [true, _, _, true, _] => Some(Statistic::MeanWithError),
@@ -379,7 +386,8 @@ impl WrittenUnit {
         }
         // Outside of brackets these are words or names.
         let is_word = ["in", "m", "s", "h", "N", "C", "g", "cd"].contains(&text);
-        if (parse_unit(text, &ALL).is_ok() || drape_input::is_unit(text)) && (is_bracketed || !is_word)
+        if (parse_unit(text, &ALL).is_ok() || drape_input::is_unit(text))
+            && (is_bracketed || !is_word)
         {
             return unit(true);
         }
@@ -425,7 +433,8 @@ fn take(text: &mut String, words: Words) -> bool {
 /// Returns the place of the first bracket and of the bracket that closes it.
 fn bracket(text: &str) -> Option<(usize, usize)> {
     let pairs = [('(', ')'), ('[', ']'), ('<', '>'), ('{', '}')];
-    let (start, open) = text.char_indices().find(|(_, c)| pairs.iter().any(|(open, _)| open == c))?;
+    let (start, open) =
+        text.char_indices().find(|(_, c)| pairs.iter().any(|(open, _)| open == c))?;
     let close = pairs.iter().find(|(sign, _)| *sign == open)?.1;
     let mut depth = 0;
     for (place, letter) in text[start..].char_indices() {
@@ -509,7 +518,9 @@ mod tests {
             let found = label.unit.as_ref().map(|unit| unit.text.as_str());
             assert_eq!((label.item, found), (Some(item), unit), "{text}: {label:?}");
         }
-        for text in ["Fabric: B 12", "Class B", "Chaîne et trame", "Strain (%)", "Force (gf/cm)", "mean"] {
+        for text in
+            ["Fabric: B 12", "Class B", "Chaîne et trame", "Strain (%)", "Force (gf/cm)", "mean"]
+        {
             assert_eq!(Label::parse(text).item, None, "{text}");
         }
     }

@@ -138,7 +138,8 @@ impl Matrix {
         for r in 0..self.rows.len() {
             let below = |matrix: &Self, c: usize| {
                 let numbers = matrix.rows[r + 1..].iter().skip_while(|row| !row[c].is_number);
-                let before = matrix.rows[r + 1..].iter().take_while(|row| !row[c].is_number).count();
+                let before =
+                    matrix.rows[r + 1..].iter().take_while(|row| !row[c].is_number).count();
                 (r + 1 + before, numbers.take_while(|row| row[c].is_number).count())
             };
             let is_axis = |c: &usize| {
@@ -158,9 +159,8 @@ impl Matrix {
 
     /// Returns the row of the heading of a column of numbers from a row on.
     fn heading_row(&self, r: usize, c: usize) -> Option<usize> {
-        let text = |row: &usize| {
-            self.rows[*row][c].label.as_ref().is_some_and(|label| !label.is_unit())
-        };
+        let text =
+            |row: &usize| self.rows[*row][c].label.as_ref().is_some_and(|label| !label.is_unit());
         (r.saturating_sub(HEADING_ROWS)..r).rev().find(text)
     }
 
@@ -168,7 +168,10 @@ impl Matrix {
         let heading = self.heading_row(r, c);
         if let Some(row) = heading {
             let slot = &self.rows[row][c];
-            if is_of_curves(&slot.cell) && !slot.has_item() && !slot.label.as_ref().is_some_and(Label::is_tagged) {
+            if is_of_curves(&slot.cell)
+                && !slot.has_item()
+                && !slot.label.as_ref().is_some_and(Label::is_tagged)
+            {
                 return true;
             }
             let items = self.rows[row].iter().filter(|slot| slot.has_item()).count();
@@ -220,7 +223,13 @@ mod tests {
         let head = "Parameter;Warp;Weft;;Strain (%);Force (gf/cm)\n";
         let rows: String = (0..40)
             .map(|i| {
-                let values = if i == 1 { "B;0.1;0.06" } else if i == 2 { "W;21;" } else { ";;" };
+                let values = if i == 1 {
+                    "B;0.1;0.06"
+                } else if i == 2 {
+                    "W;21;"
+                } else {
+                    ";;"
+                };
                 format!("{values};;{i};{}\n", 3 * i)
             })
             .collect();
@@ -240,8 +249,13 @@ mod tests {
         let fabrics: String = (0..40).map(|i| format!("F{i};0.1;0.05;{}\n", 10 + i)).collect();
         let matrix = of(&format!("Fabric;B;2HB;W\n{fabrics}"));
         assert_eq!(matrix.rows.iter().flatten().filter(|slot| slot.is_number).count(), 120);
-        let items = ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "LC", "WC", "RC", "MIU"];
-        let rows: String = items.iter().chain(&["MMD", "SMD", "T0", "TM", "W"]).map(|i| format!("{i};1\n")).collect();
+        let items =
+            ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "LC", "WC", "RC", "MIU"];
+        let rows: String = items
+            .iter()
+            .chain(&["MMD", "SMD", "T0", "TM", "W"])
+            .map(|i| format!("{i};1\n"))
+            .collect();
         let matrix = of(&format!("Item;Value\n{rows}"));
         assert_eq!(matrix.rows.iter().flatten().filter(|slot| slot.is_number).count(), 18);
     }

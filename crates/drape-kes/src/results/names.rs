@@ -198,7 +198,10 @@ pub(super) const ITEMS: [(Item, Words); 25] = [
             "はみ出し長さ, 押し出し長さ, 突出長さ, 剛軟度, 伸出长度, 滑出长度, 悬垂长度",
         ],
     ),
-    (Item::BiasExtension, &["bias extension, bias extensibility, extensibilité en biais, バイアス伸び"]),
+    (
+        Item::BiasExtension,
+        &["bias extension, bias extensibility, extensibilité en biais, バイアス伸び"],
+    ),
     (
         Item::Extension(100),
         &[
@@ -243,7 +246,8 @@ pub(super) const VARIATION: Words = &[
 ];
 
 /// Words of a standard error of a mean.
-pub(super) const ERROR: Words = &["se, sem, s e, standard error, standardfehler, erreur standard, 標準誤差"];
+pub(super) const ERROR: Words =
+    &["se, sem, s e, standard error, standardfehler, erreur standard, 標準誤差"];
 
 /// Words of a number of specimens.
 pub(super) const COUNT: Words = &[

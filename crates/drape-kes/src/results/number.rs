@@ -1,7 +1,7 @@
 //! Number of a cell of results, with its scatter and its unit.
 
-use crate::tables::grid::Cell;
 use crate::results::label::WrittenUnit;
+use crate::tables::grid::Cell;
 use crate::tables::number::scattered::{Spread, leading_number, scattered};
 use crate::tables::number::{Decimal, Evidence, evidence, parse};
 
@@ -94,7 +94,9 @@ fn without_mark(text: &str) -> &str {
 }
 
 /// Returns the decimal sign of cells; `Err` holds why it cannot be told.
-pub(crate) fn decimal<'c>(cells: impl Iterator<Item = (usize, &'c Cell)>) -> Result<Decimal, String> {
+pub(crate) fn decimal<'c>(
+    cells: impl Iterator<Item = (usize, &'c Cell)>,
+) -> Result<Decimal, String> {
     let [mut point, mut comma, mut either] = [None, None, None];
     for (line, cell) in cells {
         for sign in signs(cell) {
@@ -102,7 +104,9 @@ pub(crate) fn decimal<'c>(cells: impl Iterator<Item = (usize, &'c Cell)>) -> Res
             match sign {
                 Evidence::Of(Decimal::Point) => _ = point.get_or_insert_with(here),
                 Evidence::Of(Decimal::Comma) => _ = comma.get_or_insert_with(here),
-                Evidence::Either if cell.text().contains(',') => _ = either.get_or_insert_with(here),
+                Evidence::Either if cell.text().contains(',') => {
+                    _ = either.get_or_insert_with(here)
+                }
                 Evidence::Either | Evidence::Whole => {}
             }
         }
@@ -133,7 +137,8 @@ mod tests {
 
     #[test]
     fn a_cell_has_a_number_with_its_scatter_and_its_unit() {
-        let plain = |number: f64, unit: &str| Some(CellNumber { number, scatter: None, unit: unit.into() });
+        let plain =
+            |number: f64, unit: &str| Some(CellNumber { number, scatter: None, unit: unit.into() });
         assert_eq!(of("0.112", Decimal::Point), plain(0.112, ""));
         assert_eq!(of("0,112*", Decimal::Comma), plain(0.112, ""));
         assert_eq!(of("213 g/m2", Decimal::Point), plain(213.0, "g/m2"));
@@ -150,7 +155,8 @@ mod tests {
     #[test]
     fn the_decimal_sign_of_a_table_is_told_or_asked_for() {
         let of = |texts: &[&str]| {
-            let cells: Vec<Cell> = texts.iter().map(|text| Cell::Text((*text).to_owned())).collect();
+            let cells: Vec<Cell> =
+                texts.iter().map(|text| Cell::Text((*text).to_owned())).collect();
             decimal(cells.iter().enumerate())
         };
         assert_eq!(of(&["0,085±0,004", "12"]), Ok(Decimal::Comma));

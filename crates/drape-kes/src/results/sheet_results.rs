@@ -50,7 +50,8 @@ mod tests {
     /// Returns a value of the only fabric, with its standard deviation.
     fn get(found: &SheetResults, key: &'static str, direction: Option<Direction>) -> (f64, f64) {
         let [(_, values)] = &found.fabrics[..] else { panic!("not one fabric: {found:?}") };
-        let is_it = |value: &&Averaged| value.item == Item::Key(key) && value.direction == direction;
+        let is_it =
+            |value: &&Averaged| value.item == Item::Key(key) && value.direction == direction;
         let value = values.iter().find(is_it).unwrap_or_else(|| panic!("no {key}: {found:?}"));
         (value.number, value.deviation.unwrap_or(0.0))
     }
@@ -77,7 +78,8 @@ mod tests {
 
     #[test]
     fn statistics_of_a_table_stand_beside_its_specimens() {
-        let found = of("Item,Unit,1,2,3,Mean,SD,CV%\nWarp\nB,gf.cm2/cm,0.10,0.11,0.12,0.11,0.01,9.1\n\
+        let found =
+            of("Item,Unit,1,2,3,Mean,SD,CV%\nWarp\nB,gf.cm2/cm,0.10,0.11,0.12,0.11,0.01,9.1\n\
                         Weft\nB,gf.cm2/cm,0.05,0.06,0.07,0.06,0.01,16.7\n");
         assert_eq!(get(&found, "B", WARP), (0.11, 0.01));
         assert_eq!(get(&found, "B", WEFT), (0.06, 0.01));
@@ -94,7 +96,9 @@ mod tests {
 
     #[test]
     fn a_second_table_of_the_same_items_is_not_mixed_with_the_first() {
-        let found = of("Before washing\nItem,Warp,Weft\nB,0.1,0.05\n\nAfter washing\nItem,Warp,Weft\nB,0.2,0.1\n");
+        let found = of(
+            "Before washing\nItem,Warp,Weft\nB,0.1,0.05\n\nAfter washing\nItem,Warp,Weft\nB,0.2,0.1\n",
+        );
         assert_eq!(get(&found, "B", WARP).0, 0.1);
         assert!(found.notes[0].contains("more than once"), "{:?}", found.notes);
     }
@@ -110,9 +114,12 @@ mod tests {
                     Wool,B,Warp,0.3\nWool,B,Weft,0.2\nWool,W,,25\n";
         for text in [across, below, stacked, long] {
             let found = of(text);
-            let names: Vec<Option<&str>> = found.fabrics.iter().map(|(name, _)| name.as_deref()).collect();
+            let names: Vec<Option<&str>> =
+                found.fabrics.iter().map(|(name, _)| name.as_deref()).collect();
             assert_eq!(names, [Some("Cotton"), Some("Wool")], "{text}: {found:?}");
-            for ((_, values), wanted) in found.fabrics.iter().zip([[0.1, 0.05, 12.0], [0.3, 0.2, 25.0]]) {
+            for ((_, values), wanted) in
+                found.fabrics.iter().zip([[0.1, 0.05, 12.0], [0.3, 0.2, 25.0]])
+            {
                 let numbers: Vec<f64> = values.iter().map(|value| value.number).collect();
                 assert_eq!(numbers, wanted, "{text}");
             }
@@ -136,7 +143,12 @@ mod tests {
                         2HB,gf.cm/cm,2024-02-01,0.03,1\nGloss,%,40,42,1\n");
         assert_eq!(get(&found, "B", WARP).0, 0.1);
         let notes = found.notes.join("\n");
-        for words in ["\"Limit\"", "\"Ohm/sq\" is no known unit of shear stiffness", "made a date", "\"Gloss\" (line 5)"] {
+        for words in [
+            "\"Limit\"",
+            "\"Ohm/sq\" is no known unit of shear stiffness",
+            "made a date",
+            "\"Gloss\" (line 5)",
+        ] {
             assert!(notes.contains(words), "{words} is missing in {notes}");
         }
     }

@@ -170,16 +170,16 @@ impl<'m> Rows<'m> {
         let Some(&first) = numbers.first() else { return };
         // What stands before the numbers, and a unit behind them.
         let before = (0..c).rev().find(|&l| row[l].has_item());
-        let start = before.map_or(0, |item| {
-            (item..c).rev().find(|&l| row[l].is_number).unwrap_or(item) + 1
-        });
+        let start = before
+            .map_or(0, |item| (item..c).rev().find(|&l| row[l].is_number).unwrap_or(item) + 1);
         let mut common = Label { name: String::new(), ..own.clone() };
         for l in (start..c).chain(c + 1..first) {
             let Some(label) = row[l].label.as_ref() else { continue };
             let mut label = label.clone();
             if label.unit.is_none() && !label.is_tagged() && self.is_column_of_units(l, c) {
                 let text = std::mem::take(&mut label.name);
-                label.unit = Some(WrittenUnit { text, is_known: false }).filter(|u| !u.text.is_empty());
+                label.unit =
+                    Some(WrittenUnit { text, is_known: false }).filter(|u| !u.text.is_empty());
             }
             common = common.or(&Label { name: String::new(), ..label });
         }
@@ -198,7 +198,8 @@ impl<'m> Rows<'m> {
         let common = common.or(&leading);
         for &v in &numbers {
             let head = heads.at(v);
-            let is_number_of_specimen = head.label.axis == Some(Axis::Specimen) && numbers.len() > 1;
+            let is_number_of_specimen =
+                head.label.axis == Some(Axis::Specimen) && numbers.len() > 1;
             if is_number_of_specimen || head.label.statistic == Some(Statistic::Count) {
                 continue;
             }
@@ -329,9 +330,8 @@ impl Sections {
 
 /// Returns whether a cell among numbers holds a text that says something and is no number.
 fn is_odd(slot: &Slot) -> bool {
-    const NOTHING: [&str; 14] = [
-        "-", "–", "—", "/", "n.d.", "n.a.", "na", "n/a", "nd", "none", "*", "k.a.", "なし", "无",
-    ];
+    const NOTHING: [&str; 14] =
+        ["-", "–", "—", "/", "n.d.", "n.a.", "na", "n/a", "nd", "none", "*", "k.a.", "なし", "无"];
     let text = slot.cell.text().to_lowercase();
     let is_said = !text.is_empty() && !NOTHING.contains(&text.as_str());
     is_said && slot.label.as_ref().is_some_and(|label| !label.is_unit() && !label.is_tagged())

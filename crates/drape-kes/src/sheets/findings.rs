@@ -9,11 +9,32 @@ pub(crate) struct Findings<'t> {
     pub(crate) warnings: Vec<Diagnostic>,
     /// What was taken for what, a line for each file.
     pub(crate) readings: Vec<String>,
+    /// Key paths of values whose standard deviations have no use.
+    pub(crate) unused_scatter: Vec<String>,
 }
 
 impl<'t> Findings<'t> {
     pub(crate) fn new(document: &'t Document) -> Self {
-        Self { document, errors: Vec::new(), warnings: Vec::new(), readings: Vec::new() }
+        Self {
+            document,
+            errors: Vec::new(),
+            warnings: Vec::new(),
+            readings: Vec::new(),
+            unused_scatter: Vec::new(),
+        }
+    }
+
+    /// Warns about standard deviations that have no use, all together.
+    pub(crate) fn tell_unused_scatter(&mut self) {
+        let Some(first) = self.unused_scatter.first().cloned() else { return };
+        let others = self.unused_scatter[1..].join(", ");
+        let message = if others.is_empty() {
+            "its standard deviation is not used".to_owned()
+        } else {
+            format!("its standard deviation is not used, nor are those of {others}")
+        };
+        let help = "those of B, 2HB, G, 2HG, 2HG5, LT, WT, RT and EM give intervals";
+        self.warn(&first, message, help);
     }
 
     /// Adds an error in the value at a key path.

@@ -171,6 +171,7 @@ impl Sheet {
         };
         sheet.compare_compression(root, findings);
         sheet.compare_loads(findings);
+        findings.tell_unused_scatter();
         sheet
     }
 

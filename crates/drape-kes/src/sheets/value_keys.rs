@@ -35,7 +35,7 @@ impl WholeValues {
         let rc = percentage(root, "RC", findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
         for value in [&w, &t, &t0, &tm, &wc, &rc, &fm].into_iter().flatten() {
-            tell_unused_scatter(value, findings);
+            note_unused_scatter(value, findings);
         }
         Self { w, t, t0, tm, lc, wc, rc, fm }
     }
@@ -168,7 +168,7 @@ fn values(
     let rt = laboratory(source.read(Symbol::Rt, |s| percentage(s, "RT", findings)));
     let smd = source.find("SMD").and_then(|s| positive(&s, "SMD", Quantity::Roughness, findings));
     if let Some(smd) = &smd {
-        tell_unused_scatter(smd, findings);
+        note_unused_scatter(smd, findings);
     }
     let miu = source.find("MIU").and_then(|section| MIU.read(&section, findings));
     let mmd = source.find("MMD").and_then(|section| MMD.read(&section, findings));
@@ -188,12 +188,10 @@ fn values(
     }
 }
 
-/// Tells that the standard deviation of a value has no use.
-fn tell_unused_scatter(value: &Measured, findings: &mut Findings<'_>) {
-    if value.deviation.is_some() {
-        let message = format!("{}: the standard deviation is not used", value.written);
-        let help = "those of B, 2HB, G, 2HG, 2HG5, LT, WT, RT and EM give intervals";
-        findings.warn(&value.key, message, help);
+/// Notes that the standard deviation of a value has no use.
+fn note_unused_scatter(value: &Measured, findings: &mut Findings<'_>) {
+    if value.deviation.is_some() && !findings.unused_scatter.contains(&value.key) {
+        findings.unused_scatter.push(value.key.clone());
     }
 }
 
@@ -234,7 +232,7 @@ impl Ratio {
     /// Reads the ratio; a standard deviation that stands with it has no use.
     fn read(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
         let value = self.measured(section, findings)?;
-        tell_unused_scatter(&value, findings);
+        note_unused_scatter(&value, findings);
         Some(value.si)
     }
 

@@ -2,8 +2,8 @@
 
 use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
 use encoding_rs::{
-    BIG5, EUC_JP, EUC_KR, Encoding, GB18030, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1250,
-    WINDOWS_1251, WINDOWS_1252, WINDOWS_1253, WINDOWS_1254,
+    BIG5, EUC_JP, EUC_KR, Encoding, GB18030, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE,
+    WINDOWS_1250, WINDOWS_1251, WINDOWS_1252, WINDOWS_1253, WINDOWS_1254,
 };
 
 use crate::tables::heading;
@@ -120,9 +120,8 @@ fn lines_beyond_ascii(bytes: &[u8]) -> Vec<u8> {
 /// Returns the encoding in which a text has most letters of known words beyond ASCII; `None` where it has none in
 /// any.
 fn by_words(bytes: &[u8]) -> Option<&'static Encoding> {
-    let scores = CANDIDATES.map(|encoding| {
-        strict(encoding, bytes).map_or(0, |text| heading::known_letters(&text))
-    });
+    let scores = CANDIDATES
+        .map(|encoding| strict(encoding, bytes).map_or(0, |text| heading::known_letters(&text)));
     let most = *scores.iter().max()?;
     let first = scores.iter().position(|score| *score == most)?;
     (most > 0).then_some(CANDIDATES[first])

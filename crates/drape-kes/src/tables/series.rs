@@ -7,8 +7,8 @@ use drape_input::{Diagnostic, Diagnostics};
 use crate::tables::block::Block;
 use crate::tables::columns::Pair;
 use crate::tables::grid::{Cell, Row};
-use crate::tables::number::Decimal;
 use crate::tables::heading::words::Words;
+use crate::tables::number::Decimal;
 use crate::tables::stated::{Around, Stated, size_column};
 
 /// Points of one specimen as they are written.

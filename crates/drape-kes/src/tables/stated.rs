@@ -182,7 +182,9 @@ mod tests {
     #[test]
     fn a_table_of_specimens_states_their_sizes() {
         let text = |second: f64| {
-            format!("名前;厚さ;幅;ゲージ長\n;mm;mm;cm\n1 _ 1;0,4;50,0;20,0\n1 _ 2;0,4;{second};20,0\n")
+            format!(
+                "名前;厚さ;幅;ゲージ長\n;mm;mm;cm\n1 _ 1;0,4;50,0;20,0\n1 _ 2;0,4;{second};20,0\n"
+            )
         };
         let table = |text: &str| {
             let rows = Separator::Semicolon.split(text).expect("it splits");

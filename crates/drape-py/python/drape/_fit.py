@@ -122,6 +122,11 @@ class Sheet:
         """What in the sheet deserves a second look."""
         return self._inner.warnings()
 
+    @property
+    def readings(self) -> list[str]:
+        """What each curve, and each value of tables, was taken for; what was assumed or left out."""
+        return self._inner.readings()
+
     def __repr__(self) -> str:
         return f"<drape.Sheet {self.name!r}>"
 
@@ -319,9 +324,13 @@ class Fit:
         return f"<drape.Fit of {self.fabric.name!r}: {len(self.curves)} curves>"
 
 
-def read_sheet(path: StrPath) -> Sheet:
-    """Reads a sheet, a TOML file or a folder with `sheet.toml`. Raises `InputError`."""
-    return Sheet(_drape.Sheet.read(Path(path)))
+def read_sheet(path: StrPath, *, fabric: str | None = None) -> Sheet:
+    """Reads a sheet, a TOML file or a folder with `sheet.toml`; or the tables of a laboratory.
+
+    Tables are a workbook (`.xlsx`, `.xls`, `.xlsm`, `.ods`), a `.csv` or another table of text, a `.zip`, or
+    a folder of exports. `fabric` is the name of one fabric where they hold several. Raises `InputError`.
+    """
+    return Sheet(_drape.Sheet.read(Path(path), fabric))
 
 
 class Fits(Mapping[str, Fit]):
@@ -354,8 +363,12 @@ def fit(
     bending: str | None = None,
     shear: str | None = None,
     profile: bool = False,
+    fabric: str | None = None,
 ) -> Fit:
     """Fits a fabric to a sheet, to the sheet of a file or folder, or to curves as arrays.
+
+    A file may be a workbook or another table too, and a folder one of exports, as for `read_sheet`;
+    `fabric` names one of several in them.
 
     The laws are those that the curves support best unless they are named: `traction` is
     `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`, `"parallel"`,
@@ -368,7 +381,7 @@ def fit(
         if path.is_dir() and not (path / _SHEET).exists() and (below := _sheets_below(path)):
             advice = f"fit them with drape.fit_all({str(path)!r})"
             raise UsageError(f"{path} holds {len(below)} sheets in its folders; {advice}")
-        sheet = read_sheet(path)
+        sheet = read_sheet(path, fabric=fabric)
     own = sheet if isinstance(sheet, Sheet) else Sheet.from_curves("fabric", sheet)
     return Fit(own._inner.fit(_laws(traction, bending, shear, profile)))
 
@@ -382,6 +395,8 @@ def fit_all(
     profile: bool = False,
 ) -> Fits:
     """Fits the sheets of files and folders on all threads: all that are in the folders below, too.
+
+    A file may be a workbook or another table of one fabric.
 
     The keywords are those of `fit`. A sheet that has no fit does not stop the others: it is in
     `failures`. Raises `UsageError` for a folder without sheets.

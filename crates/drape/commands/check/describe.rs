@@ -7,15 +7,19 @@ use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone, TractionFriction};
 use drape::input::{Diagnostic, Diagnostics, figure};
 use drape::keep::describe_needs;
+use drape::kes::{Sheet, SheetDraft};
 use drape::pattern::Pattern;
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
 
 use super::pattern::CutOut;
-use crate::commands::sheets;
+use crate::commands::sheets::{self, drafted};
 use crate::input;
 
 /// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
 pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics> {
+    if sheets::is_of_tables(path) {
+        return tables(path);
+    }
     if path.is_dir() {
         return sheet(path);
     }
@@ -214,9 +218,33 @@ fn fabric(fabric: &Fabric) -> String {
     text
 }
 
+/// Returns what the sheets hold that are drafted of tables.
+fn tables(path: &Path) -> Result<String, Diagnostics> {
+    let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
+    let in_input = |error| sheets::in_input(error, path);
+    let drafts = SheetDraft::of(path, folder).map_err(in_input)?;
+    let several = drafts.len() > 1;
+    let mut text = String::new();
+    for draft in drafts {
+        // The sheet that drape fit would write.
+        let file = format!("{}.sheet.toml", drafted::name(path, &draft, several));
+        let document = input::with_settings(&folder.join(file), &draft.text)?;
+        let sheet = draft.read_document(document).map_err(in_input)?;
+        let values = draft.values;
+        let _ =
+            writeln!(text, "drafted, with {values} values, {} sections to complete", draft.open);
+        text += &indent(&of_sheet(&sheet));
+    }
+    Ok(text)
+}
+
 fn sheet(file: &Path) -> Result<String, Diagnostics> {
-    let sheet = sheets::read(file)?;
-    let density = sheet.density().map_or("no".into(), |w| format!("{w}"));
+    Ok(of_sheet(&sheets::read(file)?))
+}
+
+/// Returns what a sheet holds.
+fn of_sheet(sheet: &Sheet) -> String {
+    let density = sheet.density().map_or("no".into(), figure);
     let mut text =
         format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
     for curve in &sheet.curves {
@@ -239,7 +267,7 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
     sheet.warnings().iter().for_each(|warning| {
         let _ = writeln!(text, "  warning: {warning}");
     });
-    Ok(text)
+    text
 }
 
 fn indent(text: &str) -> String {

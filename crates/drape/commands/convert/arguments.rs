@@ -7,13 +7,18 @@ use clap::Args;
 #[derive(Args)]
 pub(crate) struct ConvertArguments {
     /// Pattern: *.json of GarmentCode or FreeSewing, *.svg, *.dxf (AAMA, ASTM), or *.toml, - for
-    /// standard input; or a folder with the exports of a laboratory's instruments.
+    /// standard input; or what a laboratory measured: a workbook (.xlsx, .xls, .xlsm, .ods), a .csv or
+    /// another table, a .zip, or a folder with the exports of instruments.
     #[arg(required = true, value_name = "FROM")]
     pub(crate) from: Vec<PathBuf>,
-    /// File to write: *.toml, or *.svg for a drawing at true scale; for exports a sheet.toml, or its
-    /// folder; without it, or with -, TOML on stdout.
+    /// File to write: *.toml, or *.svg for a drawing at true scale; for measurements a sheet.toml, or
+    /// its folder, and a folder where they are of several fabrics; without it, or with -, TOML on
+    /// stdout.
     #[arg(short, long, value_name = "TO")]
     pub(crate) output: Option<PathBuf>,
+    /// The fabric to take of tables that hold several.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) fabric: Option<String>,
     /// Unit of the lengths of a drawing that does not state it.
     #[arg(long, value_name = "mm|cm|m|in|pt|px")]
     pub(crate) unit: Option<String>,

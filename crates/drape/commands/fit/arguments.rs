@@ -9,13 +9,18 @@ use drape::input::Setting;
 #[derive(Args)]
 pub(crate) struct FitArguments {
     /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside; - for
-    /// standard input.
+    /// standard input. Or tables, of which a sheet is drafted first: workbooks (.xlsx, .xls, .xlsm,
+    /// .ods), .csv and other tables, a .zip, or a folder of exports without a sheet.
     #[arg(required = true, value_name = "SHEET")]
     pub(crate) sheets: Vec<PathBuf>,
     /// The fabric to write, - for stdout, or the folder for several [default: fabric.toml beside
-    /// each sheet].
+    /// each sheet, NAME.toml for tables NAME]. The sheet that is drafted of tables is NAME.sheet.toml
+    /// beside the fabric NAME.toml, and sheet.toml in a folder of exports.
     #[arg(short, long, value_name = "FABRIC.toml")]
     pub(crate) output: Option<PathBuf>,
+    /// The fabric to take of tables that hold several.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) fabric: Option<String>,
     /// Folder for a report with plots, one HTML page per sheet.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,
@@ -23,7 +28,7 @@ pub(crate) struct FitArguments {
     /// several times. The key is a path of names and numbers, the value one of TOML.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Replaces fabrics that are there already.
+    /// Replaces fabrics, and sheets drafted of tables, that are there already.
     #[arg(long)]
     pub(crate) force: bool,
     /// Prints the fit as JSON, in SI.

@@ -1,54 +1,25 @@
 //! Many sheets fitted on all threads, each to its own fabric and page; printed as one table.
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use drape::fit::{FittedSheet, identify_all};
 use drape::kes::Sheet;
 use drape::report::{FitPage, Trust};
 
 use super::arguments::FitArguments;
-use super::identify::{beside, page, store};
-use crate::commands::sheets;
+use super::identify::{page, store};
+use super::job::Job;
 use crate::console::progress;
 use crate::console::{Console, tell};
 use crate::failure::Failure;
 use crate::say::{say, say_json};
 use drape::file;
 
-/// One sheet of a batch, with what its files are called.
-struct Job<'a> {
-    sheet: &'a Path,
-    /// Name of its page, and of its fabric if that goes into a common folder.
-    name: String,
-    /// File of its fabric.
-    fabric: PathBuf,
-}
-
-/// Plans the files of each sheet: named by its stem, with a number where that is taken.
-fn plan<'a>(sheets: &'a [PathBuf], arguments: &FitArguments) -> Vec<Job<'a>> {
-    let mut taken = BTreeSet::new();
-    let job = |sheet: &'a PathBuf| {
-        let stem = sheets::stem(sheet);
-        let numbered = (2..).map(|number| format!("{stem}-{number}"));
-        let mut candidates = std::iter::once(stem.clone()).chain(numbered);
-        let name = candidates.find(|name| taken.insert(name.clone()));
-        let name = name.expect("there is always a next number");
-        let fabric = match &arguments.output {
-            Some(folder) => folder.join(format!("{name}.toml")),
-            None => beside(sheet),
-        };
-        Job { sheet, name, fabric }
-    };
-    sheets.iter().map(job).collect()
-}
-
-impl Job<'_> {
-    /// Reads the sheet, unless its fabric is there already and may not be replaced.
-    fn read(&self, force: bool) -> Result<Sheet, Failure> {
-        file::refuse_existing(&self.fabric, force, "replace it with --force")?;
-        Ok(sheets::read(self.sheet)?)
-    }
+/// Reads the sheet of a job, unless its files are there already and may not be replaced; a drafted one is written.
+fn read(job: &Job, force: bool) -> Result<Sheet, Failure> {
+    job.refuse_existing(force, "replace it with --force")?;
+    job.write_sheet()?;
+    Ok(job.read()?)
 }
 
 /// Heads of the columns of the table.
@@ -65,12 +36,11 @@ struct Row {
 }
 
 /// Fits every sheet on all threads; a sheet that fails does not stop the others.
-pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
-    let bar = progress::bar(sheets.len() as u64, "{pos}/{len} sheets, {per_sec}, {eta} left");
-    let jobs = plan(sheets, arguments);
+pub(crate) fn fit_all(jobs: &[Job], arguments: &FitArguments) -> Result<(), Failure> {
+    let bar = progress::bar(jobs.len() as u64, "{pos}/{len} sheets, {per_sec}, {eta} left");
     let settings = arguments.laws.settings();
-    let read = |job: &Job<'_>| job.read(arguments.force);
-    let rows = identify_all(&jobs, &settings, read, |job, found| {
+    let read = |job: &Job| read(job, arguments.force);
+    let rows = identify_all(jobs, &settings, read, |job, found| {
         let row = found.and_then(|FittedSheet { sheet, fit }| {
             let page = page(sheet, fit, &settings)?;
             file::write(&job.fabric, fit.fabric.to_toml())?;
@@ -78,23 +48,23 @@ pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<()
             Ok(Row::new(&page))
         });
         bar.inc(1);
-        row.map_err(|failure| failure.of(job.sheet))
+        row.map_err(|failure| failure.of(&job.sheet))
     });
     bar.finish_and_clear();
     let failed = rows.iter().filter(|row| row.is_err()).count();
     if arguments.json {
-        let rows: Vec<_> = sheets.iter().zip(&rows).map(|(sheet, row)| json(sheet, row)).collect();
+        let rows: Vec<_> = jobs.iter().zip(&rows).map(|(job, row)| json(&job.sheet, row)).collect();
         say_json(&rows)?;
     } else {
         let [name, fit, misfit, warnings, assumed] = HEAD;
         say(format_args!("{name:<36} {fit:<10} {misfit:>8} {warnings:>8} {assumed:>8}  sheet"))?;
-        for (sheet, row) in sheets.iter().zip(&rows) {
-            say(line(sheet, row))?;
+        for (job, row) in jobs.iter().zip(&rows) {
+            say(line(&job.sheet, row))?;
         }
     }
     rows.iter().filter_map(|row| row.as_ref().err()).for_each(Failure::print);
     if !Console::get().quiet {
-        tell(format_args!("{} of {} sheets fitted", sheets.len() - failed, sheets.len()));
+        tell(format_args!("{} of {} sheets fitted", jobs.len() - failed, jobs.len()));
     }
     if failed > 0 { Err(Failure::Batch) } else { Ok(()) }
 }

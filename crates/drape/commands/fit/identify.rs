@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use super::job::Job;
 use drape::fit::{Fit, Settings, identify_with};
 use drape::kes::Sheet;
 use drape::report::FitPage;
 use drape::reports::fit_page;
 
-use crate::commands::sheets;
 use crate::failure::Failure;
 use drape::file;
 
@@ -19,9 +19,10 @@ pub(crate) struct Identified {
 }
 
 /// Reads a sheet, fits it and reports the fit.
-pub(crate) fn identify(path: &Path, settings: &Settings) -> Result<Identified, Failure> {
-    let sheet = sheets::read(path)?;
-    let fit = identify_with(&sheet, settings).map_err(|error| Failure::from(error).of(path))?;
+pub(crate) fn identify(job: &Job, settings: &Settings) -> Result<Identified, Failure> {
+    let sheet = job.read()?;
+    let fit = identify_with(&sheet, settings);
+    let fit = fit.map_err(|error| Failure::from(error).of(&job.sheet))?;
     let page = page(&sheet, &fit, settings)?;
     Ok(Identified { fit, page })
 }
@@ -45,8 +46,11 @@ pub(crate) fn store(
     Ok(Some(path))
 }
 
-/// Returns the default path of the fabric of a sheet: `fabric.toml` in the sheet's folder.
+/// Returns the default path of the fabric of a sheet: `fabric.toml` in the sheet's folder, and `NAME.toml` for a sheet
+/// `NAME.sheet.toml`.
 pub(crate) fn beside(sheet: &Path) -> PathBuf {
     let folder = if sheet.is_dir() { sheet } else { sheet.parent().unwrap_or(Path::new("")) };
-    folder.join("fabric.toml")
+    let name = sheet.file_name().map(|name| name.to_string_lossy().into_owned());
+    let stem = name.as_deref().and_then(|name| name.strip_suffix(".sheet.toml"));
+    folder.join(stem.map_or("fabric.toml".to_owned(), |stem| format!("{stem}.toml")))
 }

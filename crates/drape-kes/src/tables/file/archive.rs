@@ -28,12 +28,15 @@ pub(crate) fn members(path: &Path) -> Result<Vec<String>, String> {
     for index in 0..archive.len() {
         let member = archive.by_index_raw(index).map_err(|error| error.to_string())?;
         let name = decoded(member.name_raw());
-        let hidden = |part: &str| part.starts_with('.') || part.starts_with("~$") || part == "__MACOSX";
+        let hidden =
+            |part: &str| part.starts_with('.') || part.starts_with("~$") || part == "__MACOSX";
         if member.is_file() && !name.starts_with('/') && !name.split('/').any(hidden) {
             names.push(name);
         }
         if names.len() > MOST_MEMBERS {
-            return Err(format!("it holds more than {MOST_MEMBERS} files: pack the exports of one fabric"));
+            return Err(format!(
+                "it holds more than {MOST_MEMBERS} files: pack the exports of one fabric"
+            ));
         }
     }
     names.sort();
