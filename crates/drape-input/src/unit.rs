@@ -412,9 +412,13 @@ fn normal_form(text: &str) -> String {
             other => normal.push(other),
         }
     }
-    let normal = normal.replace("degrees", "deg").replace("degree", "deg");
+    const DEGREES: [&str; 10] = [
+        "degrees", "degree", "degrés", "degré", "grados", "grado", "graus", "grau", "derece",
+        "Grad",
+    ];
+    let normal = DEGREES.iter().fold(normal, |text, word| text.replace(word, "deg"));
     match normal.as_str() {
-        "deg." | "Deg" | "DEG" | "Grad" | "grados" | "graus" => "deg".to_owned(),
+        "deg." | "Deg" | "DEG" => "deg".to_owned(),
         "micron" | "microns" | "Micron" | "ミクロン" | "微米" => "um".to_owned(),
         // German programs write the product without a sign.
         "Nm" | "Nmm" | "Ncm" | "mNm" | "mNmm" | "mNcm" | "uNm" | "cNcm" | "cNmm" => {

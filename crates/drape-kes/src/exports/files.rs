@@ -51,6 +51,10 @@ impl Files {
             let title = format!("the exports in the folder {name}");
             return Ok(Self { folder: path.to_owned(), name, title, files });
         }
+        if let Err(error) = std::fs::metadata(path) {
+            let finding = Diagnostic::new(path, format!("cannot open the file: {error}"));
+            return Err(finding.help("check the path").into());
+        }
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let (name, title) = (named(whole.file_stem()), named(path.file_name()));
         let files = if archive::is_archive(path) && path.is_file() {

@@ -1,5 +1,6 @@
 //! What the files of a draft hold: curves, values, and files that give nothing.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics, Quantity, parse_unit};
@@ -9,7 +10,7 @@ use crate::exports::curve_draft::{CurveDraft, Key};
 use crate::exports::evidence::Evidence;
 use crate::exports::files::{Files, is_other};
 use crate::exports::found::{Export, OpenDraft, in_words};
-use crate::results::average::{Averaged, rounded};
+use crate::results::average::{Averaged, Given, rounded};
 use crate::results::item::Item;
 use crate::results::sheet_results::results;
 use crate::tables::block::{Lines, blocks};
@@ -110,7 +111,9 @@ impl Parts {
             self.add_values(grid, &export, &mut reasons);
         }
         if found(self) == before {
-            reasons.extend(why_nothing(path, &file));
+            if reasons.is_empty() {
+                reasons = why_nothing(path, &file);
+            }
             self.unread.push((name.to_owned(), reasons.join("; ")));
         } else {
             self.notes.extend(reasons.into_iter().map(|reason| format!("{name}: {reason}")));
@@ -120,7 +123,7 @@ impl Parts {
     /// Adds the values of a sheet of a file: of its tables of results, and of a compression curve.
     fn add_values(&mut self, grid: &Grid, export: &Export<'_>, reasons: &mut Vec<String>) {
         let found = blocks(grid, Lines::default());
-        let mut without: Vec<usize> = Vec::new();
+        let mut without: BTreeSet<usize> = BTreeSet::new();
         let mut all: Vec<(Option<String>, Averaged)> = Vec::new();
         for block in found.blocks {
             let beyond = block.rows.iter().skip(ROWS_OF_VALUES);
@@ -144,8 +147,9 @@ impl Parts {
             }
         }
         let evidence = Evidence::of_rows(&grid.sheet, &[], export.path);
-        let direction = evidence.direction().ok().map(|told| told.value);
-        let of_tables = results(grid, &without, direction.filter(|_| evidence.bias().is_none()));
+        let told = evidence.direction().ok().filter(|_| evidence.bias().is_none());
+        let given = told.map(|told| Given { direction: told.value, why: told.why });
+        let of_tables = results(grid, &without, given.as_ref());
         let sheet = |note: String| match grid.sheet.as_str() {
             "" => note,
             sheet => format!("sheet \"{sheet}\": {note}"),

@@ -29,10 +29,23 @@ pub(crate) struct Averaged {
 }
 
 impl Averaged {
+    /// Adds a remark.
+    pub(crate) fn remarked(mut self, remark: &str) -> Self {
+        let before = if self.remark.is_empty() { "" } else { "; " };
+        self.remark = format!("{}{before}{remark}", self.remark);
+        self
+    }
+
     /// Returns the number in SI; `None` for a bare number.
     pub(crate) fn si(&self) -> Option<f64> {
         self.unit.map(|unit| self.number * unit.factor)
     }
+}
+
+/// Direction that the name of a sheet or of a file gives, with the reason.
+pub(crate) struct Given {
+    pub(crate) direction: Direction,
+    pub(crate) why: String,
 }
 
 /// Averages the readings of one fabric; adds what has no use to the notes.
@@ -40,12 +53,13 @@ impl Averaged {
 /// `given` is the direction of readings of a sheet that names no direction at all.
 pub(crate) fn averaged(
     readings: &[Reading],
-    given: Option<Direction>,
+    given: Option<&Given>,
     notes: &mut Vec<String>,
 ) -> Vec<Averaged> {
     let is_directed = readings.iter().any(|reading| reading.cut.is_some());
-    let given = given.filter(|_| !is_directed).map(Cut::Along);
-    let mut groups: Vec<((Item, Option<Cut>), Vec<&Reading>)> = Vec::new();
+    let why = given.filter(|_| !is_directed).map(|given| given.why.as_str());
+    let given = given.filter(|_| !is_directed).map(|given| Cut::Along(given.direction));
+    let mut groups: Vec<Group<'_>> = Vec::new();
     for reading in readings {
         let Some((item, cut)) = place(reading, given, notes) else { continue };
         match groups.iter_mut().find(|(key, _)| *key == (item, cut)) {
@@ -53,6 +67,7 @@ pub(crate) fn averaged(
             None => groups.push(((item, cut), vec![reading])),
         }
     }
+    join_statistics(&mut groups);
     let both: Vec<Item> = groups
         .iter()
         .filter(|((item, cut), _)| {
@@ -73,9 +88,35 @@ pub(crate) fn averaged(
             Some(Cut::Along(direction)) => Some(*direction),
             _ => None,
         };
-        all.extend(average(*item, direction, group, notes));
+        let averaged = average(*item, direction, group, notes);
+        all.extend(averaged.map(|averaged| match (direction, why) {
+            (Some(direction), Some(why)) => {
+                averaged.remarked(&format!("{} {why}", direction.name()))
+            }
+            _ => averaged,
+        }));
     }
     all
+}
+
+/// Item and direction with their readings.
+type Group<'r> = ((Item, Option<Cut>), Vec<&'r Reading>);
+
+/// Joins means and deviations without a direction with the readings of the only direction that their item has.
+fn join_statistics(groups: &mut Vec<Group<'_>>) {
+    let of_statistics = |group: &Group<'_>| {
+        let ((item, cut), readings) = group;
+        item.is_directed() && cut.is_none() && readings.iter().all(|r| r.statistic.is_some())
+    };
+    let (open, mut kept): (Vec<_>, Vec<_>) = groups.drain(..).partition(of_statistics);
+    for ((item, cut), readings) in open {
+        let mut own = kept.iter_mut().filter(|((other, _), _)| *other == item);
+        match (own.next(), own.next()) {
+            (Some((_, group)), None) => group.extend(readings),
+            _ => kept.push(((item, cut), readings)),
+        }
+    }
+    *groups = kept;
 }
 
 /// Returns the item and the direction under which a reading is averaged; `None` for one on the bias, which has no use
@@ -131,7 +172,8 @@ fn average(
     let lines: Vec<usize> = group.iter().map(|reading| reading.line).collect();
     let lines = (*lines.iter().min()?, *lines.iter().max()?);
     let singles = of_one_table(of(None).collect(), item, notes);
-    let stated = of(Some(Statistic::Mean)).next();
+    let means: Vec<&Reading> = of(Some(Statistic::Mean)).collect();
+    let stated = means.first().copied();
     let mut averaged = Averaged {
         item,
         direction,
@@ -163,7 +205,9 @@ fn average(
             let squares = own.iter().map(|deviation| deviation.powi(2)).sum::<f64>();
             (own.len() == specimens.len()).then(|| (squares / own.len() as f64).sqrt())
         };
-        compare(&averaged, stated.map(|stated| own(stated, stated.number)), notes);
+        // Means of face and back stand for one.
+        let of_table: Vec<f64> = means.iter().map(|mean| own(mean, mean.number)).collect();
+        compare(&averaged, (!of_table.is_empty()).then(|| moments(&of_table).0), notes);
     }
     // A standard deviation of the table stands for one that could not be computed.
     let by_table = || {

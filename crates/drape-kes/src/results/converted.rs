@@ -139,7 +139,7 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
                 figure(value.number)
             ));
             value.unit = unit("-", Quantity::Ratio);
-            value.remark = "ASSUMED: a ratio, no percentage".to_owned();
+            *value = value.clone().remarked("ASSUMED: a ratio, no percentage");
         }
     }
     for Sourced { value, source } in &mut values.all {
@@ -151,8 +151,14 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
             Item::Key("W") if value.number > HEAVIEST => ("g/m2", true),
             Item::Key("B") if is_fast => ("uN.m", true),
             Item::Key("G") if is_fast => ("N/m", true),
-            Item::BendingLength | Item::Overhang if value.number < CENTIMETRES_MOST => ("cm", true),
-            Item::BendingLength | Item::Overhang | Item::Thickness(_) => ("mm", false),
+            Item::BendingLength | Item::Overhang | Item::SteepOverhang
+                if value.number < CENTIMETRES_MOST =>
+            {
+                ("cm", true)
+            }
+            Item::BendingLength | Item::Overhang | Item::SteepOverhang | Item::Thickness(_) => {
+                ("mm", false)
+            }
             Item::Extension(_) | Item::BiasExtension => ("%", false),
             _ => continue,
         };
@@ -165,11 +171,7 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
                 "ASSUMED: {symbol} {number}, {source}, is in {text}: the table gives no unit"
             ));
             let remark = format!("ASSUMED: in {text}, the table gives no unit");
-            value.remark = if value.remark.is_empty() {
-                remark
-            } else {
-                format!("{}; {remark}", value.remark)
-            };
+            *value = value.clone().remarked(&remark);
         }
     }
 }

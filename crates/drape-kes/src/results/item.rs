@@ -14,6 +14,8 @@ pub(crate) enum Item {
     BendingLength,
     /// Overhang of a cantilever at 41.5°.
     Overhang,
+    /// Overhang of a cantilever at 45°, as in JIS L 1096.
+    SteepOverhang,
     /// Extension of FAST at a load in gf/cm: 5, 20 or 100.
     Extension(u32),
     /// Extension of FAST on the bias at 5 gf/cm.
@@ -103,7 +105,9 @@ impl Item {
                 "W" => Quantity::MassPerArea,
                 _ => Quantity::Ratio,
             },
-            Self::BendingLength | Self::Overhang | Self::Thickness(_) => Quantity::Length,
+            Self::BendingLength | Self::Overhang | Self::SteepOverhang | Self::Thickness(_) => {
+                Quantity::Length
+            }
             Self::Extension(_) | Self::BiasExtension => Quantity::Ratio,
             Self::Unused(_) => return None,
         })
@@ -118,7 +122,7 @@ impl Item {
     pub(crate) fn is_directed(self) -> bool {
         match self {
             Self::Key(key) => spelling::KEYS.contains(&key),
-            Self::BendingLength | Self::Overhang | Self::Extension(_) => true,
+            Self::BendingLength | Self::Overhang | Self::SteepOverhang | Self::Extension(_) => true,
             Self::BiasExtension | Self::Thickness(_) | Self::Unused(_) => false,
         }
     }
@@ -139,7 +143,7 @@ impl Item {
         match self {
             Self::Key(key) => key.to_owned(),
             Self::BendingLength => "bending length".to_owned(),
-            Self::Overhang => "overhang".to_owned(),
+            Self::Overhang | Self::SteepOverhang => "overhang".to_owned(),
             Self::Extension(load) => format!("E{load}"),
             Self::BiasExtension => "EB5".to_owned(),
             Self::Thickness(pressure) => format!("thickness at {pressure} gf/cm2"),

@@ -108,6 +108,7 @@ impl Label {
         label.take_name(&mut words, &text);
         label.take_tags(&mut words, &inside);
         label.take_symbol(&mut words);
+        label.drop_condition();
         let rest: Vec<&str> = words.split_whitespace().collect();
         let is_said = |word: &&str| word.chars().any(char::is_alphanumeric);
         if rest.iter().any(is_said) {
@@ -328,6 +329,19 @@ impl Label {
         }
     }
 
+    /// Removes a unit that is of the load or the pressure of the test, and not of the item: `Thickness at 2 gf/cm²`.
+    fn drop_condition(&mut self) {
+        const CONDITIONS: [Quantity; 3] =
+            [Quantity::Pressure, Quantity::ForcePerWidth, Quantity::Angle];
+        let (Some(unit), Some(quantity)) = (&self.unit, self.item.and_then(Item::quantity)) else {
+            return;
+        };
+        let is_own = parse_unit(&unit.text, &[quantity]).is_ok();
+        if !is_own && parse_unit(&unit.text, &CONDITIONS).is_ok() {
+            self.unit = None;
+        }
+    }
+
     fn set_symbol(&mut self, written: crate::results::item::Written) {
         self.item = Some(written.item);
         self.suffix = written.suffix;
@@ -505,6 +519,8 @@ mod tests {
             ("Thickness at 0.5 gf/cm² (mm)", Item::Key("T0"), Some("mm")),
             ("Thickness T0 (mm)", Item::Key("T0"), Some("mm")),
             ("Extension at 20 gf/cm (%)", Item::Extension(20), Some("%")),
+            ("Extension at 20 gf/cm", Item::Extension(20), None),
+            ("Épaisseur à 0,5 gf/cm²", Item::Key("T0"), None),
             ("弯曲刚度 B", Item::Key("B"), None),
             ("Elongation EMT (%)", Item::Key("EM"), Some("%")),
             ("T_0", Item::Key("T0"), None),

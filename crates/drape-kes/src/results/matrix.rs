@@ -1,6 +1,8 @@
 //! Cells of a sheet with what they say, in rows or turned by a quarter.
 
-use crate::results::label::{Label, half_width};
+use std::collections::BTreeSet;
+
+use crate::results::label::{Face, Label, half_width};
 use crate::results::number::is_number;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Heading, Kind};
@@ -52,7 +54,7 @@ pub(crate) struct Matrix {
 
 impl Matrix {
     /// Makes the matrix of a sheet, without the cells of curves and without the lines of other tests.
-    pub(crate) fn of(grid: &Grid, without: &[usize]) -> Self {
+    pub(crate) fn of(grid: &Grid, without: &BTreeSet<usize>) -> Self {
         let mut rows: Vec<Row> = Vec::new();
         for row in grid.rows.iter().filter(|row| !without.contains(&row.line)) {
             if rows.last().is_some_and(|before| before.line + 1 < row.line) {
@@ -70,9 +72,9 @@ impl Matrix {
         let mut matrix = Self { rows: rows.into_iter().enumerate().map(slots).collect() };
         matrix.clear_curves();
         matrix.clear_profiles();
-        matrix.name_letters();
+        matrix.name_signs();
         let mut turned = matrix.turned();
-        turned.name_letters();
+        turned.name_signs();
         turned.turned()
     }
 
@@ -99,20 +101,38 @@ impl Matrix {
         }
     }
 
-    /// Makes single letters names where they are a list, as in `A, B, C`: a symbol of KES has no A before it.
-    fn name_letters(&mut self) {
-        let letter = |slot: &Slot| {
-            let text = half_width(&slot.cell.text()).to_uppercase();
-            let is_letter = text.len() == 1 && text.as_bytes()[0].is_ascii_alphabetic();
-            is_letter.then(|| text.as_bytes()[0])
-        };
+    /// Makes single letters names where they are a list, as in `A, B, C`: a symbol of KES has no A before it. A plus
+    /// beside a minus are the two senses of a test.
+    fn name_signs(&mut self) {
+        let plain = |slot: &Slot| half_width(&slot.cell.text()).to_uppercase().replace('−', "-");
         for row in &mut self.rows {
-            let letters: Vec<u8> = row.iter().filter_map(letter).collect();
-            if !(letters.contains(&b'A') && letters.contains(&b'B')) {
-                continue;
+            let filled: Vec<(usize, String)> = row
+                .iter()
+                .enumerate()
+                .filter(|(_, slot)| !slot.cell.is_empty())
+                .map(|(c, slot)| (c, plain(slot)))
+                .collect();
+            let follows = |pair: &[(usize, String)], one: &str, next: &str| {
+                pair[0].1 == one && pair[1].1 == next
+            };
+            let mut pairs = filled.windows(2);
+            if pairs.any(|pair| follows(pair, "A", "B")) {
+                let is_letter =
+                    |text: &String| text.len() == 1 && text.as_bytes()[0].is_ascii_alphabetic();
+                for (c, _) in filled.iter().filter(|(_, text)| is_letter(text)) {
+                    let name = row[*c].cell.text();
+                    row[*c].label = Some(Label { name, ..Label::default() });
+                }
             }
-            for slot in row.iter_mut().filter(|slot| letter(slot).is_some()) {
-                slot.label = Some(Label { name: slot.cell.text(), ..Label::default() });
+            if filled.windows(2).any(|pair| follows(pair, "+", "-")) {
+                for (c, text) in &filled {
+                    let face = match text.as_str() {
+                        "+" => Face::Face,
+                        "-" => Face::Back,
+                        _ => continue,
+                    };
+                    row[*c].label = Some(Label { face: Some(face), ..Label::default() });
+                }
             }
         }
     }
@@ -215,7 +235,7 @@ mod tests {
 
     fn of(text: &str) -> Matrix {
         let rows = Separator::Semicolon.split(text).expect("it splits");
-        Matrix::of(&Grid { rows, ..Grid::default() }, &[])
+        Matrix::of(&Grid { rows, ..Grid::default() }, &BTreeSet::new())
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub(crate) fn of_cell(cell: &Cell, decimal: Decimal) -> Option<CellNumber> {
         return number.is_finite().then_some(CellNumber { number, scatter: None, unit });
     }
     let Cell::Text(text) = cell else { return None };
-    let text = without_mark(text);
+    let text = without_sign(without_mark(text));
     if let Some(number) = parse(text, decimal) {
         return Some(CellNumber { number, scatter: None, unit: String::new() });
     }
@@ -62,7 +62,7 @@ pub(crate) fn of_cell(cell: &Cell, decimal: Decimal) -> Option<CellNumber> {
 /// Returns whether a cell holds a number, with a mark of a footnote or without.
 pub(crate) fn is_number(cell: &Cell) -> bool {
     let is_text = |text: &str| {
-        let text = without_mark(text);
+        let text = without_sign(without_mark(text));
         evidence(text).is_some() || with_unit(text).is_some()
     };
     cell.is_value() || matches!(cell, Cell::Text(text) if is_text(text))
@@ -77,7 +77,7 @@ fn with_unit(text: &str) -> Option<(&str, &str)> {
 /// Returns the decimal signs that the numbers of a cell speak for.
 pub(crate) fn signs(cell: &Cell) -> Vec<Evidence> {
     let Cell::Text(text) = cell else { return Vec::new() };
-    let text = without_mark(text);
+    let text = without_sign(without_mark(text));
     let parts = match scattered(text) {
         Some(parts) => vec![parts.number, parts.deviation],
         None => {
@@ -91,6 +91,16 @@ pub(crate) fn signs(cell: &Cell) -> Vec<Evidence> {
 /// Returns a text without the marks of footnotes at its end.
 fn without_mark(text: &str) -> &str {
     text.trim_end_matches(['*', '†', '‡', '¹', ' '])
+}
+
+/// Returns whether a cell holds a standard deviation alone, behind its sign: `± 0.003`.
+pub(crate) fn is_deviation(cell: &Cell) -> bool {
+    matches!(cell, Cell::Text(text) if without_sign(text) != text)
+}
+
+/// Returns a text without the sign of a standard deviation before it.
+fn without_sign(text: &str) -> &str {
+    ["±", "+/-"].iter().find_map(|sign| text.strip_prefix(sign)).unwrap_or(text).trim()
 }
 
 /// Returns the decimal sign of cells; `Err` holds why it cannot be told.

@@ -66,6 +66,7 @@ pub(crate) fn readings(found: Found, notes: &mut Vec<String>) -> Vec<Reading> {
 /// Makes an entry into a reading; `Err` holds why it has no use.
 fn reading(entry: &Entry, cell: CellNumber) -> Result<(Reading, Option<String>), String> {
     let line = entry.line;
+    let is_deviation = number::is_deviation(&entry.cell);
     let (item, unit) = unit(entry, &cell.unit)?;
     let is_percent = item.quantity() == Some(Quantity::Ratio) && !item.is_bare_ratio();
     let relative = |percent: f64| Some(0.01 * percent * cell.number.abs());
@@ -79,12 +80,11 @@ fn reading(entry: &Entry, cell: CellNumber) -> Result<(Reading, Option<String>),
     };
     let (deviation, remark) = match (cell.scatter, entry.statistic) {
         (None, _) => (None, None),
-        (Some(Scatter::Deviation(_)), Some(Statistic::MeanWithError)) => {
-            let reason = format!(
-                "line {line}: the standard error of {} is not taken, since the number of specimens is not known",
-                item.symbol()
-            );
-            (None, Some(reason))
+        (Some(Scatter::Deviation(error)), Some(Statistic::MeanWithError)) => {
+            match of_error(entry, error) {
+                Ok(deviation) => (Some(deviation), None),
+                Err(reason) => (None, Some(reason)),
+            }
         }
         (Some(Scatter::Deviation(d) | Scatter::Unclear(d)), Some(Statistic::MeanWithVariation)) => {
             (relative(d), None)
@@ -96,24 +96,38 @@ fn reading(entry: &Entry, cell: CellNumber) -> Result<(Reading, Option<String>),
         (Some(Scatter::PercentOrUnit(percent, _)), _) => (relative(percent), None),
         (Some(Scatter::Unclear(deviation)), _) => (None, unclear(deviation)),
     };
+    let of_error =
+        (entry.statistic == Some(Statistic::Error)).then(|| of_error(entry, cell.number));
+    let number = of_error.transpose()?.unwrap_or(cell.number);
     let reading = Reading {
         item,
         cut: entry.cut,
         specimen: entry.specimen,
         statistic: match entry.statistic {
+            Some(Statistic::Error) => Some(Statistic::Deviation),
+            _ if is_deviation => Some(Statistic::Deviation),
             Some(Statistic::MeanWithVariation | Statistic::MeanWithError) => Some(Statistic::Mean),
             other => other,
         },
         face: entry.face,
         name: entry.name.clone(),
         axis: entry.axis,
-        number: cell.number,
+        number,
         deviation: deviation.filter(|deviation| deviation.is_finite() && *deviation > 0.0),
         unit,
         line,
         item_at: entry.item_at,
     };
     Ok((reading, remark))
+}
+
+/// Returns the standard deviation of a standard error; `Err` where the number of specimens is not known.
+fn of_error(entry: &Entry, error: f64) -> Result<f64, String> {
+    let count = entry.count.filter(|count| *count >= 2.0);
+    count.map(|count| error * count.sqrt()).ok_or_else(|| {
+        let (line, symbol) = (entry.line, entry.item.symbol());
+        format!("line {line}: the standard error of {symbol} is not taken, since the number of specimens is not known")
+    })
 }
 
 /// Returns the item and the unit of an entry; `Err` holds why the unit is not one of the item.

@@ -1,12 +1,15 @@
 //! Values of one sheet of a file, averaged, by fabric.
 
-use crate::results::average::{Averaged, averaged};
+use std::collections::BTreeSet;
+
+use crate::results::average::{Averaged, Given, averaged};
 use crate::results::fabrics::by_fabric;
+use crate::results::item::Item;
 use crate::results::matrix::Matrix;
 use crate::results::reading::readings;
 use crate::results::table::found;
 use crate::tables::grid::Grid;
-use crate::test::Direction;
+use crate::tables::heading::is_bias;
 
 /// Values of a sheet, and what has no use in it.
 #[derive(Clone, Debug, Default)]
@@ -18,12 +21,21 @@ pub(crate) struct SheetResults {
 
 /// Reads the values of a sheet.
 ///
-/// Lines `without` results, those of other curves, are left out. The direction is `given` by the name of the sheet or
-/// of the file; it counts where the table names none.
-pub(crate) fn results(grid: &Grid, without: &[usize], given: Option<Direction>) -> SheetResults {
+/// Lines `without` results, those of curves, are left out. The direction is `given` by the name of the sheet or of the
+/// file; it counts where the table names none.
+pub(crate) fn results(
+    grid: &Grid,
+    without: &BTreeSet<usize>,
+    given: Option<&Given>,
+) -> SheetResults {
     let mut results = SheetResults::default();
     let entries = found(&Matrix::of(grid, without));
-    let readings = readings(entries, &mut results.notes);
+    let mut readings = readings(entries, &mut results.notes);
+    if is_at_45(grid) {
+        for reading in readings.iter_mut().filter(|reading| reading.item == Item::Overhang) {
+            reading.item = Item::SteepOverhang;
+        }
+    }
     // A mistake in a row is one for each of its numbers.
     results.notes.dedup();
     if readings.is_empty() {
@@ -36,15 +48,24 @@ pub(crate) fn results(grid: &Grid, without: &[usize], given: Option<Direction>) 
     results
 }
 
+/// Returns whether a sheet says that its cantilever is one of 45°.
+fn is_at_45(grid: &Grid) -> bool {
+    let texts = || grid.rows.iter().flat_map(|row| row.filled()).map(|(_, cell)| cell.text());
+    let has = |words: &[&str]| {
+        texts().any(|text| words.iter().any(|word| text.to_lowercase().contains(word)))
+    };
+    texts().any(|text| is_bias(&text)) && has(&["cantilever", "カンチレバー", "1096", "悬臂"])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::item::Item;
     use crate::tables::grid::separator;
+    use crate::test::Direction;
 
     fn of(text: &str) -> SheetResults {
         let rows = separator(text).split(text).expect("it splits");
-        results(&Grid { rows, ..Grid::default() }, &[], None)
+        results(&Grid { rows, ..Grid::default() }, &BTreeSet::new(), None)
     }
 
     /// Returns a value of the only fabric, with its standard deviation.

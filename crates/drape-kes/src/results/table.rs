@@ -24,6 +24,8 @@ pub(crate) struct Entry {
     pub(crate) name: String,
     pub(crate) axis: Option<Axis>,
     pub(crate) cell: Cell,
+    /// Number of specimens that the row states.
+    pub(crate) count: Option<f64>,
     pub(crate) line: usize,
     /// Place of the cell of the item.
     pub(crate) item_at: At,
@@ -54,26 +56,27 @@ pub(crate) fn found(matrix: &Matrix) -> Found {
     }
     let mut found = Found::default();
     let sections = Sections::of_matrix(&matrix);
-    Rows::new(&matrix, false).read(&sections, &mut found);
-    Rows::new(&matrix.turned(), true).read(&sections, &mut found);
+    let turned = matrix.turned();
+    let (mut rows, mut columns) = (Rows::new(&matrix, false), Rows::new(&turned, true));
+    let both: Vec<At> = rows.items().intersection(&columns.items()).copied().collect();
+    for at in both {
+        // Numbers behind an item and below it: those of the longer list of items are its own.
+        let is_row = rows.strength(at.1) >= columns.strength(at.0);
+        if is_row { &mut columns } else { &mut rows }.without.insert(at);
+    }
+    rows.read(&sections, &mut found);
+    columns.read(&sections, &mut found);
     found
 }
 
 /// Returns the items whose claims to numbers are weaker than the claims of others.
 fn lost_claims(matrix: &Matrix) -> BTreeSet<At> {
     let turned = matrix.turned();
-    let claims = [Rows::new(matrix, false), Rows::new(&turned, true)].map(|rows| rows.claims());
-    // Items of the column of an item that has its numbers in a row, and of the row of one that has them in a column.
-    let strength = |matrix: &Matrix, c: usize| {
-        let items: BTreeSet<Item> = (0..matrix.rows.len())
-            .filter(|&r| Rows::new(matrix, false).first_number(r, c).is_some())
-            .filter_map(|r| matrix.label(r, c)?.item)
-            .collect();
-        items.len()
-    };
+    let (rows, columns) = (Rows::new(matrix, false), Rows::new(&turned, true));
+    let claims = [rows.claims(), columns.claims()];
     let both = claims[0].iter().filter_map(|(number, row)| Some((*row, *claims[1].get(number)?)));
     let lost = |(by_row, by_column): (At, At)| {
-        let is_row = strength(matrix, by_row.1) >= strength(&turned, by_column.0);
+        let is_row = rows.strength(by_row.1) >= columns.strength(by_column.0);
         if is_row { by_column } else { by_row }
     };
     let pairs: BTreeSet<(At, At)> = both.collect();
@@ -85,11 +88,30 @@ struct Rows<'m> {
     matrix: &'m Matrix,
     /// Whether the rows are the columns of the sheet.
     is_turned: bool,
+    /// Items that have their numbers in the other direction.
+    without: BTreeSet<At>,
 }
 
 impl<'m> Rows<'m> {
     fn new(matrix: &'m Matrix, is_turned: bool) -> Self {
-        Self { matrix, is_turned }
+        Self { matrix, is_turned, without: BTreeSet::new() }
+    }
+
+    /// Returns the places of the items that have numbers.
+    fn items(&self) -> BTreeSet<At> {
+        let places = |r: usize| (0..self.matrix.width()).map(move |c| (r, c));
+        let all = (0..self.matrix.rows.len()).flat_map(places);
+        let with_numbers = all.filter(|&(r, c)| self.first_number(r, c).is_some());
+        with_numbers.map(|(r, c)| self.matrix.rows[r][c].at).collect()
+    }
+
+    /// Returns the number of different items with numbers in a column of the matrix.
+    fn strength(&self, c: usize) -> usize {
+        let items: BTreeSet<Item> = (0..self.matrix.rows.len())
+            .filter(|&r| self.first_number(r, c).is_some())
+            .filter_map(|r| self.matrix.label(r, c)?.item)
+            .collect();
+        items.len()
     }
 
     /// Returns the numbers that items claim, each with the place of its item.
@@ -120,26 +142,37 @@ impl<'m> Rows<'m> {
     /// Returns the first number that the item of a cell claims.
     fn first_number(&self, r: usize, c: usize) -> Option<usize> {
         let row = &self.matrix.rows[r];
-        row[c].has_item().then(|| (c + 1..self.end(r, c)).find(|&v| row[v].is_number)).flatten()
+        let is_item = row[c].has_item() && !self.without.contains(&row[c].at);
+        is_item.then(|| (c + 1..self.end(r, c)).find(|&v| row[v].is_number)).flatten()
     }
 
     /// Adds the numbers of all rows.
     fn read(&self, sections: &Sections, found: &mut Found) {
         let mut last: Option<At> = None;
+        let mut title: Option<At> = None;
         let mut columns: BTreeSet<usize> = BTreeSet::new();
         for (r, row) in self.matrix.rows.iter().enumerate() {
             let items: Vec<usize> =
                 (0..row.len()).filter(|&c| self.first_number(r, c).is_some()).collect();
             if items.is_empty() {
+                let filled: Vec<usize> =
+                    (0..row.len()).filter(|&c| !row[c].cell.is_empty()).collect();
+                if let [only] = filled[..] {
+                    title = row[only].has_item().then_some((r, only));
+                }
                 last = last.filter(|&(_, c)| self.goes_on(c, r));
-                if let Some((item_row, c)) = last {
-                    let section = sections.of(self.matrix.rows[item_row][c].at);
-                    let label = self.matrix.label(item_row, c).cloned().unwrap_or_default();
-                    let item_at = self.matrix.rows[item_row][c].at;
+                let of_title = || Some((title?, self.is_tagged_row(r, *filled.first()?)?));
+                let of_last = || last.map(|item| (item, item.1));
+                if let Some(((item_row, item_column), c)) = of_last().or_else(of_title) {
+                    let item_at = self.matrix.rows[item_row][item_column].at;
+                    let label =
+                        self.matrix.label(item_row, item_column).cloned().unwrap_or_default();
+                    let section = sections.of(item_at);
                     self.read_item((r, c), &Own { label, section, item_at }, found);
                 }
                 continue;
             }
+            title = None;
             for c in items {
                 let section = sections.of(row[c].at);
                 let label = self.matrix.label(r, c).cloned().unwrap_or_default();
@@ -149,6 +182,15 @@ impl<'m> Rows<'m> {
             }
         }
         columns.into_iter().for_each(|c| self.note_unread(c, found));
+    }
+
+    /// Returns the first column of a row below a title that is an item: it says a direction, a specimen or a statistic,
+    /// and numbers follow.
+    fn is_tagged_row(&self, r: usize, first: usize) -> Option<usize> {
+        let row = &self.matrix.rows[r];
+        let is_tagged = row[first].label.as_ref().is_some_and(Label::is_tagged);
+        let has_numbers = row[first + 1..].iter().any(|slot| slot.is_number);
+        (is_tagged && has_numbers && !self.is_turned).then_some(first)
     }
 
     /// Returns whether a row without an item goes on with that of the row above: the cell below the item is empty, and
@@ -173,6 +215,10 @@ impl<'m> Rows<'m> {
         let start = before
             .map_or(0, |item| (item..c).rev().find(|&l| row[l].is_number).unwrap_or(item) + 1);
         let mut common = Label { name: String::new(), ..own.clone() };
+        // Below a title the cell of the item says what the row is of.
+        let below_title = row[c].label.as_ref().filter(|label| label.item.is_none());
+        common =
+            common.or(&Label { name: String::new(), ..below_title.cloned().unwrap_or_default() });
         for l in (start..c).chain(c + 1..first) {
             let Some(label) = row[l].label.as_ref() else { continue };
             let mut label = label.clone();
@@ -187,7 +233,8 @@ impl<'m> Rows<'m> {
         if let Some(unit) = behind {
             common = common.or(&Label { unit: unit.unit.clone(), ..Label::default() });
         }
-        let heads = Heads::above(self.matrix, (r, c), end);
+        let last = numbers.last().map_or(end, |last| last + 1);
+        let heads = Heads::above(self.matrix, (r, c), last);
         let mut leading = heads.leading(start, r);
         // Columns of numbers of specimens are no values.
         for &v in &numbers {
@@ -196,8 +243,11 @@ impl<'m> Rows<'m> {
             }
         }
         let common = common.or(&leading);
-        for &v in &numbers {
-            let head = heads.at(v);
+        let is_count = |v: &&usize| heads.at(**v).label.statistic == Some(Statistic::Count);
+        let count = numbers.iter().find(is_count).and_then(|&v| row[v].cell.text().parse().ok());
+        for (place, &v) in numbers.iter().enumerate() {
+            let mut head = heads.at(v);
+            head.label.cut = head.label.cut.or_else(|| cut_beside(&heads, &numbers, place));
             let is_number_of_specimen =
                 head.label.axis == Some(Axis::Specimen) && numbers.len() > 1;
             if is_number_of_specimen || head.label.statistic == Some(Statistic::Count) {
@@ -217,6 +267,7 @@ impl<'m> Rows<'m> {
                 name: label.name,
                 axis: head.axis.or(leading.axis).or(section.axis),
                 cell: row[v].cell.clone(),
+                count,
                 line: row[v].line,
                 item_at: *item_at,
             });
@@ -263,8 +314,9 @@ impl<'m> Rows<'m> {
         }
         let symbols: BTreeSet<Option<Item>> =
             items.iter().map(|&r| self.matrix.label(r, c).and_then(|label| label.item)).collect();
-        // Beside a single item stand the sizes of specimens.
-        if !others.is_empty() && symbols.len() > 1 {
+        // Beside a thickness alone stand the other sizes of specimens.
+        let is_of_sizes = symbols.iter().all(|symbol| *symbol == Some(Item::Key("T")));
+        if !others.is_empty() && !is_of_sizes {
             let rest = others.len().saturating_sub(NAMES_MAX);
             others.truncate(NAMES_MAX);
             let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
@@ -274,6 +326,21 @@ impl<'m> Rows<'m> {
             ));
         }
     }
+}
+
+/// Returns the direction of a column of deviations that names none: that of the column before it, where each direction
+/// of the row has such a column.
+fn cut_beside(heads: &Heads<'_>, numbers: &[usize], place: usize) -> Option<Cut> {
+    let all: Vec<Label> = numbers.iter().map(|&v| heads.at(v).label).collect();
+    let is_deviation = |label: &Label| {
+        use Statistic::{Deviation, Error, Variation};
+        label.cut.is_none() && matches!(label.statistic, Some(Deviation | Variation | Error))
+    };
+    let same = |label: &&Label| is_deviation(label) && label.statistic == all[place].statistic;
+    let directions: BTreeSet<Cut> = all.iter().filter_map(|label| label.cut).collect();
+    let is_one_each = all.iter().filter(same).count() == directions.len();
+    let before = || all[..place].iter().rev().find_map(|label| label.cut);
+    (is_deviation(&all[place]) && is_one_each).then(before).flatten()
 }
 
 /// Names of other items in a note, at most.

@@ -37,8 +37,11 @@ impl Cell {
 
     /// Returns whether the cell is a number, alone or with its scatter: `0.085 ± 0.004`.
     pub(crate) fn is_value(&self) -> bool {
-        let is_scattered = || matches!(self, Self::Text(text) if scattered(text).is_some());
-        self.is_number() || is_scattered()
+        let is_scattered = |text: &str| {
+            let behind_sign = text.strip_prefix('±').map(str::trim);
+            scattered(text).is_some() || behind_sign.and_then(number::evidence).is_some()
+        };
+        self.is_number() || matches!(self, Self::Text(text) if is_scattered(text))
     }
 
     /// Returns the number of the cell, without its unit.
@@ -261,12 +264,28 @@ fn open(text: &str) -> bool {
     count(['(', '[', '（']) > count([')', ']', '）'])
 }
 
+/// Returns whether most lines are a key with its value: `W: 12.4 mg/cm2`.
+fn are_keys(text: &str) -> bool {
+    let is_key = |line: &&str| {
+        let Some((key, value)) = line.split_once([':', '=']) else { return false };
+        let is_name = key.trim_start().starts_with(char::is_alphanumeric);
+        let starts = value.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '-');
+        is_name && number::evidence(key).is_none() && starts && !line.contains([';', '\t', '|'])
+    };
+    let lines: Vec<&str> = text.lines().filter(|line| !is_skipped(line)).collect();
+    2 * lines.iter().filter(|line| is_key(line)).count() > lines.len()
+}
+
 /// Lines that the separator is looked for in: more would only cost time.
 const LINES_LOOKED_AT: usize = 2000;
 
 /// Returns the separator that splits most lines into numbers, and nothing but numbers.
 pub(crate) fn separator(text: &str) -> Separator {
     let end = text.match_indices('\n').nth(LINES_LOOKED_AT).map_or(text.len(), |(end, _)| end);
+    // Lines of a key and its value are whole: their blanks and commas part nothing.
+    if are_keys(&text[..end]) {
+        return Separator::Tab;
+    }
     // Names with one number each, a table of results, count where no row has two numbers.
     let score = |separator: Separator, least: usize| -> f64 {
         let rows = separator.split(&text[..end]).unwrap_or_default();
