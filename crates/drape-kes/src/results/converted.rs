@@ -138,7 +138,9 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
                 "ASSUMED: {symbol} of {}, {source}, is a ratio and no percentage: no fabric has so little",
                 figure(value.number)
             ));
-            value.unit = unit("-", Quantity::Ratio);
+            value.unit = unit("%", Quantity::Ratio);
+            value.number = rounded(100.0 * value.number, 10);
+            value.deviation = value.deviation.map(|deviation| rounded(100.0 * deviation, 10));
             *value = value.clone().remarked("ASSUMED: a ratio, no percentage");
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::results::label::{Axis, Label};
 use crate::results::matrix::Matrix;
+use crate::tables::number::Decimal;
 
 /// Largest whole number that heads a column: that of a specimen.
 const SPECIMEN_MAX: f64 = 99.0;
@@ -12,6 +13,11 @@ pub(crate) struct Heads<'m> {
     rows: Vec<usize>,
     /// Column of the item, and the column behind its numbers.
     columns: (usize, usize),
+}
+
+/// Returns whether a number is that of a specimen.
+fn is_small(number: f64) -> bool {
+    number.fract() == 0.0 && (1.0..=SPECIMEN_MAX).contains(&number)
 }
 
 /// Head of a column.
@@ -46,11 +52,7 @@ impl<'m> Heads<'m> {
         let (c, end) = self.columns;
         let row = &self.matrix.rows[k];
         let over = || row[c + 1..end].iter().filter(|slot| !slot.cell.is_empty());
-        let number = |slot: &crate::results::matrix::Slot| -> Option<f64> {
-            slot.cell.text().trim().parse().ok()
-        };
-        let is_small =
-            |number: f64| number.fract() == 0.0 && (1.0..=SPECIMEN_MAX).contains(&number);
+        let number = |slot: &crate::results::matrix::Slot| slot.cell.number(Decimal::Point);
         let fits = over().all(|slot| match &slot.label {
             Some(_) => true,
             None => number(slot).is_some_and(is_small),
@@ -76,7 +78,11 @@ impl<'m> Heads<'m> {
             let row = &self.matrix.rows[k];
             let own = |v: usize| {
                 let slot = &row[v];
-                let specimen = || slot.cell.text().parse().ok();
+                let specimen = || {
+                    let number =
+                        slot.cell.number(Decimal::Point).filter(|number| is_small(*number));
+                    number.map(|number| number as u32)
+                };
                 let count =
                     slot.is_number.then(|| Label { specimen: specimen(), ..Label::default() });
                 slot.label.clone().or(count)

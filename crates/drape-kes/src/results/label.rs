@@ -5,7 +5,7 @@ use drape_input::{Quantity, parse_unit};
 use crate::results::item::Item;
 use crate::results::names::{
     BACK, COUNT, DEVIATION, ERROR, FABRIC, FACE, GENERIC, ITEMS, MEAN, OTHER, SAMPLE, SPECIMEN,
-    VARIATION,
+    UNIT, VARIATION,
 };
 use crate::sheets::spelling;
 use crate::tables::heading::words::{Words, single};
@@ -56,6 +56,8 @@ pub(crate) enum Axis {
     Fabric,
     /// Samples: specimens, or fabrics.
     Sample,
+    /// Units.
+    Unit,
 }
 
 /// Unit as it is written.
@@ -270,6 +272,9 @@ impl Label {
                     break;
                 }
             }
+        }
+        if single(UNIT).any(|word| words.trim() == word) {
+            self.axis = Some(Axis::Unit);
         }
         take(words, GENERIC);
         let rest: Vec<&str> = words.split_whitespace().collect();

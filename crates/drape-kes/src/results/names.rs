@@ -294,6 +294,12 @@ pub(super) const SAMPLE: Words = &[
     "amostra, numune, 試料, サンプル, 样品",
 ];
 
+/// Words of units, at the head of a column of them.
+pub(super) const UNIT: Words = &[
+    "unit, units, uom, einheit, einheiten, unité, unités, unità, unidad, unidades, unidade",
+    "birim, 単位, 单位, 單位",
+];
+
 /// Words that say nothing: heads of the columns of names, units and values, and names of tests.
 pub(super) const GENERIC: Words = &[
     "parameter, parameters, property, properties, symbol, unit, units, value, values, result, results",

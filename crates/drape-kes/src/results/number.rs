@@ -30,6 +30,9 @@ pub(crate) enum Scatter {
 /// Returns the number of a cell; `None` where it holds something else.
 pub(crate) fn of_cell(cell: &Cell, decimal: Decimal) -> Option<CellNumber> {
     if let Some(number) = cell.number(decimal) {
+        // 100 times 0.041 is not 4.1 to the last digit.
+        let tidy = |number: f64| drape_input::figure(number).parse().unwrap_or(number);
+        let number = if matches!(cell, Cell::Percent(_)) { tidy(number) } else { number };
         let unit = cell.unit().to_owned();
         return number.is_finite().then_some(CellNumber { number, scatter: None, unit });
     }

@@ -276,10 +276,11 @@ impl<'m> Rows<'m> {
 
     /// Returns whether a column has the units of the items of another.
     fn is_column_of_units(&self, column: usize, items: usize) -> bool {
-        let is_unit = |row: &Vec<Slot>| {
-            row[items].has_item() && row[column].label.as_ref().is_some_and(Label::is_unit)
+        let of_units = |row: &Vec<Slot>| {
+            let Some(label) = row[column].label.as_ref() else { return false };
+            row[items].has_item() && label.is_unit() || label.axis == Some(Axis::Unit)
         };
-        self.matrix.rows.iter().any(is_unit)
+        self.matrix.rows.iter().any(of_units)
     }
 
     /// Notes what stands in the table of a column of items and is not read: rows of other items, and cells that hold

@@ -9,7 +9,7 @@ use encoding_rs::{
 use crate::tables::heading;
 
 /// Encodings of files that are not Unicode: those whose characters are letters of the words of tables are taken.
-const CANDIDATES: [&'static Encoding; 10] = [
+const CANDIDATES: [&Encoding; 10] = [
     WINDOWS_1252,
     SHIFT_JIS,
     GBK,

@@ -11,6 +11,8 @@ pub(crate) enum Cell {
     Text(String),
     /// Number of a spreadsheet.
     Number(f64),
+    /// Number of a spreadsheet that is shown in percent, in percent.
+    Percent(f64),
 }
 
 impl Cell {
@@ -24,6 +26,7 @@ impl Cell {
         match self {
             Self::Text(text) => text.clone(),
             Self::Number(number) => number.to_string(),
+            Self::Percent(number) => format!("{} %", drape_input::figure(*number)),
         }
     }
 
@@ -31,7 +34,7 @@ impl Cell {
     pub(crate) fn is_number(&self) -> bool {
         match self {
             Self::Text(text) => number::evidence(parted(text).0).is_some(),
-            Self::Number(_) => true,
+            Self::Number(_) | Self::Percent(_) => true,
         }
     }
 
@@ -48,7 +51,7 @@ impl Cell {
     pub(crate) fn number(&self, decimal: Decimal) -> Option<f64> {
         match self {
             Self::Text(text) => number::parse(parted(text).0, decimal),
-            Self::Number(number) => Some(*number),
+            Self::Number(number) | Self::Percent(number) => Some(*number),
         }
     }
 
@@ -57,6 +60,7 @@ impl Cell {
         match self {
             Self::Text(text) => parted(text).1,
             Self::Number(_) => "",
+            Self::Percent(_) => "%",
         }
     }
 
@@ -64,7 +68,7 @@ impl Cell {
     pub(crate) fn evidence(&self) -> Option<Evidence> {
         match self {
             Self::Text(text) => number::evidence(parted(text).0),
-            Self::Number(_) => None,
+            Self::Number(_) | Self::Percent(_) => None,
         }
     }
 }
@@ -289,11 +293,19 @@ pub(crate) fn separator(text: &str) -> Separator {
     // Names with one number each, a table of results, count where no row has two numbers.
     let score = |separator: Separator, least: usize| -> f64 {
         let rows = separator.split(&text[..end]).unwrap_or_default();
+        let is_split = |row: &Row| {
+            let other = |cell: &Cell| {
+                let text = cell.text();
+                text.contains('\t') || (separator != Separator::Tab && text.contains(';'))
+            };
+            row.filled().all(|(_, cell)| !other(cell))
+        };
         let share = |row: &Row| {
             let scattered = |(_, cell): &(usize, &Cell)| !cell.is_number() && cell.is_value();
             let numbers = row.numbers() + row.filled().filter(scattered).count();
             let filled = row.filled().count();
-            if numbers < least || filled < 2 { 0.0 } else { numbers as f64 / filled as f64 }
+            let counts = numbers >= least && filled >= 2 && is_split(row);
+            if counts { numbers as f64 / filled as f64 } else { 0.0 }
         };
         rows.iter().map(share).sum()
     };
@@ -329,6 +341,7 @@ mod tests {
             ("\"0,5\",\"1,25\"\n\"1,5\",\"2,25\"\n", Separator::Comma),
             ("a,b\n0.5 ± 0.1,1.25 (0.2)\n", Separator::Comma),
             ("a;b\n0,5±0,1;1,25±0,2\n3,5;\n", Separator::Semicolon),
+            ("a;b;c\nB;0,112 ± 0,003;0,061 ± 0,002\n", Separator::Semicolon),
             ("nothing\n", Separator::Comma),
         ];
         for (text, found) in cases {

@@ -20,8 +20,7 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
 
 /// Reads the sheets of a spreadsheet; `Err` holds the reason why it cannot be read.
 ///
-/// A number that the sheet shows in percent is a text in percent. Only `.xlsx` files tell which ones are. A date is
-/// a text, since it is no number of a test.
+/// Only `.xlsx` files tell which numbers are shown in percent. A date is a text, since it is no number of a test.
 #[cfg(feature = "spreadsheets")]
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
     use calamine::{Data, Reader, SheetType};
@@ -51,7 +50,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
             for (place, data) in cells.iter().enumerate() {
                 row.push(match data {
                     Data::Float(number) if is_percent(line, first_column + place as u32) => {
-                        Cell::Text(format!("{} %", drape_input::figure(100.0 * number)))
+                        Cell::Percent(100.0 * number)
                     }
                     other => cell(other),
                 });
@@ -69,12 +68,16 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
 #[cfg(feature = "spreadsheets")]
 fn is_of_percent(format: &str) -> bool {
     let (mut is_quoted, mut is_escaped) = (false, false);
-    format.chars().any(|letter| {
-        let is_plain = !is_quoted && !is_escaped;
-        is_escaped = is_plain && letter == '\\';
-        is_quoted ^= is_plain && letter == '"' || is_quoted && letter == '"';
-        is_plain && letter == '%'
-    })
+    for letter in format.chars() {
+        match letter {
+            _ if is_escaped => is_escaped = false,
+            '\\' if !is_quoted => is_escaped = true,
+            '"' => is_quoted = !is_quoted,
+            '%' if !is_quoted => return true,
+            _ => {}
+        }
+    }
+    false
 }
 
 /// Returns what a cell holds.
