@@ -47,6 +47,9 @@ fn a_pattern_goes_to_toml_to_a_drawing_to_pages_and_back() {
     run(&["convert", "teagan.svg", "-o", "teagan.toml", "--force"]);
 }
 
+/// Table of two fabrics.
+const FABRICS: &str = "Fabric,B warp,B weft,W\npoplin,0.1,0.08,12\nserge,0.3,0.2,25\n";
+
 #[test]
 fn what_does_not_fit_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -54,6 +57,9 @@ fn what_does_not_fit_is_refused_with_a_remedy() {
     let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 500 500\">\
                    <path id=\"front\" d=\"M0 0H300V400H0Z\"/></svg>";
     std::fs::write(folder.join("d.svg"), drawing).expect("it is written");
+    std::fs::write(folder.join("fabrics.csv"), FABRICS).expect("it is written");
+    std::fs::create_dir(folder.join("empty")).expect("a folder");
+    std::fs::write(folder.join("empty/note.txt"), "washed twice\n").expect("it is written");
     let shirt = shipped("shirt.json");
     for (arguments, code, words) in [
         (vec!["convert", "d.svg"], 3, "--unit mm"),
@@ -64,10 +70,22 @@ fn what_does_not_fit_is_refused_with_a_remedy() {
         (vec!["convert", &shirt, "-o", "a.svg", "--paper", "b9"], 2, "210x297"),
         (vec!["convert", &shirt, "-o", "a.svg", "--width", "5"], 2, "such as 900"),
         (vec!["convert", &shirt, "-o", "a.obj"], 2, "*.toml or *.svg"),
-        (vec!["convert", "."], 3, "no file of the folder is a curve or a value: d.svg"),
+        (vec!["convert", "empty"], 3, "no file of the folder is a curve or a value: note.txt"),
         (vec!["convert", ".", "--size", "M"], 2, "--size is for patterns"),
         (vec!["convert", ".", "-o", "a.svg"], 2, "*.toml, or into a folder"),
-        (vec!["convert", &shirt, "d.svg"], 2, "one pattern or folder at a time"),
+        (
+            vec!["convert", "fabrics.csv", "-o", "a.toml"],
+            2,
+            "--fabric NAME, or all of them with -o FOLDER",
+        ),
+        (
+            vec!["convert", "fabrics.csv", "--fabric", "silk"],
+            3,
+            "name one of \"poplin\", \"serge\"",
+        ),
+        (vec!["convert", "fabrics.csv", "--paper", "a4"], 2, "--paper is for patterns"),
+        (vec!["convert", "none.xlsx"], 3, "cannot open the file"),
+        (vec!["convert", &shirt, "d.svg"], 2, "one pattern, file or folder at a time"),
     ] {
         let output = drape(folder, &arguments);
         let said = text(&output.stderr);
@@ -76,6 +94,35 @@ fn what_does_not_fit_is_refused_with_a_remedy() {
     }
     let asked = drape(folder, &["convert", "d.svg", "--unit", "mm"]);
     assert!(text(&asked.stdout).contains("to = [300, 0]"), "{}", text(&asked.stdout));
+}
+
+#[test]
+fn a_table_of_several_fabrics_goes_to_a_sheet_each() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    std::fs::write(folder.join("fabrics.csv"), FABRICS).expect("it is written");
+    let run = |arguments: &[&str]| {
+        let output = drape(folder, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let said = run(&["convert", "fabrics.csv", "-o", "sheets"]);
+    assert!(said.contains("poplin.sheet.toml") && said.contains("serge.sheet.toml"), "{said}");
+    assert!(run(&["convert", "fabrics.csv", "--fabric", "serge"]).contains("B = 0.3"));
+    assert!(run(&["check", "sheets/serge.sheet.toml"]).contains("0.25 kg/m²"));
+    assert_eq!(run(&["check", "fabrics.csv"]).matches("drafted, with 3 values").count(), 2);
+    // A fit of the table makes the same sheets, and a fabric each.
+    run(&["fit", "fabrics.csv", "-o", "fabrics"]);
+    for name in ["poplin", "serge"] {
+        let sheets = ["sheets", "fabrics"].map(|place| {
+            std::fs::read_to_string(folder.join(place).join(format!("{name}.sheet.toml")))
+                .expect("a sheet")
+        });
+        assert_eq!(sheets[0], sheets[1]);
+        assert!(folder.join("fabrics").join(format!("{name}.toml")).exists(), "{name}");
+    }
+    run(&["fit", "fabrics.csv", "--fabric", "poplin", "-o", "one.toml"]);
+    assert!(folder.join("one.sheet.toml").exists() && folder.join("one.toml").exists());
 }
 
 /// Export of a strip in gf/cm, with its direction in a line above.

@@ -219,3 +219,154 @@ fn a_fit_says_what_was_read_and_why_a_law_was_taken() {
         assert!(words.contains(said), "{said} is missing in\n{text}");
     }
 }
+
+/// Workbook of a laboratory: specimens of KES values in one sheet, curves of three tests in others.
+fn laboratory_book() -> Vec<u8> {
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let sheet = book.add_worksheet().set_name("Summary").expect("a name");
+    let heads =
+        ["Test", "Symbol", "Unit", "Warp 1", "Warp 2", "Warp 3", "Weft 1", "Weft 2", "Weft 3"];
+    for (column, head) in heads.into_iter().enumerate() {
+        sheet.write(2, column as u16, head).expect("written");
+    }
+    sheet
+        .write(0, 0, "Textile laboratory")
+        .expect("written")
+        .write(0, 2, "Report 17")
+        .expect("written");
+    let values = [
+        ("Bending", "B", "gf.cm2/cm", [0.112, 0.061]),
+        ("Bending", "2HB", "gf.cm/cm", [0.045, 0.030]),
+        ("Tensile", "LT", "-", [0.80, 0.78]),
+        ("Tensile", "RT", "%", [58.0, 55.0]),
+        ("Tensile", "EM", "%", [4.1, 7.9]),
+        ("Compression", "T0", "mm", [0.61, 0.0]),
+        ("Weight", "W", "g/m2", [213.0, 0.0]),
+    ];
+    for (row, (test, symbol, unit, means)) in values.into_iter().enumerate() {
+        let row = row as u32 + 3;
+        for (column, text) in [test, symbol, unit].into_iter().enumerate() {
+            sheet.write(row, column as u16, text).expect("written");
+        }
+        let specimens =
+            means.into_iter().flat_map(|mean| [0.97, 1.0, 1.03].map(|part| part * mean));
+        for (column, value) in specimens.enumerate().filter(|(_, value)| *value > 0.0) {
+            sheet.write(row, column as u16 + 3, value).expect("written");
+        }
+    }
+    let steps = (-80..=80).chain((-80..80).rev());
+    let shear: Vec<[f64; 2]> = steps
+        .enumerate()
+        .map(|(index, step)| {
+            let (angle, side) = (0.1 * f64::from(step), if index <= 160 { 0.5 } else { -0.5 });
+            [angle, 0.75 * angle + side]
+        })
+        .collect();
+    for (name, factor) in [("Shear warp", 1.0), ("Shear weft", 0.97)] {
+        let sheet = book.add_worksheet().set_name(name).expect("a name");
+        sheet
+            .write(0, 0, "Angle (deg)")
+            .expect("written")
+            .write(0, 1, "Force (gf/cm)")
+            .expect("written");
+        for (row, [angle, force]) in shear.iter().enumerate() {
+            let row = row as u32 + 1;
+            sheet
+                .write(row, 0, *angle)
+                .expect("written")
+                .write(row, 1, factor * force)
+                .expect("written");
+        }
+    }
+    book.save_to_buffer().expect("a workbook")
+}
+
+#[test]
+fn a_workbook_is_fitted_by_a_first_command() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    std::fs::write(folder.join("book.xlsx"), laboratory_book()).expect("written");
+    let run = |arguments: &[&str], code: i32| {
+        let output =
+            drape().current_dir(folder).args(arguments).assert().code(code).get_output().clone();
+        let [out, err] =
+            [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("text"));
+        (out, err)
+    };
+    let (out, _) = run(&["fit", "book.xlsx", "--report", "page"], 0);
+    let words = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "B warp = 0.112 ± 0.00336 gf.cm2/cm: book.xlsx, sheet \"Summary\", line 4: mean of 3 specimens",
+        "book.xlsx: 321 points; sheet \"Shear warp\"",
+        "sheet written to book.sheet.toml",
+        "fabric written to book.toml",
+        "report written to page/book.html",
+    ] {
+        assert!(words.contains(said), "{said} is missing in\n{out}");
+    }
+    // The page shows what was read, and each number its interval.
+    let html = std::fs::read_to_string(folder.join("page/book.html")).expect("a page");
+    assert!(html.contains("mean of 3 specimens"), "what was read is on the page");
+    // What was written is not lost, and its remedy works: the sheet is fitted to the same fabric.
+    let (_, err) = run(&["fit", "book.xlsx"], 2);
+    assert!(err.contains("drape fit book.sheet.toml, or replace it with --force"), "{err}");
+    run(&["fit", "book.xlsx", "--force"], 0);
+    let first = std::fs::read_to_string(folder.join("book.toml")).expect("a fabric");
+    run(&["fit", "book.sheet.toml", "--force"], 0);
+    assert_eq!(std::fs::read_to_string(folder.join("book.toml")).expect("a fabric"), first);
+    let (checked, _) = run(&["check", "book.xlsx"], 0);
+    assert!(
+        checked.contains("drafted, with 12 values") && checked.contains("2 curves"),
+        "{checked}"
+    );
+    // The fabric alone, and the sheet beside it wherever it is.
+    let (toml, _) = run(&["fit", "book.xlsx", "-o", "-"], 0);
+    assert!(toml.contains("[shear"), "{toml}");
+    run(&["fit", "book.xlsx", "-o", "fabrics/cloth.toml"], 0);
+    assert!(folder.join("fabrics/cloth.sheet.toml").exists());
+    run(&["check", "fabrics/cloth.toml", "fabrics/cloth.sheet.toml"], 0);
+}
+
+#[test]
+fn a_folder_and_an_archive_are_fitted_and_a_draft_without_numbers_is_answered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    std::fs::create_dir(folder.join("lab")).expect("a folder");
+    std::fs::write(folder.join("lab/values.csv"), "Item,Warp,Weft\nB,0.1,0.08\nW,12,\n")
+        .expect("written");
+    drape().current_dir(folder).args(["fit", "lab"]).assert().success();
+    assert!(folder.join("lab/sheet.toml").exists() && folder.join("lab/fabric.toml").exists());
+    // The second time it is the folder of a sheet.
+    drape().current_dir(folder).args(["fit", "lab", "--force"]).assert().success();
+    let mut archive =
+        zip::ZipWriter::new(std::fs::File::create(folder.join("lab.zip")).expect("made"));
+    archive.start_file("values.csv", zip::write::SimpleFileOptions::default()).expect("started");
+    std::io::Write::write_all(&mut archive, b"Item,Warp,Weft\nB,0.1,0.08\nW,12,\n")
+        .expect("written");
+    archive.finish().expect("finished");
+    drape().current_dir(folder).args(["fit", "lab.zip"]).assert().success();
+    let fabrics = ["lab/fabric.toml", "lab.toml"].map(|name| {
+        let text = std::fs::read_to_string(folder.join(name)).expect("a fabric");
+        text.lines()
+            .filter(|line| line.contains("stiffness") || line.contains("rigidity"))
+            .collect::<String>()
+    });
+    assert_eq!(fabrics[0], fabrics[1]);
+    let rows: String = (0..40).map(|i| format!("{i},{}\n", i * i)).collect();
+    std::fs::write(folder.join("bias 45°.csv"), format!("Strain (%),Force (gf/cm)\n{rows}"))
+        .expect("written");
+    let output = drape()
+        .current_dir(folder)
+        .args(["fit", "bias 45°.csv"])
+        .assert()
+        .code(3)
+        .get_output()
+        .clone();
+    let err = String::from_utf8_lossy(&output.stderr);
+    for said in
+        ["nothing in the tables can be fitted yet", "on the bias", "drape fit bias-45°.sheet.toml"]
+    {
+        assert!(err.contains(said), "{said} is missing in\n{err}");
+    }
+    assert!(folder.join("bias-45°.sheet.toml").exists(), "the sheet to complete");
+}

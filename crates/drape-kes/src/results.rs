@@ -10,7 +10,7 @@
 //! with its numbers in its column. Specimens are averaged. What has no use is noted with its reason. The chapter uses
 //! `tables` and the spellings of `sheets`, and knows no file.
 //!
-//! * `item`, `names`, `label`: items, words, and the text of a cell taken apart.
+//! * `item`, `label`: items, and the text of a cell taken apart by words and units.
 //! * `number`: the number of a cell, with its scatter.
 //! * `matrix`, `heads`, `table`: cells without those of curves, heads of columns, numbers with their items.
 //! * `reading`: numbers in their units; `fabrics`: names of fabrics or specimens; `average`: their means.
@@ -25,7 +25,6 @@ pub(crate) mod heads;
 pub(crate) mod item;
 pub(crate) mod label;
 pub(crate) mod matrix;
-pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod reading;
 pub(crate) mod sheet_results;

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::results::item::Item;
-use crate::results::label::{Axis, Cut, Statistic, half_width};
+use crate::results::label::letters::half_width;
+use crate::results::label::{Axis, Cut, Statistic};
 use crate::results::reading::Reading;
 
 /// Largest coefficient of variation of the mass and the thickness of specimens of one fabric.

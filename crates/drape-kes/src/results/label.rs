@@ -1,72 +1,29 @@
 //! Text of a cell beside numbers, taken apart: item, unit, direction, specimen, statistic, face, name.
 
+pub(crate) mod letters;
+mod names;
+mod tags;
+pub(crate) mod written_unit;
+
+pub(crate) use self::tags::{Axis, Cut, Face, Statistic};
+
 use drape_input::{Quantity, parse_unit};
 
 use crate::results::item::Item;
-use crate::results::names::{
+use crate::results::label::letters::{half_width, numbers, take};
+use crate::results::label::names::{
     BACK, COUNT, DEVIATION, ERROR, FABRIC, FACE, GENERIC, ITEMS, MEAN, OTHER, SAMPLE, SPECIMEN,
     UNIT, VARIATION,
 };
+use crate::results::label::written_unit::{WrittenUnit, behind_sign, bracket};
 use crate::sheets::spelling;
-use crate::tables::heading::words::{Words, single};
+use crate::tables::heading::words::single;
 use crate::tables::heading::{self, has_word, normal};
-use crate::test::Direction;
 
 /// Letters of a label at most: a longer text is a sentence.
 const LETTERS_MAX: usize = 100;
 /// Number of a specimen at most.
 const SPECIMEN_MAX: u32 = 99;
-
-/// Direction in which a specimen is cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Cut {
-    Along(Direction),
-    /// At 45° to the yarns.
-    Bias,
-}
-
-/// Statistic of several specimens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Statistic {
-    Mean,
-    /// Mean whose cells have a coefficient of variation beside it, in percent.
-    MeanWithVariation,
-    /// Mean whose cells have its standard error beside it.
-    MeanWithError,
-    Deviation,
-    /// In percent of the mean.
-    Variation,
-    /// Standard error of the mean.
-    Error,
-    Count,
-    Other,
-}
-
-/// Side of a fabric, or sense of a deformation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Face {
-    Face,
-    Back,
-}
-
-/// Words at the head of a row or a column of names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Axis {
-    Specimen,
-    Fabric,
-    /// Samples: specimens, or fabrics.
-    Sample,
-    /// Units.
-    Unit,
-}
-
-/// Unit as it is written.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct WrittenUnit {
-    pub(crate) text: String,
-    /// Whether any quantity has the unit.
-    pub(crate) is_known: bool,
-}
 
 /// Parts of the text of a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -377,127 +334,10 @@ fn are_akin(named: Item, symbol: Item) -> bool {
     named == symbol || (kind(named) > 0 && kind(named) == kind(symbol))
 }
 
-impl WrittenUnit {
-    /// Returns the unit that a text is; `None` where it is none. Within brackets an unknown one may be a unit too.
-    pub(crate) fn of(text: &str, is_bracketed: bool) -> Option<Self> {
-        const ALL: [Quantity; 13] = [
-            Quantity::Ratio,
-            Quantity::Angle,
-            Quantity::Length,
-            Quantity::Curvature,
-            Quantity::Force,
-            Quantity::ForcePerWidth,
-            Quantity::Moment,
-            Quantity::MomentPerWidth,
-            Quantity::BendingRigidity,
-            Quantity::ShearStiffness,
-            Quantity::WorkPerArea,
-            Quantity::Pressure,
-            Quantity::MassPerArea,
-        ];
-        let text = text.trim();
-        let unit = |is_known: bool| Some(Self { text: text.to_owned(), is_known });
-        if text.is_empty() || text.parse::<f64>().is_ok() {
-            return None;
-        }
-        if ["-", "–", "—", "/"].contains(&text) {
-            return if is_bracketed { unit(true) } else { None };
-        }
-        // Outside of brackets these are words or names.
-        let is_word = ["in", "m", "s", "h", "N", "C", "g", "cd"].contains(&text);
-        if (parse_unit(text, &ALL).is_ok() || drape_input::is_unit(text))
-            && (is_bracketed || !is_word)
-        {
-            return unit(true);
-        }
-        let has_sign = text.contains(['/', '·', '・', '²', '^', '％']) && !text.contains(' ');
-        if is_bracketed && has_sign { unit(false) } else { None }
-    }
-}
-
-/// Splits a text before the longest unit at its end, behind a sign or a blank.
-fn behind_sign(text: &str) -> Option<(String, WrittenUnit)> {
-    for (place, sign) in text.match_indices([',', '/', ':', ' ', '_', ';', '、', '：']) {
-        let (before, behind) = (&text[..place], text[place + sign.len()..].trim());
-        let unit = WrittenUnit::of(behind, false).filter(|unit| unit.is_known);
-        let is_list = [",", "/", ";", "、"].contains(&sign);
-        let none = is_list && ["-", "–"].contains(&behind);
-        let none = none.then(|| WrittenUnit { text: "-".into(), is_known: true });
-        let Some(unit) = unit.or(none).filter(|_| !before.trim().is_empty()) else { continue };
-        let signs = [' ', ',', '/', ':', '-'];
-        let words = before.trim_end_matches(signs);
-        let words = [" in", " en", " em"].iter().find_map(|end| words.strip_suffix(end));
-        return Some((words.unwrap_or(before).trim_end_matches(signs).to_owned(), unit));
-    }
-    None
-}
-
-/// Takes words out of a text; returns whether there were any.
-fn take(text: &mut String, words: Words) -> bool {
-    let mut found = false;
-    let mut known: Vec<&str> = single(words).collect();
-    known.sort_by_key(|word| std::cmp::Reverse(word.len()));
-    for word in known {
-        let is_wide = word.chars().all(|letter| letter > '\u{2fff}');
-        let there = if is_wide { text.find(word) } else { text.find(&format!(" {word} ")) };
-        if let Some(place) = there {
-            let length = if is_wide { word.len() } else { word.len() + 1 };
-            text.replace_range(place..place + length, " ");
-            found = true;
-        }
-    }
-    found
-}
-
-/// Returns the place of the first bracket and of the bracket that closes it.
-fn bracket(text: &str) -> Option<(usize, usize)> {
-    let pairs = [('(', ')'), ('[', ']'), ('<', '>'), ('{', '}')];
-    let (start, open) =
-        text.char_indices().find(|(_, c)| pairs.iter().any(|(open, _)| open == c))?;
-    let close = pairs.iter().find(|(sign, _)| *sign == open)?.1;
-    let mut depth = 0;
-    for (place, letter) in text[start..].char_indices() {
-        depth += i32::from(letter == open) - i32::from(letter == close);
-        if depth == 0 {
-            return Some((start, start + place));
-        }
-    }
-    None
-}
-
-/// Returns the numbers of a text that stand by themselves, with a decimal point or comma.
-fn numbers(text: &str) -> Vec<f64> {
-    let letters = |letter: char| !(letter.is_ascii_digit() || letter == '.' || letter == ',');
-    let mut numbers = Vec::new();
-    let mut before = ' ';
-    for part in text.split_inclusive(letters) {
-        let digits = part.trim_end_matches(letters).trim_matches([',', '.']);
-        if !before.is_alphabetic()
-            && let Ok(number) = digits.replace(',', ".").parse()
-        {
-            numbers.push(number);
-        }
-        before = part.chars().next_back().unwrap_or(' ');
-    }
-    numbers
-}
-
-/// Returns a text with its letters, digits and signs of full width in half width, and digits below the line on it.
-pub(crate) fn half_width(text: &str) -> String {
-    let letter = |letter: char| match letter {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
-        '\u{3000}' | '\u{a0}' => ' ',
-        '₀'..='₉' => char::from_u32(letter as u32 - 0x2080 + 0x30).unwrap_or(letter),
-        '【' | '〔' | '「' => '(',
-        '】' | '〕' | '」' => ')',
-        other => other,
-    };
-    text.chars().map(letter).collect::<String>().trim().to_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test::Direction;
 
     const WARP: Option<Cut> = Some(Cut::Along(Direction::Warp));
     const WEFT: Option<Cut> = Some(Cut::Along(Direction::Weft));

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::results::label::{Face, Label, half_width};
+use crate::results::label::letters::half_width;
+use crate::results::label::{Face, Label};
 use crate::results::number::is_number;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Heading, Kind};

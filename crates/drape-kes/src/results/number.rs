@@ -1,6 +1,6 @@
 //! Number of a cell of results, with its scatter and its unit.
 
-use crate::results::label::WrittenUnit;
+use crate::results::label::written_unit::WrittenUnit;
 use crate::tables::grid::Cell;
 use crate::tables::number::scattered::{Spread, leading_number, scattered};
 use crate::tables::number::{Decimal, Evidence, evidence, parse};

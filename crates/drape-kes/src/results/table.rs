@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::results::heads::Heads;
 use crate::results::item::Item;
-use crate::results::label::{Axis, Cut, Face, Label, Statistic, WrittenUnit};
+use crate::results::label::written_unit::WrittenUnit;
+use crate::results::label::{Axis, Cut, Face, Label, Statistic};
 use crate::results::matrix::{Matrix, Slot};
 use crate::tables::grid::Cell;
 
