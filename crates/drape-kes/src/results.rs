@@ -14,7 +14,8 @@
 //! * `number`: the number of a cell, with its scatter.
 //! * `matrix`, `heads`, `table`: cells without those of curves, heads of columns, numbers with their items.
 //! * `reading`: numbers in their units; `fabrics`: names of fabrics or specimens; `average`: their means.
-//! * `converted`, `cantilever`, `fast`: values of a sheet.
+//! * `sheet_results`: the values of one sheet of a file.
+//! * `sheet_value`, `cantilever`, `fast`, `converted`: values of a sheet of a fabric.
 
 pub(crate) mod average;
 pub(crate) mod cantilever;
@@ -28,4 +29,5 @@ pub(crate) mod matrix;
 pub(crate) mod number;
 pub(crate) mod reading;
 pub(crate) mod sheet_results;
+pub(crate) mod sheet_value;
 pub(crate) mod table;

@@ -138,3 +138,25 @@ def test_a_folder_of_sheets_is_fitted_as_by_the_command(root, command, tmp_path)
     assert isinstance(some.failures["one"], drape.InputError)
     with pytest.raises(drape.InputError):
         some["one"]
+
+
+TABLE = "Parameter,Unit,Warp 1,Warp 2,Weft\nB,gf.cm2/cm,0.110,0.114,0.061\nW,g/m2,213,,\n"
+
+
+def test_a_table_is_fitted_as_by_the_command(command, tmp_path):
+    table = tmp_path / "weft-values.csv"
+    table.write_text(TABLE, encoding="utf-8")
+    fit = drape.fit(table)
+    subprocess.run([command, "fit", table], check=True, capture_output=True)
+    assert fit.to_toml() == (tmp_path / "weft-values.toml").read_text(encoding="utf-8")
+    sheet = drape.read_sheet(table)
+    assert any(r.startswith("B warp = 0.112 ± 0.002828 gf.cm2/cm") for r in sheet.readings), sheet.readings
+    assert fit.params["warp.B"].value == pytest.approx(0.112 * 9.80665e-5)
+
+
+def test_one_of_several_fabrics_is_named(tmp_path):
+    table = tmp_path / "fabrics.csv"
+    table.write_text("Fabric,B warp,B weft,W\npoplin,0.1,0.08,12\nserge,0.3,0.2,25\n", encoding="utf-8")
+    with pytest.raises(drape.InputError, match='"poplin", "serge"'):
+        drape.fit(table)
+    assert drape.fit(table, fabric="serge").fabric.density == pytest.approx(0.25)

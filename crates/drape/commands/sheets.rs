@@ -77,6 +77,15 @@ pub(crate) fn stem(sheet: &Path) -> String {
     name.strip_suffix(".sheet").filter(|name| !name.is_empty()).map_or(name.clone(), str::to_owned)
 }
 
+/// Returns the default path of the fabric of a sheet: `fabric.toml` in the sheet's folder, and `NAME.toml` for a sheet
+/// `NAME.sheet.toml`.
+pub(crate) fn fabric_beside(sheet: &Path) -> PathBuf {
+    let folder = if sheet.is_dir() { sheet } else { sheet.parent().unwrap_or(Path::new("")) };
+    let name = sheet.file_name().map(|name| name.to_string_lossy().into_owned());
+    let stem = name.as_deref().and_then(|name| name.strip_suffix(".sheet.toml"));
+    folder.join(stem.map_or("fabric.toml".to_owned(), |stem| format!("{stem}.toml")))
+}
+
 /// Returns the sheet that a path stands for, if it is one: a file called so, or a folder with it; a
 /// fabric or anything else is none.
 pub(crate) fn of(path: &Path) -> Option<&Path> {

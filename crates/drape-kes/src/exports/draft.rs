@@ -206,6 +206,12 @@ impl SheetDraft {
         draft
     }
 
+    /// Adds the remarks on a curve to the notes.
+    fn add_remarks(&mut self, curve: &CurveDraft) {
+        let files = curve.files.join(", ");
+        self.notes.extend(curve.remarks.iter().map(|remark| format!("{files}: {remark}")));
+    }
+
     /// Writes the curves; those that need a word, and those on the bias, as comments.
     fn add_curves(&mut self, parts: &Parts, places: &Places<'_>) {
         for curve in &parts.curves {
@@ -218,6 +224,7 @@ impl SheetDraft {
             if curve.files.len() > 1 {
                 self.notes.push(format!("{file}: taken for repeats of one test"));
             }
+            self.add_remarks(curve);
         }
         (self.curves, self.open) = (parts.curves.len(), parts.open.len());
         for OpenDraft { draft: curve, reason } in &parts.open {
@@ -225,6 +232,7 @@ impl SheetDraft {
             self.text += &format!("\n# Not taken: {reason}.\n# Correct and uncomment:\n");
             self.text += &places.placed(curve).to_comment();
             self.notes.push(format!("{} is not taken: {reason}", curve.files.join(", ")));
+            self.add_remarks(curve);
         }
         for OpenDraft { draft: curve, reason } in &parts.bias {
             let (reason, files) = (plain(reason), curve.files.join(", "));

@@ -7,8 +7,8 @@ use drape_input::Quantity;
 use crate::exports::found::OpenDraft;
 use crate::exports::parts::{FileValue, Parts};
 use crate::results::average::{Averaged, moments, rounded};
-use crate::results::converted::Sourced;
 use crate::results::item::Item;
+use crate::results::sheet_value::Sourced;
 use crate::tables::heading::{is_specimen, normal};
 use crate::test::Direction;
 

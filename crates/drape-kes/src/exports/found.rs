@@ -190,7 +190,7 @@ impl Export<'_> {
             files: vec![self.name.clone()],
             layout: group.choice(grid),
             axes: [Vec::new(), Vec::new()],
-            remarks: Vec::new(),
+            remarks: first.series.unused_columns(),
         };
         let mut reasons = Vec::new();
         reasons.extend(group.test.as_ref().err().cloned());
@@ -419,6 +419,38 @@ impl Group {
 }
 
 impl Series {
+    /// Returns a remark on the columns of numbers that have no use, other than times and numbers of rows or cycles.
+    fn unused_columns(&self) -> Vec<String> {
+        let Self { block, pair, .. } = self;
+        let is_time = |column: usize| {
+            let unit = block.headings.get(column).and_then(|heading| heading.unit.as_deref());
+            unit.is_some_and(|unit| ["s", "sec", "min", "ms", "h", "秒"].contains(&unit))
+        };
+        let is_used = |column: usize| {
+            let kind = block.headings.get(column).and_then(|heading| heading::kind(&heading.name));
+            let is_size =
+                [GAUGE, WIDTH].iter().any(|words| self.size_column(words) == Some(column));
+            [pair.deformation, pair.load].contains(&column)
+                || matches!(kind, Some(Kind::Cycle | Kind::Specimen))
+                || is_size
+                || is_time(column)
+        };
+        let unused = block.number_columns().into_iter().filter(|column| !is_used(*column));
+        let named: Vec<String> = unused
+            .filter_map(|column| {
+                let heading =
+                    block.headings.get(column).filter(|heading| !heading.name.is_empty())?;
+                let unit = heading.unit.as_ref().map_or(String::new(), |unit| format!(" ({unit})"));
+                Some(format!("\"{}\"{unit}", heading.name))
+            })
+            .collect();
+        // Beside several curves the others are those of the others.
+        if named.is_empty() || self.several {
+            return Vec::new();
+        }
+        vec![format!("columns without a use: {}", named.join(", "))]
+    }
+
     /// Returns the names of the two columns.
     fn columns(&self) -> String {
         let [q, f] = [self.pair.deformation, self.pair.load].map(|c| self.block.column_name(c));

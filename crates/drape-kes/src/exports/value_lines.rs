@@ -7,8 +7,8 @@ use drape_input::{Quantity, figure, toml_string};
 
 use crate::exports::curve_draft::{commented, line, plain, read};
 use crate::exports::found::in_words;
-use crate::results::converted::{Converted, SheetValue};
 use crate::results::item::Item;
+use crate::results::sheet_value::{Converted, SheetValue};
 use crate::test::Direction;
 
 /// Values that have no direction and that a fabric should have, with an example.

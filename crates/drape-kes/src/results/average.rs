@@ -227,7 +227,16 @@ fn of_one_table<'r>(
     item: Item,
     notes: &mut Vec<String>,
 ) -> Vec<&'r Reading> {
-    let Some(first) = readings.first() else { return readings };
+    // The same number in other units is no other specimen.
+    let Some(first) = readings.first().copied() else { return readings };
+    let factor = |reading: &Reading| reading.unit.map(|unit| unit.factor);
+    let is_repeated = |reading: &&Reading| {
+        reading.specimen.is_none() && factor(reading) != factor(first) && reading.cut == first.cut
+    };
+    let readings: Vec<&Reading> = match first.specimen {
+        None => readings.into_iter().filter(|reading| !is_repeated(reading)).collect(),
+        Some(_) => readings,
+    };
     let key = |reading: &Reading| (reading.specimen, reading.face.is_some(), reading.cut);
     let is_of_first = |reading: &&Reading| reading.item_at == first.item_at;
     let own: Vec<_> = readings.iter().copied().filter(is_of_first).collect();
@@ -239,12 +248,15 @@ fn of_one_table<'r>(
     };
     // Repeats in rows that follow each other are specimens without numbers.
     let is_next = |pair: &[&Reading]| pair[1].line - pair[0].line <= 1;
-    let are_neighbours = readings.windows(2).all(is_next) && first.specimen.is_none();
+    let are_named_alike = readings.iter().all(|reading| reading.item_text == first.item_text);
+    let are_neighbours =
+        readings.windows(2).all(is_next) && first.specimen.is_none() && are_named_alike;
     let Some(other) = others.iter().find(collides).filter(|_| !are_neighbours) else {
         return readings;
     };
     notes.push(format!(
-        "{} is there more than once, on lines {} and {}; the first is taken: put the tables into files of their own, or          number the specimens",
+        "{} is there more than once, on lines {} and {}; the first is taken: put the tables into files of their own, or \
+         number the specimens",
         item.symbol(),
         first.line,
         other.line

@@ -6,14 +6,14 @@
 //! B = W g c^3, \qquad B[\mathrm{\mu N\,m}] = 9.81 \times 10^{-6}\, W[\mathrm{g/m^2}]\, c[\mathrm{mm}]^3
 //! ```
 //!
-//! as FAST prints it \[DT94\]. ASTM D1388 \[D1388\] has a constant of 1.421e-5 in place of 9.81e-6, which gives 1.45 times
+//! as FAST prints it \[DT94\]. ASTM D1388 \[ASTM14\] has a constant of 1.421e-5 in place of 9.81e-6, which gives 1.45 times
 //! as much; measured against strips of known rigidity it is the one that is off \[LKL14\].
 
 use drape_input::Quantity;
 
 use crate::results::average::Averaged;
-use crate::results::converted::{Converted, SheetValue, Values, computed, why};
 use crate::results::item::Item;
+use crate::results::sheet_value::{Converted, SheetValue, Values, computed, why};
 use crate::test::Direction;
 
 /// Acceleration of gravity as FAST has it, in m/s².

@@ -5,8 +5,8 @@ use drape_input::{Quantity, Unit, figure, parse_unit};
 
 use crate::results::average::{Averaged, rounded};
 use crate::results::item::Item;
+use crate::results::sheet_value::{Converted, SheetValue, Sourced, Values, why};
 use crate::results::{cantilever, fast};
-use crate::test::Direction;
 
 /// Largest bare W, in mg/cm², that a garment's fabric has; a larger number is in g/m².
 const HEAVIEST: f64 = 60.0;
@@ -16,58 +16,6 @@ const RESILIENCE_LEAST: f64 = 1.5;
 const EXTENSION_LEAST: f64 = 0.35;
 /// Bending length and overhang above which a bare number is in mm and not in cm.
 const CENTIMETRES_MOST: f64 = 8.0;
-
-/// Averaged value with its place in the files.
-#[derive(Clone, Debug)]
-pub(crate) struct Sourced {
-    pub(crate) value: Averaged,
-    pub(crate) source: String,
-}
-
-/// Value of a sheet.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SheetValue {
-    pub(crate) key: &'static str,
-    pub(crate) direction: Option<Direction>,
-    pub(crate) number: f64,
-    pub(crate) deviation: Option<f64>,
-    /// Spelling of the unit; `None` for a bare number.
-    pub(crate) unit: Option<&'static str>,
-    /// Where it comes from and how.
-    pub(crate) why: String,
-}
-
-/// Values of a sheet, and what a sheet has no key for.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Converted {
-    pub(crate) values: Vec<SheetValue>,
-    /// Values that stand in the files and have no use in the sheet, each with the reason.
-    pub(crate) unused: Vec<String>,
-    pub(crate) notes: Vec<String>,
-}
-
-/// Values of one fabric while they are converted.
-pub(crate) struct Values {
-    all: Vec<Sourced>,
-}
-
-impl Values {
-    /// Returns the value of an item and a direction.
-    pub(crate) fn get(&self, item: Item, direction: Option<Direction>) -> Option<&Sourced> {
-        self.all.iter().find(|one| one.value.item == item && one.value.direction == direction)
-    }
-
-    /// Returns whether there is a value of an item in any direction.
-    pub(crate) fn has(&self, item: Item) -> bool {
-        self.all.iter().any(|one| one.value.item == item)
-    }
-
-    /// Returns whether there are values of FAST or of a cantilever, and none that only KES has.
-    fn is_fast(&self) -> bool {
-        let has = |is: fn(Item) -> bool| self.all.iter().any(|one| is(one.value.item));
-        has(Item::is_of_fast) && !has(Item::is_of_kes)
-    }
-}
 
 /// Converts the values of one fabric.
 pub(crate) fn converted(all: Vec<Sourced>) -> Converted {
@@ -85,13 +33,6 @@ pub(crate) fn converted(all: Vec<Sourced>) -> Converted {
     converted
 }
 
-impl Values {
-    /// Removes the value of an item and a direction.
-    pub(crate) fn remove(&mut self, item: Item, direction: Option<Direction>) {
-        self.all.retain(|one| (one.value.item, one.value.direction) != (item, direction));
-    }
-}
-
 /// Returns a value of a key with its unit.
 fn of_key(key: &'static str, one: &Sourced) -> SheetValue {
     let Averaged { number, deviation, unit, direction, .. } = one.value;
@@ -102,13 +43,6 @@ fn of_key(key: &'static str, one: &Sourced) -> SheetValue {
 fn spelling(unit: Unit) -> &'static str {
     let own = unit.quantity.laboratory();
     if unit.factor == own.factor { own.spelling } else { unit.spelling }
-}
-
-/// Returns where a value comes from.
-pub(crate) fn why(one: &Sourced) -> String {
-    let remark = &one.value.remark;
-    let remark = if remark.is_empty() { String::new() } else { format!(": {remark}") };
-    format!("{}{remark}", one.source)
 }
 
 /// Gives bare numbers the units that they can only have, and percentages that are ratios their unit.
@@ -176,9 +110,4 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
             *value = value.clone().remarked(&remark);
         }
     }
-}
-
-/// Returns a computed number with its digits.
-pub(crate) fn computed(number: f64) -> f64 {
-    rounded(number, 5)
 }

@@ -12,8 +12,8 @@
 //! since a load `$F$` per width on the bias shears by `$\gamma = F/(2G)$` and extends by half of `$\gamma$`: 123 is a
 //! quarter of 5 gf/cm in N/m, in percent.
 
-use crate::results::converted::{Converted, SheetValue, Sourced, Values, computed, why};
 use crate::results::item::Item;
+use crate::results::sheet_value::{Converted, SheetValue, Sourced, Values, computed, why};
 use crate::test::Direction;
 use drape_input::figure;
 

@@ -53,11 +53,13 @@ impl<'m> Heads<'m> {
         let row = &self.matrix.rows[k];
         let over = || row[c + 1..end].iter().filter(|slot| !slot.cell.is_empty());
         let number = |slot: &crate::results::matrix::Slot| slot.cell.number(Decimal::Point);
+        let side = row[c].label.as_ref();
+        // Fabrics may have any number for a name.
+        let of_fabrics = self.side(k).is_some_and(|axis| axis != Axis::Specimen);
         let fits = over().all(|slot| match &slot.label {
             Some(_) => true,
-            None => number(slot).is_some_and(is_small),
+            None => of_fabrics || number(slot).is_some_and(is_small),
         });
-        let side = row[c].label.as_ref();
         let is_open = row[c].cell.is_empty()
             || side.is_some_and(|label| label.name.is_empty() || label.axis.is_some());
         let has = |is: fn(&Label) -> bool| over().any(|slot| slot.label.as_ref().is_some_and(is));
@@ -70,31 +72,45 @@ impl<'m> Heads<'m> {
         fits && is_open && (counts > 1 || is_axis || has(Label::is_tagged))
     }
 
+    /// Returns what the names of a row of heads are called beside them.
+    fn side(&self, k: usize) -> Option<Axis> {
+        let axis = self.matrix.rows[k][self.columns.0].label.as_ref()?.axis?;
+        matches!(axis, Axis::Specimen | Axis::Fabric | Axis::Sample).then_some(axis)
+    }
+
+    /// Returns what a cell of a row of heads says: a number is that of a specimen, or the name of a fabric.
+    fn said(&self, k: usize, v: usize) -> Option<Label> {
+        let slot = &self.matrix.rows[k][v];
+        let side = self.side(k).filter(|axis| *axis != Axis::Specimen);
+        if slot.is_number {
+            let number = slot.cell.number(Decimal::Point)?;
+            let (name, specimen) = match side {
+                Some(_) => (slot.cell.text(), None),
+                None => (String::new(), is_small(number).then_some(number as u32)),
+            };
+            return Some(Label { name, specimen, ..Label::default() });
+        }
+        let label = slot.label.clone()?;
+        // "Warp knit" is the name of a fabric.
+        let is_name = side == Some(Axis::Fabric) && !label.name.is_empty();
+        Some(if is_name { Label { name: slot.cell.text(), ..Label::default() } } else { label })
+    }
+
     /// Returns the head of a column.
     pub(crate) fn at(&self, v: usize) -> Head {
         let (c, _) = self.columns;
         let mut head = Head::default();
         for &k in &self.rows {
             let row = &self.matrix.rows[k];
-            let own = |v: usize| {
-                let slot = &row[v];
-                let specimen = || {
-                    let number =
-                        slot.cell.number(Decimal::Point).filter(|number| is_small(*number));
-                    number.map(|number| number as u32)
-                };
-                let count =
-                    slot.is_number.then(|| Label { specimen: specimen(), ..Label::default() });
-                slot.label.clone().or(count)
-            };
             // A merged cell stands over its first column only.
             let spread = || {
                 let left = (c + 1..v).rev().find(|&l| !row[l].cell.is_empty())?;
-                row[left].label.clone().filter(|label| !label.is_unit() && label.specimen.is_none())
+                let is_wide = |label: &Label| !label.is_unit() && label.specimen.is_none();
+                self.said(k, left).filter(|label| is_wide(label) && !row[left].is_number)
             };
-            let label = if row[v].cell.is_empty() { spread() } else { own(v) };
+            let label = if row[v].cell.is_empty() { spread() } else { self.said(k, v) };
             let Some(label) = label else { continue };
-            let side = row[c].label.as_ref().and_then(|label| label.axis);
+            let side = self.side(k);
             if head.label.name.is_empty() && !label.name.is_empty() {
                 head.axis = side;
             }

@@ -12,8 +12,8 @@ use drape_input::{Quantity, parse_unit};
 use crate::results::item::Item;
 use crate::results::label::letters::{half_width, numbers, take};
 use crate::results::label::names::{
-    BACK, COUNT, DEVIATION, ERROR, FABRIC, FACE, GENERIC, ITEMS, MEAN, OTHER, SAMPLE, SPECIMEN,
-    UNIT, VARIATION,
+    BACK, COUNT, DEVIATION, ERROR, FABRIC, FACE, GENERIC, ITEMS, MEAN, OTHER, OTHER_TESTS, SAMPLE,
+    SPECIMEN, UNIT, VARIATION,
 };
 use crate::results::label::written_unit::{WrittenUnit, behind_sign, bracket};
 use crate::sheets::spelling;
@@ -22,6 +22,8 @@ use crate::tables::heading::{self, has_word, normal};
 
 /// Letters of a label at most: a longer text is a sentence.
 const LETTERS_MAX: usize = 100;
+/// Letters of a unit that is not known, at most.
+const UNKNOWN_UNIT_MAX: usize = 12;
 /// Number of a specimen at most.
 const SPECIMEN_MAX: u32 = 99;
 
@@ -37,6 +39,8 @@ pub(crate) struct Label {
     pub(crate) statistic: Option<Statistic>,
     pub(crate) face: Option<Face>,
     pub(crate) axis: Option<Axis>,
+    /// Whether the item is known by its name alone, without a symbol.
+    pub(crate) is_named: bool,
     /// Text that is nothing of the above; empty where there is none.
     pub(crate) name: String,
 }
@@ -66,8 +70,10 @@ impl Label {
         let mut words = format!(" {} {} ", normal(&outside), normal(&inside.join(" ")));
         label.take_name(&mut words, &text);
         label.take_tags(&mut words, &inside);
+        label.is_named = label.item.is_some();
         label.take_symbol(&mut words);
         label.drop_condition();
+        label.take_unknown_unit(&words, &inside);
         let rest: Vec<&str> = words.split_whitespace().collect();
         let is_said = |word: &&str| word.chars().any(char::is_alphanumeric);
         if rest.iter().any(is_said) {
@@ -145,6 +151,10 @@ impl Label {
         let all = ITEMS.iter().flat_map(|(item, names)| single(names).map(|name| (*item, name)));
         let there = all.filter(|(_, name)| words.contains(*name) && has_word(words, name));
         let Some((item, name)) = there.max_by_key(|(_, name)| name.chars().count()) else { return };
+        // At break, or before a body slides, the quantity is another one.
+        if single(OTHER_TESTS).any(|word| has_word(words, word)) {
+            return;
+        }
         let numbers = numbers(text);
         let has = |number: f64| numbers.contains(&number);
         let is_loaded =
@@ -291,6 +301,20 @@ impl Label {
         }
     }
 
+    /// Takes a text in brackets behind an item for a unit that is not known, where it is none of the words.
+    fn take_unknown_unit(&mut self, words: &str, inside: &[String]) {
+        if self.item.is_none() || self.unit.is_some() {
+            return;
+        }
+        let is_unit = |text: &&String| {
+            let is_left = normal(text).split(' ').all(|word| words.contains(&format!(" {word} ")));
+            let is_short = text.chars().count() <= UNKNOWN_UNIT_MAX && !text.contains(' ');
+            is_left && is_short && text.chars().any(char::is_alphabetic)
+        };
+        let unit = inside.iter().find(is_unit).cloned();
+        self.unit = unit.map(|text| WrittenUnit { text, is_known: false });
+    }
+
     /// Removes a unit that is of the load or the pressure of the test, and not of the item: `Thickness at 2 gf/cm²`.
     fn drop_condition(&mut self) {
         const CONDITIONS: [Quantity; 3] =
@@ -305,6 +329,7 @@ impl Label {
     }
 
     fn set_symbol(&mut self, written: crate::results::item::Written) {
+        self.is_named = false;
         self.item = Some(written.item);
         self.suffix = written.suffix;
         let face = written.sign.map(|sign| if sign == '+' { Face::Face } else { Face::Back });

@@ -28,8 +28,9 @@ pub(crate) struct Reading {
     /// Unit; `None` for a bare number.
     pub(crate) unit: Option<Unit>,
     pub(crate) line: usize,
-    /// Place of the cell of the item.
+    /// Place of the cell of the item, and its text.
     pub(crate) item_at: (usize, usize),
+    pub(crate) item_text: String,
 }
 
 /// Makes the entries of a sheet into readings; adds what cannot be read to the notes.
@@ -37,6 +38,7 @@ pub(crate) fn readings(found: Found, notes: &mut Vec<String>) -> Vec<Reading> {
     notes.extend(found.notes);
     let is_useful = |entry: &Entry| entry.item.quantity().is_some();
     let mut useful: Vec<Entry> = found.entries.into_iter().filter(is_useful).collect();
+    drop_other_extensions(&mut useful, notes);
     resolve_suffixes(&mut useful);
     let decimal = match number::decimal(useful.iter().map(|entry| (entry.line, &entry.cell))) {
         Ok(decimal) => decimal,
@@ -117,6 +119,7 @@ fn reading(entry: &Entry, cell: CellNumber) -> Result<(Reading, Option<String>),
         unit,
         line,
         item_at: entry.item_at,
+        item_text: entry.item_text.clone(),
     };
     Ok((reading, remark))
 }
@@ -158,6 +161,23 @@ fn unit(entry: &Entry, of_cell: &str) -> Result<(Item, Option<Unit>), String> {
         "line {line}: {symbol} is not taken, since \"{text}\" is no known unit of {}, such as {known}",
         quantity.name()
     ))
+}
+
+/// Leaves out extensions without a symbol where nothing else is of the tensile test of KES: they may be those of another
+/// test, such as at break.
+fn drop_other_extensions(entries: &mut Vec<Entry>, notes: &mut Vec<String>) {
+    const TENSILE: [Item; 3] = [Item::Key("LT"), Item::Key("WT"), Item::Key("RT")];
+    if entries.iter().any(|entry| TENSILE.contains(&entry.item)) {
+        return;
+    }
+    let is_open = |entry: &Entry| entry.item == Item::Key("EM") && entry.is_named;
+    if let Some(entry) = entries.iter().find(|entry| is_open(entry)) {
+        notes.push(format!(
+            "\"{}\" (line {}) is left out: it may be of another test than that of KES; call it EM where it is not",
+            entry.item_text, entry.line
+        ));
+    }
+    entries.retain(|entry| !is_open(entry));
 }
 
 /// Gives the digits behind symbols their meaning: 1 and 2 are warp and weft, unless the table names directions or has

@@ -159,6 +159,48 @@ mod tests {
     }
 
     #[test]
+    fn a_value_in_two_units_is_one_value() {
+        let two =
+            "Item,Unit,Warp,Weft,SI unit,Warp,Weft\nB,gf.cm2/cm,0.112,0.061,uN.m,10.98,5.98\n";
+        let behind = "B warp,0.112,gf.cm2/cm,10.98,uN.m\nB weft,0.061,gf.cm2/cm,5.98,uN.m\n";
+        for text in [two, behind] {
+            let found = of(text);
+            assert_eq!(get(&found, "B", WARP), (0.112, 0.0), "{text}");
+            assert_eq!(get(&found, "B", WEFT), (0.061, 0.0), "{text}");
+        }
+    }
+
+    #[test]
+    fn fabrics_may_be_numbered_and_may_be_called_after_a_direction() {
+        for text in [
+            "Fabric,B warp,W\n1,0.10,21\n2,0.11,22\n",
+            "Fabric,101,2044\nB warp,0.10,0.11\nW,21,22\n",
+        ] {
+            let found = of(text);
+            assert_eq!(found.fabrics.len(), 2, "{text}: {found:?}");
+        }
+        let found = of("Fabric,B (warp),B (weft)\nWarp knit,0.10,0.05\nPlain weave,0.2,0.1\n");
+        let names: Vec<Option<&str>> =
+            found.fabrics.iter().map(|(name, _)| name.as_deref()).collect();
+        assert_eq!(names, [Some("Warp knit"), Some("Plain weave")]);
+    }
+
+    #[test]
+    fn values_of_other_tests_are_not_taken_for_those_of_kes() {
+        let text = "Item,Warp,Weft\nB,0.1,0.05\nElongation at break (%),25,31\nMaximum elongation (%),24,30\n\
+                    Static friction coefficient,0.4,0.5\nBending stiffness (N.mm2),0.4,0.5\n";
+        let found = of(text);
+        let [(_, values)] = &found.fabrics[..] else { panic!("{found:?}") };
+        assert_eq!(values.len(), 2, "{values:?}");
+        let notes = found.notes.join("\n");
+        for words in
+            ["\"Elongation at break (%)\" (line 3)", "\"Maximum elongation (%)\" (line 4)", "N.mm2"]
+        {
+            assert!(notes.contains(words), "{words} is missing in {notes}");
+        }
+    }
+
+    #[test]
     fn what_is_no_value_is_told() {
         let found = of("Item,Unit,Warp,Weft,Limit\nB,gf.cm2/cm,0.1,n.d.,1\nG,Ohm/sq,0.7,0.6,1\n\
                         2HB,gf.cm/cm,2024-02-01,0.03,1\nGloss,%,40,42,1\n");

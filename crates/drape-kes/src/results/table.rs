@@ -28,8 +28,11 @@ pub(crate) struct Entry {
     /// Number of specimens that the row states.
     pub(crate) count: Option<f64>,
     pub(crate) line: usize,
-    /// Place of the cell of the item.
+    /// Place of the cell of the item, and its text.
     pub(crate) item_at: At,
+    pub(crate) item_text: String,
+    /// Whether the item is known by its name alone, without a symbol.
+    pub(crate) is_named: bool,
 }
 
 /// What a sheet says in its tables of results.
@@ -169,7 +172,8 @@ impl<'m> Rows<'m> {
                     let label =
                         self.matrix.label(item_row, item_column).cloned().unwrap_or_default();
                     let section = sections.of(item_at);
-                    self.read_item((r, c), &Own { label, section, item_at }, found);
+                    let text = self.matrix.rows[item_row][item_column].cell.text();
+                    self.read_item((r, c), &Own { label, section, item_at, text }, found);
                 }
                 continue;
             }
@@ -177,7 +181,11 @@ impl<'m> Rows<'m> {
             for c in items {
                 let section = sections.of(row[c].at);
                 let label = self.matrix.label(r, c).cloned().unwrap_or_default();
-                self.read_item((r, c), &Own { label, section, item_at: row[c].at }, found);
+                self.read_item(
+                    (r, c),
+                    &Own { label, section, item_at: row[c].at, text: row[c].cell.text() },
+                    found,
+                );
                 columns.insert(c);
                 last = Some((r, c));
             }
@@ -205,7 +213,8 @@ impl<'m> Rows<'m> {
 
     /// Adds the numbers of one item in a row.
     fn read_item(&self, (r, c): At, own: &Own, found: &mut Found) {
-        let Own { label: own, section, item_at } = own;
+        let Own { label: own, section, item_at, text } = own;
+        let is_named = &own.is_named;
         let Some(item) = own.item else { return };
         let row = &self.matrix.rows[r];
         let end = self.end(r, c);
@@ -230,10 +239,20 @@ impl<'m> Rows<'m> {
             }
             common = common.or(&Label { name: String::new(), ..label });
         }
-        let behind = (first + 1..end).filter_map(|l| row[l].label.as_ref()).find(|l| l.is_unit());
-        if let Some(unit) = behind {
-            common = common.or(&Label { unit: unit.unit.clone(), ..Label::default() });
-        }
+        let unit_at = |l: usize| {
+            row[l]
+                .label
+                .as_ref()
+                .filter(|label| label.is_unit())
+                .and_then(|label| label.unit.clone())
+        };
+        // A unit behind the first number is of that number, and of those before the next unit.
+        let is_before = common.unit.is_some();
+        let own_unit = |v: usize| {
+            let behind = || (v + 1..end).find_map(unit_at);
+            let before = (first + 1..v).rev().find_map(unit_at);
+            if is_before { before } else { behind().or(before) }
+        };
         let last = numbers.last().map_or(end, |last| last + 1);
         let heads = Heads::above(self.matrix, (r, c), last);
         let mut leading = heads.leading(start, r);
@@ -256,7 +275,8 @@ impl<'m> Rows<'m> {
             }
             let sign = row[v - 1].label.as_ref().filter(|_| v > first);
             let sign = sign.and_then(|label| label.statistic);
-            let label = common.clone().or(&head.label).or(section);
+            let unit = own_unit(v).or_else(|| common.unit.clone());
+            let label = Label { unit, ..common.clone() }.or(&head.label).or(section);
             found.entries.push(Entry {
                 item,
                 unit: label.unit,
@@ -271,6 +291,8 @@ impl<'m> Rows<'m> {
                 count,
                 line: row[v].line,
                 item_at: *item_at,
+                item_text: text.clone(),
+                is_named: *is_named,
             });
         }
     }
@@ -353,6 +375,8 @@ struct Own {
     label: Label,
     section: Label,
     item_at: At,
+    /// Text of its cell.
+    text: String,
 }
 
 /// Titles of tables below each other that name a direction or a fabric, each with its row.

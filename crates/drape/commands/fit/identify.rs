@@ -45,12 +45,3 @@ pub(crate) fn store(
     file::write(&path, &page.to_html()?)?;
     Ok(Some(path))
 }
-
-/// Returns the default path of the fabric of a sheet: `fabric.toml` in the sheet's folder, and `NAME.toml` for a sheet
-/// `NAME.sheet.toml`.
-pub(crate) fn beside(sheet: &Path) -> PathBuf {
-    let folder = if sheet.is_dir() { sheet } else { sheet.parent().unwrap_or(Path::new("")) };
-    let name = sheet.file_name().map(|name| name.to_string_lossy().into_owned());
-    let stem = name.as_deref().and_then(|name| name.strip_suffix(".sheet.toml"));
-    folder.join(stem.map_or("fabric.toml".to_owned(), |stem| format!("{stem}.toml")))
-}

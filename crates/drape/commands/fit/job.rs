@@ -7,7 +7,6 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::{Sheet, SheetDraft};
 
 use super::arguments::FitArguments;
-use super::identify::beside;
 use crate::commands::sheets::{self, SHEET_FILE, drafted};
 use crate::failure::Failure;
 use crate::input;
@@ -86,7 +85,12 @@ fn own_folder(path: &Path) -> &Path {
 
 impl Job {
     fn of_sheet(sheet: PathBuf) -> Self {
-        Self { name: sheets::stem(&sheet), fabric: beside(&sheet), draft: None, sheet }
+        Self {
+            name: sheets::stem(&sheet),
+            fabric: sheets::fabric_beside(&sheet),
+            draft: None,
+            sheet,
+        }
     }
 
     /// Returns the job of a draft: its files lie beside the tables, or in the folder of the tables.
@@ -95,7 +99,7 @@ impl Job {
         let folder = own_folder(path);
         let (sheet, fabric) = if path.is_dir() && !several {
             let sheet = folder.join(SHEET_FILE);
-            let fabric = beside(&sheet);
+            let fabric = sheets::fabric_beside(&sheet);
             (sheet, fabric)
         } else {
             let fabric = folder.join(format!("{name}.toml"));

@@ -224,6 +224,14 @@ pub(super) const ITEMS: [(Item, Words); 25] = [
     ),
 ];
 
+/// Words of other tests than those of KES, FAST and cantilevers: to the break, or of a body that does not slide yet.
+pub(super) const OTHER_TESTS: Words = &[
+    "break, breaking, rupture, at maximum force, tear, tearing, static, bruch, reiß, höchstzugkraft",
+    "weiterreiß, haft, haftreibung, à la rupture, déchirure, statique, rottura, rotura, ruptura",
+    "lacerazione, rasgado, estático, statico, kopma, yırtılma, statik",
+    "破断, 切断, 引裂, 静摩擦, 断裂, 撕裂, 静态",
+];
+
 /// Words of a mean.
 pub(super) const MEAN: Words = &[
     "mean, average, avg, ave, mean value, x̄, mittelwert, mittel, mw, durchschnitt, moyenne, moy",
