@@ -231,3 +231,28 @@ fn a_table_of_sizes_and_of_a_strip_on_the_bias_are_told_from_values_and_from_the
     assert_eq!(sheet.curves[0].gauge, Some(0.2), "{}", draft.text);
     assert!(draft.text.contains("width = \"50 mm\""), "{}", draft.text);
 }
+
+#[test]
+fn columns_whose_units_are_not_known_cost_nothing_else() {
+    let rows: String = (0..40)
+        .map(|i| {
+            format!("{i},{},{},1.5,20.1,0.7,3,9\n", 0.1 * f64::from(i), 0.01 * f64::from(i * i))
+        })
+        .collect();
+    let heads = "Time,Extension,Load,Work,Chamber,Signal,Rate,Sheet";
+    let in_row = format!("{heads}\ns,mm,N,Nmm,°C,V,1/s,Ohm/sq\n{rows}");
+    let in_heads = format!(
+        "Time (s),Extension (mm),Load (N),Work (Nmm),Chamber [°C],Signal (V),Rate (1/s),Sheet (Ohm/sq)\n{rows}"
+    );
+    for text in [in_row, in_heads] {
+        let text = format!("Gauge length,200,mm\nWidth,50,mm\n\n{text}");
+        let (draft, sheet) = drafted("warp tensile.csv", text.as_bytes());
+        assert_eq!((sheet.curves.len(), draft.open), (1, 0), "{}", draft.text);
+        assert_eq!(sheet.curves[0].gauge, Some(0.2), "{}", draft.text);
+        let note = draft.notes.iter().find(|note| note.contains("columns without a use"));
+        let note = note.unwrap_or_else(|| panic!("{:?}", draft.notes));
+        for column in ["\"Work\" (Nmm)", "\"Signal\" (V)", "\"Rate\" (1/s)", "\"Sheet\" (Ohm/sq)"] {
+            assert!(note.contains(column), "{column} is missing in {note}");
+        }
+    }
+}

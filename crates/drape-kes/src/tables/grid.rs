@@ -268,6 +268,13 @@ fn open(text: &str) -> bool {
     count(['(', '[', '（']) > count([')', ']', '）'])
 }
 
+/// Returns whether most lines have a sign between cells that stands nowhere else.
+fn is_parted(text: &str) -> bool {
+    let lines: Vec<&str> = text.lines().filter(|line| !is_skipped(line)).collect();
+    let parted = |sign: char| lines.iter().filter(|line| line.trim().contains(sign)).count();
+    ['\t', ';', '|'].iter().any(|sign| 2 * parted(*sign) > lines.len())
+}
+
 /// Returns whether most lines are a key with its value: `W: 12.4 mg/cm2`.
 fn are_keys(text: &str) -> bool {
     let is_key = |line: &&str| {
@@ -296,7 +303,7 @@ pub(crate) fn separator(text: &str) -> Separator {
         let is_split = |row: &Row| {
             let other = |cell: &Cell| {
                 let text = cell.text();
-                text.contains('\t') || (separator != Separator::Tab && text.contains(';'))
+                text.contains('\t') || (separator != Separator::Tab && text.contains([';', '|']))
             };
             row.filled().all(|(_, cell)| !other(cell))
         };
@@ -312,6 +319,10 @@ pub(crate) fn separator(text: &str) -> Separator {
     let best = |least: usize| {
         let mut best = (Separator::Comma, 0.0);
         for separator in Separator::ALL {
+            // Blanks are within the cells of lines that another sign parts.
+            if separator == Separator::Space && best.1 > 0.0 && is_parted(&text[..end]) {
+                continue;
+            }
             let score = score(separator, least);
             if score > best.1 * (1.0 + 1e-9) {
                 best = (separator, score);
@@ -341,6 +352,7 @@ mod tests {
             ("\"0,5\",\"1,25\"\n\"1,5\",\"2,25\"\n", Separator::Comma),
             ("a,b\n0.5 ± 0.1,1.25 (0.2)\n", Separator::Comma),
             ("a;b\n0,5±0,1;1,25±0,2\n3,5;\n", Separator::Semicolon),
+            ("a\tb\tc\nWarp 1\t0.5\t0.7\nWarp 2\t0.6\t0.8\n", Separator::Tab),
             ("a;b;c\nB;0,112 ± 0,003;0,061 ± 0,002\n", Separator::Semicolon),
             ("nothing\n", Separator::Comma),
         ];
