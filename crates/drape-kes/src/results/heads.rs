@@ -106,7 +106,7 @@ impl<'m> Heads<'m> {
             let spread = || {
                 let left = (c + 1..v).rev().find(|&l| !row[l].cell.is_empty())?;
                 let is_wide = |label: &Label| !label.is_unit() && label.specimen.is_none();
-                self.said(k, left).filter(|label| is_wide(label) && !row[left].is_number)
+                self.said(k, left).filter(is_wide)
             };
             let label = if row[v].cell.is_empty() { spread() } else { self.said(k, v) };
             let Some(label) = label else { continue };

@@ -71,12 +71,13 @@ impl Matrix {
             cells.into_iter().enumerate().map(slot).collect()
         };
         let mut matrix = Self { rows: rows.into_iter().enumerate().map(slots).collect() };
-        matrix.clear_curves();
-        matrix.clear_profiles();
         matrix.name_signs();
         let mut turned = matrix.turned();
         turned.name_signs();
-        turned.turned()
+        let mut matrix = turned.turned();
+        matrix.clear_curves();
+        matrix.clear_profiles();
+        matrix
     }
 
     /// Returns the matrix with rows in place of columns.
@@ -208,7 +209,10 @@ impl Matrix {
 
 /// Returns whether a heading is that of a deformation or a load.
 fn is_of_curves(cell: &Cell) -> bool {
-    let kind = heading::kind(&Heading::parse(&cell.text()).name);
+    let heading = Heading::parse(&cell.text());
+    // F1 may be a fabric: a symbol is one of a curve where it has a unit.
+    let is_word = heading.name.chars().count() > 3 || !heading.name.is_ascii();
+    let kind = heading::kind(&heading.name).filter(|_| is_word || heading.unit.is_some());
     kind.is_some_and(|kind| !matches!(kind, Kind::Specimen | Kind::Other))
 }
 
