@@ -3,6 +3,8 @@
 
 #[path = "command_line/grading.rs"]
 mod grading;
+#[path = "command_line/material.rs"]
+mod material;
 #[path = "command_line/resume.rs"]
 mod resume;
 

@@ -8,7 +8,8 @@
 //! results into pages. A run follows the data from the top of this list to its end:
 //!
 //! * measurements: [`kes`] (sheets, curves, values), [`fit`] by [`lm`] (fabrics from them);
-//! * materials: [`fabric`] (laws in SI), [`hysteresis`] (their friction), [`pattern`] (garments);
+//! * materials: [`fabric`] (laws in SI), [`hysteresis`] (their friction), [`material`] (numbers of
+//!   them for other programs), [`pattern`] (garments);
 //! * simulation: [`scene`] (TOML to checked values), [`cloth`] (forces and stiffness), [`collide`]
 //!   (contact), [`implicit`] (time steps), [`dynamics`] (what joins the four to frames);
 //! * results: [`frames`] (stored frames read), [`verify`] (and verified), [`export`] (for other
@@ -42,6 +43,7 @@ pub use drape_lm as lm;
 pub use drape_fabric as fabric;
 pub use drape_hysteresis as hysteresis;
 pub use drape_input as input;
+pub use drape_material as material;
 pub use drape_pattern as pattern;
 
 // Simulation.

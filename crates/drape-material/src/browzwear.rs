@@ -1,0 +1,88 @@
+//! Browzwear: the fields of the physics dialog of VStitcher and Lotta, as a table.
+
+use csv::Writer;
+
+use crate::material::Material;
+use crate::number::{number, one_line};
+
+/// Bending rigidity of 1 N·m in dyn·cm.
+const DYN_CENTIMETRES: f64 = 1e7;
+
+/// Stiffness with which a strip on the bias stretches, over the shear stiffness: the yarns of a strip
+/// that lengthens by `$\varepsilon$` shear by `$2\varepsilon$`, and the force per width is twice the
+/// shear force.
+const BIAS: f64 = 4.0;
+
+impl Material {
+    /// Returns a table (CSV) of what is typed into the physics dialog of Browzwear's VStitcher and
+    /// Lotta, in its units, with the definition of each number and what is lost \[BW25\].
+    ///
+    /// Length is warp, width is weft. The shear is left empty: the public description does not say
+    /// whether it is that of the yarns' angle or of a strip on the bias, and both are given in words.
+    #[must_use]
+    pub fn to_browzwear(&self) -> String {
+        let load = number(self.stretch[0].load);
+        let mut rows: Vec<[String; 5]> = Vec::new();
+        let mut row =
+            |property: &str, direction: &str, value: String, unit: &str, meaning: String| {
+                rows.push([property.into(), direction.into(), value, unit.into(), meaning]);
+            };
+        row("Mass", "", number(1e3 * self.density), "g/m²", "mass per area".into());
+        row(
+            "Friction",
+            "",
+            number(self.surface_friction),
+            "",
+            "coefficient of friction of the surface".into(),
+        );
+        row("Thickness", "", number(1e3 * self.thickness), "mm", "under 49 Pa (0.5 gf/cm²)".into());
+        for (index, direction) in ["length", "width"].into_iter().enumerate() {
+            let rigidity = number(DYN_CENTIMETRES * self.bending[index]);
+            let meaning = "KES B of the law: moment per width over curvature, from 0.5 to 1.5 1/cm";
+            row("Bend", direction, rigidity, "dyn·cm", meaning.into());
+        }
+        for (index, direction) in ["length", "width"].into_iter().enumerate() {
+            let stretch = self.stretch[index];
+            let meaning = format!(
+                "tension per width over strain, from rest to {load} N/m, where the strain is {} %; on the \
+                 first stretching",
+                number(100.0 * stretch.strain)
+            );
+            row("Stretch", direction, number(stretch.stiffness), "N/m", meaning);
+        }
+        row(
+            "Shear",
+            "",
+            String::new(),
+            "N/m",
+            format!(
+                "left empty: the public description does not say which shear is meant; KES G of the law is {} N/m \
+                 per rad, and a strip on the bias whose yarns do not stretch has {} N/m",
+                number(self.shear),
+                number(BIAS * self.shear)
+            ),
+        );
+        for loss in &self.losses {
+            row("lost", "", String::new(), "", one_line(loss));
+        }
+        let source = format!(
+            "{}, by drape {}; length is warp, width is weft",
+            one_line(&self.name),
+            env!("CARGO_PKG_VERSION")
+        );
+        row("fabric", "", String::new(), "", source);
+        table(&rows)
+    }
+}
+
+/// Returns rows as CSV.
+fn table(rows: &[[String; 5]]) -> String {
+    let mut writer = Writer::from_writer(Vec::new());
+    let head = ["property", "direction", "value", "unit", "meaning"];
+    let written = writer
+        .write_record(head)
+        .and_then(|()| rows.iter().try_for_each(|row| writer.write_record(row)));
+    written.expect("writing to memory does not fail");
+    let bytes = writer.into_inner().expect("writing to memory does not fail");
+    String::from_utf8(bytes).expect("the cells are texts")
+}

@@ -1,0 +1,17 @@
+//! Fabrics that commands name.
+
+use std::path::Path;
+
+use drape::fabric::Fabric;
+use drape::scene::Model;
+
+use crate::commands::sheets;
+use crate::failure::Failure;
+use crate::input;
+
+/// Reads a fabric from its file, or from a sheet or its folder, which it fits.
+pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
+    let sheet = path.join(sheets::SHEET_FILE);
+    let file = if path.is_dir() { &sheet } else { path };
+    Ok(drape::fabric_of(&input::document(file)?, Model::Kes)?)
+}
