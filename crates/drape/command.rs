@@ -1,9 +1,10 @@
 //! The command line: which commands there are, and the options that all of them have. Their own
 //! arguments stand with them, in the modules of [`commands`](crate::commands).
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use drape::file::FileKind;
 
 use crate::commands::bench::{self, BenchArguments};
 use crate::commands::check::{self, CheckArguments};
@@ -160,7 +161,10 @@ impl Command {
             Self::Validate(arguments) => validate::validate(arguments),
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),
-            Self::Convert(arguments) => convert::convert(arguments),
+            Self::Convert(arguments) => {
+                arguments.from.iter().try_for_each(|from| convertible(from))?;
+                convert::convert(arguments)
+            }
             Self::View(arguments) => view::view(arguments),
             Self::Picture(arguments) => picture::picture(arguments),
             Self::Export(arguments) => export::export(arguments),
@@ -169,5 +173,21 @@ impl Command {
             Self::Completions(arguments) => shell::completions(arguments, CommandLine::command()),
             Self::Man(arguments) => shell::man(arguments, CommandLine::command()),
         }
+    }
+}
+
+/// Refuses what `drape convert` has nothing to make of: what is of the project already.
+fn convertible(from: &Path) -> Result<(), Failure> {
+    let wanted = [
+        FileKind::Drawing,
+        FileKind::Pattern,
+        FileKind::Table,
+        FileKind::Workbook,
+        FileKind::Archive,
+    ];
+    match FileKind::of(from) {
+        // A folder of exports may have its sheet already.
+        Some(FileKind::Sheet) if from.is_dir() => Ok(()),
+        _ => Ok(input::expect(from, &wanted)?),
     }
 }

@@ -1,8 +1,12 @@
-//! Files that are written complete or not at all.
+//! Files that are written complete or not at all, and what kind a file is.
+
+mod kind;
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+
+pub use kind::FileKind;
 
 /// Reason why a file was not written.
 #[derive(Debug, thiserror::Error)]

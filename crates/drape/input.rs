@@ -9,6 +9,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use drape::file::FileKind;
 use drape::input::{Diagnostic, Diagnostics, Document, Setting, SizeLimit, size_limit_factor};
 
 /// Name of standard input in messages.
@@ -53,6 +54,19 @@ pub(crate) fn set(settings: &[Setting]) {
 /// Returns whether a path stands for standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
+}
+
+/// Refuses a file or folder that is of another kind than those that a command takes.
+pub(crate) fn expect(path: &Path, wanted: &[FileKind]) -> Result<(), Diagnostics> {
+    if is_standard(path) { Ok(()) } else { FileKind::expect(path, wanted) }
+}
+
+/// Reads a file of one of some kinds, or standard input, with the values that the user sets.
+pub(crate) fn document_of(path: &Path, wanted: &[FileKind]) -> Result<Document, Diagnostics> {
+    expect(path, wanted)?;
+    let document = document(path)?;
+    FileKind::expect_document(&document, wanted)?;
+    Ok(document)
 }
 
 /// Reads a file, or standard input, with the values that the user sets.

@@ -9,11 +9,17 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_kes::Sheet;
 use drape_scene::{FabricRequest, Model, Scene, is_fabric};
 
+use crate::file::FileKind;
+
+/// Kinds of files that give a fabric.
+const FABRICS: [FileKind; 2] = [FileKind::Fabric, FileKind::Sheet];
+
 /// Reads a scene whose fabrics are files of fabrics, or sheets of measurements, which are fitted.
 ///
 /// # Errors
 /// As for [`Scene::read`], with the mistakes of the sheets.
 pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
+    FileKind::expect(path.as_ref(), &[FileKind::Scene])?;
     Scene::read_with(path, &scene_fabric)
 }
 
@@ -22,6 +28,7 @@ pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
 /// # Errors
 /// As for [`read_scene`].
 pub fn scene_of(document: &Document) -> Result<Scene, drape_scene::Error> {
+    FileKind::expect_document(document, &[FileKind::Scene])?;
     Scene::from_document(document, &scene_fabric)
 }
 
@@ -34,6 +41,7 @@ pub fn scene_of_documents(
     document: &Document,
     others: &[Document],
 ) -> Result<Scene, drape_scene::Error> {
+    FileKind::expect_document(document, &[FileKind::Scene])?;
     Scene::from_documents_with(document, others, &scene_fabric)
 }
 
@@ -45,6 +53,7 @@ pub fn scene_of_documents(
 /// # Errors
 /// The mistakes of the file, or the reason why a sheet gives no fabric.
 pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
+    FileKind::expect(request.file, &FABRICS)?;
     fabric_of(&Document::read(request.file)?.allowing(request.allowed), request.model)
 }
 
@@ -53,6 +62,7 @@ pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
 /// # Errors
 /// As for [`scene_fabric`].
 pub fn fabric_of(document: &Document, model: Model) -> Result<Fabric, Diagnostics> {
+    FileKind::expect_document(document, &FABRICS)?;
     if is_fabric(document) {
         return Fabric::from_document(document);
     }

@@ -24,7 +24,7 @@ use self::pattern::CutOut;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_json};
-use drape::file;
+use drape::file::{self, FileKind};
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
@@ -77,6 +77,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         let [mesh] = &files[..] else {
             return Err(Failure::Usage("--repair is for one body at a time".into()));
         };
+        input::expect(mesh, &[FileKind::Body])?;
         file::refuse_existing(to, arguments.force, "replace it with --force")?;
         return say(body::mend(mesh, measure, to)?.trim_end());
     }
@@ -85,6 +86,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
             checked.add(scene, start::draw(scene, figure)?)?;
         }
         (Some(figure), [pattern]) => {
+            input::expect(pattern, &[FileKind::Pattern, FileKind::Drawing, FileKind::Scene])?;
             let cut = CutOut::read(pattern, spacing)?;
             file::write(figure, cut.figure())?;
             checked.add(pattern, Ok(cut.describe()))?;

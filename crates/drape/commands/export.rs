@@ -13,6 +13,7 @@ use drape::export::{
     Clip, Field, GLB_FRAMES_MAX, write_csv, write_glb, write_mdd, write_npz, write_obj, write_pc2,
     write_usda,
 };
+use drape::file::FileKind;
 use drape::frames::Recording;
 
 pub(crate) use self::arguments::ExportArguments;
@@ -21,6 +22,7 @@ use self::files::Files;
 use self::pictures::{ANIMATED, ClipPictures};
 use crate::console::note;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::say_written;
 
 /// Executes `drape export`.
@@ -37,6 +39,7 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
             "{option} is for pictures; leave it out, or add --format {formats}"
         )));
     }
+    input::expect(&arguments.run, &[FileKind::Run])?;
     let recording = Recording::open(&arguments.run)?;
     let numbers = numbers(arguments, format, recording.frames() - 1);
     let asked = numbers.clone().count();

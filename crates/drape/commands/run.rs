@@ -24,7 +24,7 @@ use crate::console::signal;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_json};
-use drape::file;
+use drape::file::{self, FileKind};
 
 #[derive(Args)]
 pub(crate) struct RunArguments {
@@ -108,7 +108,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// Runs one scene, stores its results and says what came out; a run that fails has a summary too.
 fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
-    let read = drape::scene_of(&input::document(path)?);
+    let read = drape::scene_of(&input::document_of(path, &[FileKind::Scene])?);
     let mut scene = read.map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
         end_at(&mut scene, end)?;

@@ -6,6 +6,7 @@ pub(crate) mod drafted;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use drape::file::FileKind;
 use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::{Sheet, SheetDraft};
 
@@ -24,6 +25,7 @@ const DEEPEST: usize = 8;
 pub(crate) fn sheets(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut sheets = Vec::new();
     for path in paths {
+        refuse_others(path)?;
         if !path.is_dir() || path.join(SHEET_FILE).exists() {
             sheets.push(path.clone());
             continue;
@@ -37,6 +39,14 @@ pub(crate) fn sheets(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
         sheets.extend(found);
     }
     Ok(sheets)
+}
+
+/// Refuses what is no sheet, and no export of an instrument either.
+fn refuse_others(path: &Path) -> Result<(), Diagnostics> {
+    match FileKind::of(path) {
+        Some(FileKind::Table | FileKind::Workbook | FileKind::Archive) => Ok(()),
+        _ => input::expect(path, &[FileKind::Sheet]),
+    }
 }
 
 fn search(folder: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) -> Result<(), Failure> {
@@ -100,11 +110,10 @@ pub(crate) fn of(path: &Path) -> Option<&Path> {
 
 /// Reads a sheet.
 pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
-    let sheet = match path.is_dir() {
-        true => Sheet::from_document(&input::document(&path.join(SHEET_FILE))?),
-        false => Sheet::from_document(&input::document(path)?),
-    };
-    sheet.map_err(|error| in_input(error, path))
+    let file = if path.is_dir() { &path.join(SHEET_FILE) } else { path };
+    let document = input::document(file)?;
+    FileKind::expect_document(&document, &[FileKind::Sheet])?;
+    Sheet::from_document(&document).map_err(|error| in_input(error, path))
 }
 
 /// Returns the mistakes of an error about a file.

@@ -5,20 +5,40 @@ use std::path::Path;
 
 use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone, TractionFriction};
+use drape::file::FileKind;
 use drape::input::{Diagnostic, Diagnostics, figure};
 use drape::keep::describe_needs;
 use drape::kes::{Sheet, SheetDraft};
 use drape::pattern::Pattern;
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
+use drape::sweep::{Error as SweepError, Study};
 
 use super::pattern::CutOut;
 use crate::commands::sheets::{self, drafted};
 use crate::input;
 
+/// Kinds of files that are described.
+const CHECKED: [FileKind; 7] = [
+    FileKind::Scene,
+    FileKind::Fabric,
+    FileKind::Sheet,
+    FileKind::Pattern,
+    FileKind::Drawing,
+    FileKind::Study,
+    FileKind::Body,
+];
+
 /// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
 pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics> {
     if sheets::is_of_tables(path) {
         return tables(path);
+    }
+    match FileKind::of(path).filter(|_| !input::is_standard(path)) {
+        Some(FileKind::Study) => return study(path),
+        Some(FileKind::Material | FileKind::Picture | FileKind::Page | FileKind::Run) => {
+            input::expect(path, &CHECKED)?;
+        }
+        _ => {}
     }
     if path.is_dir() {
         return sheet(path);
@@ -41,6 +61,26 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
     } else {
         sheet(path)
     }
+}
+
+/// Describes a study: what is run, and how often.
+fn study(path: &Path) -> Result<String, Diagnostics> {
+    let mistakes = |error: SweepError| match error {
+        SweepError::Input(mistakes) => mistakes,
+        other => Diagnostic::new(path, other.to_string()).into(),
+    };
+    let study = Study::read(path, input::allowed()).map_err(mistakes)?;
+    let mut text = format!(
+        "study of the {} {}, {} points, results in {}\n",
+        study.base().key(),
+        study.base_file().display(),
+        study.count(),
+        study.output().display()
+    );
+    for axis in study.axes() {
+        let _ = writeln!(text, "  {}: {}", axis.key, axis.levels.join(", "));
+    }
+    Ok(text)
 }
 
 /// Returns whether a file is a scene, by its keys.

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use drape::file::FileKind;
 use drape::keep::{RunToResume, end_at};
 
 use crate::commands::run::job::{Job, RunOptions};
@@ -33,6 +34,7 @@ pub(crate) struct ResumeArguments {
 pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
     signal::watch();
     let ResumeArguments { run: folder, extend, options, .. } = arguments;
+    input::expect(folder, &[FileKind::Run])?;
     let mut resumed = RunToResume::open(folder, *extend)?;
     let request = &mut resumed.request;
     let path = arguments.scene.clone().unwrap_or_else(|| request.scene.clone());
@@ -42,7 +44,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
         ));
     }
     input::set(&request.settings()?);
-    let mut scene = drape::scene_of(&input::document(&path)?)?;
+    let mut scene = drape::scene_of(&input::document_of(&path, &[FileKind::Scene])?)?;
     if let Some(end) = request.until {
         end_at(&mut scene, end)?;
     }

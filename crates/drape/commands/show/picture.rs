@@ -9,9 +9,10 @@ use drape::report::{Animation, Picture};
 
 use super::look::LookArguments;
 use crate::failure::Failure;
+use crate::input;
 use crate::pages::run_picture::{Direction, Look, RunPictures};
 use crate::say::say_written;
-use drape::file;
+use drape::file::{self, FileKind};
 
 /// Time in which a turntable turns once, in s.
 const TURN: f64 = 6.0;
@@ -73,6 +74,7 @@ impl FromStr for FrameNumber {
 
 /// Executes `drape picture`.
 pub(crate) fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
+    input::expect(&arguments.run, &[FileKind::Run])?;
     let recording = Recording::open(&arguments.run)?;
     if let Some(count) = arguments.strip {
         return strip(arguments, &recording, count);

@@ -8,8 +8,9 @@ use drape::reports::{VIEWER_SIZE_MAX, ViewerPage};
 
 use crate::console::note;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::say_written;
-use drape::file;
+use drape::file::{self, FileKind};
 
 #[derive(Args)]
 pub(crate) struct ViewArguments {
@@ -32,6 +33,7 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
             arguments.size
         )));
     }
+    arguments.runs.iter().try_for_each(|run| input::expect(run, &[FileKind::Run]))?;
     let recordings: Result<Vec<Recording>, _> =
         arguments.runs.iter().map(Recording::open).collect();
     let recordings = recordings?;

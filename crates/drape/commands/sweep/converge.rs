@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::file;
+use drape::file::{self, FileKind};
 use drape::input::{Document, Setting, figure, toml_string};
 use drape::reports::VERSION;
 use drape::scene::{Spacing, coarser_spacings, spacings};
@@ -131,7 +131,7 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
     if input::is_standard(scene) {
         return Err(Failure::Usage("-: name a file, which every run reads".into()));
     }
-    let document = input::document(scene)?;
+    let document = input::document_of(scene, &[FileKind::Scene])?;
     let text = study_text(scene, &arguments.set, &own_spacings(&document, spacings)?);
     let study = Study::from_document(&Document::new(scene, text).allowing(input::allowed()))?;
     let study = study.with_output(folder(arguments));

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use drape::file::FileKind;
 use drape::sweep::{Point, Shard, Study};
 
 use crate::failure::Failure;
@@ -29,6 +30,7 @@ impl StudyArguments {
 
     /// Reads the study alone.
     pub(super) fn study(&self) -> Result<Study, Failure> {
+        input::expect(&self.study, &[FileKind::Study])?;
         let study = Study::read(&self.study, input::allowed())?;
         Ok(match &self.results {
             Some(folder) => study.with_output(folder.clone()),
