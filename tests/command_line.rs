@@ -9,6 +9,8 @@ mod grading;
 mod material;
 #[path = "command_line/resume.rs"]
 mod resume;
+#[path = "command_line/sheet_values.rs"]
+mod sheet_values;
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};

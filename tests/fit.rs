@@ -213,9 +213,13 @@ fn a_fit_says_what_was_read_and_why_a_law_was_taken() {
     let output = command.arg(folder.path().join("f.toml")).assert().success().get_output().clone();
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    for said in
-        ["[Read] - tensile.csv:", "taken: ", "compared: ", "AICc", "at most 6 above the best"]
-    {
+    for said in [
+        "[Read] - tensile.csv, tensile warp:",
+        "taken: ",
+        "compared: ",
+        "AICc",
+        "at most 6 above the best",
+    ] {
         assert!(words.contains(said), "{said} is missing in\n{text}");
     }
 }

@@ -84,7 +84,12 @@ impl Failure {
     pub(crate) fn of(self, sheet: &Path) -> Self {
         match self {
             Self::Fit(error) => {
-                Self::Input(Diagnostic::new(input::shown(sheet), error.to_string()).into())
+                let file = input::sheet_file(sheet);
+                let mistake = match input::document(&file) {
+                    Ok(document) => drape::fit_mistake(&document, &error),
+                    Err(_) => Diagnostic::new(input::shown(sheet), error.to_string()),
+                };
+                Self::Input(mistake.into())
             }
             other => other,
         }

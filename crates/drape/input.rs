@@ -18,6 +18,9 @@ const NAME: &str = "<standard input>";
 /// Limit of standard input, that of a pattern.
 const LIMIT: SizeLimit = SizeLimit::new("inputs", 1 << 24);
 
+/// Name of the file of a sheet in its folder.
+pub(crate) const SHEET_FILE: &str = "sheet.toml";
+
 /// Text of standard input, or why there is none.
 static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
 
@@ -54,6 +57,11 @@ pub(crate) fn set(settings: &[Setting]) {
 /// Returns whether a path stands for standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
+}
+
+/// Returns the file of a sheet, by its path or that of its folder.
+pub(crate) fn sheet_file(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join(SHEET_FILE) } else { path.to_owned() }
 }
 
 /// Refuses a file or folder that is of another kind than those that a command takes.

@@ -62,4 +62,6 @@ pub use drape_sweep as sweep;
 pub use drape_validate as validate;
 pub use drape_verify as verify;
 
-pub use scene_fabric::{fabric_of, read_scene, scene_fabric, scene_of, scene_of_documents};
+pub use scene_fabric::{
+    NamedCurve, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of, scene_of_documents,
+};

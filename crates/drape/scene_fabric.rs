@@ -1,6 +1,8 @@
 //! Fabrics of a scene, from files of fabrics or fitted to sheets: here the fit and the simulation
 //! meet, which do not know each other.
 
+mod mistake;
+
 use std::path::Path;
 
 use drape_fabric::Fabric;
@@ -10,6 +12,8 @@ use drape_kes::Sheet;
 use drape_scene::{FabricRequest, Model, Scene, is_fabric};
 
 use crate::file::FileKind;
+
+pub use mistake::{NamedCurve, fit_mistake};
 
 /// Kinds of files that give a fabric.
 const FABRICS: [FileKind; 2] = [FileKind::Fabric, FileKind::Sheet];
@@ -74,6 +78,6 @@ pub fn fabric_of(document: &Document, model: Model) -> Result<Fabric, Diagnostic
     let laws = (model == Model::Breen1994).then_some(LoopModel::Piecewise);
     let settings = Settings { bending: laws, shear: laws, ..Settings::default() };
     let fit = identify_with(&sheet, &settings);
-    let fit = fit.map_err(|error| Diagnostics::from(Diagnostic::new(file, error.to_string())))?;
+    let fit = fit.map_err(|error| Diagnostics::from(fit_mistake(document, &error)))?;
     Ok(fit.fabric)
 }

@@ -299,7 +299,7 @@ fn text_under_xls_is_read_and_under_xlsx_refused() {
 fn a_sheet_that_is_not_there_is_answered_with_those_that_are() {
     let text = format!("Strain (%),Force (gf/cm)\n{}", rows(|_, [e, f]| format!("{e:.6},{f:.6}")));
     let found = mistake(read(text.as_bytes(), "sheet = \"Tensile\""));
-    assert_eq!(found.message, "there is no sheet \"Tensile\"");
+    assert_eq!(found.message, "there is no sheet \"Tensile\" (tensile warp)");
     assert_eq!(found.help.as_deref(), Some("this file is text, without sheets: remove `sheet`"));
     let mut book = rust_xlsxwriter::Workbook::new();
     let page = book.add_worksheet().set_name("Zug").expect("a name");
@@ -347,6 +347,6 @@ fn the_line_that_names_the_separator_is_no_title() {
     let table = format!("Strain (%);Force (gf/cm)\n{}", rows(|_, [e, f]| format!("{e:.6};{f:.6}")));
     let text = format!("sep=;\n{table}{table}");
     let found = mistake(read(text.as_bytes(), ""));
-    assert_eq!(found.message, "2 tables could be the curve: 1 line 3, 2 line 45");
+    assert_eq!(found.message, "2 tables could be the curve: 1 line 3, 2 line 45 (tensile warp)");
     assert_read("the first table", &text, "table = 1");
 }

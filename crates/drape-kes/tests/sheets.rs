@@ -148,7 +148,7 @@ fn a_column_of_lengths_is_read_in_its_unit_or_refused() {
     let short = finding(&sheet("short"), curve);
     assert_eq!(
         (short.message.as_str(), short.line),
-        ("column \"short\" has a length of -80", Some(3))
+        ("column \"short\" has a length of -80 (tensile warp)", Some(3))
     );
 }
 
@@ -203,10 +203,10 @@ fn an_empty_curve_and_a_one_point_curve_are_refused() {
     let text = format!("name = \"a\"\n{CURVE}");
     for empty in ["", "strain,force\n", "# nothing\n"] {
         let found = finding(&text, empty);
-        assert_eq!(found.message, "the file has no rows of numbers", "{empty:?}");
+        assert_eq!(found.message, "the file has no rows of numbers (tensile warp)", "{empty:?}");
     }
     let found = finding(&text, "strain,force\n0,0\n");
-    assert_eq!(found.message, "a curve needs at least two points; this one has 1");
+    assert_eq!(found.message, "a curve needs at least two points; this one has 1 (tensile warp)");
     assert_eq!(found.file.file_name().unwrap().to_str(), Some("pull.csv"));
 }
 

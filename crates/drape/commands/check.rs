@@ -11,6 +11,7 @@ mod frames;
 mod pace;
 mod pattern;
 mod start;
+mod values;
 
 use std::path::{Path, PathBuf};
 
@@ -137,10 +138,15 @@ impl Checked {
             Err(mistakes) => (None, mistakes.0),
         };
         if self.json {
+            let values = describe::values_of(file);
             let mistakes: Vec<Value> = mistakes.iter().map(as_json).collect();
             let holds = text.is_some();
-            self.found
-                .push(json!({ "file": file, "holds": holds, "text": text, "mistakes": mistakes }));
+            let mut found =
+                json!({ "file": file, "holds": holds, "text": text, "mistakes": mistakes });
+            if let Some(values) = values {
+                found["values"] = json!(values);
+            }
+            self.found.push(found);
         } else if let Some(text) = text {
             say(format_args!("{}: {}", file.display(), text.trim_end()))?;
         }

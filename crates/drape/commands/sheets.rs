@@ -12,9 +12,7 @@ use drape::kes::{Sheet, SheetDraft};
 
 use crate::failure::Failure;
 use crate::input;
-
-/// Name of the file of a sheet in its folder.
-pub(crate) const SHEET_FILE: &str = "sheet.toml";
+pub(crate) use crate::input::SHEET_FILE;
 
 /// Deepest folder that is searched, counted from the one that was named: a link back up would never
 /// end.
@@ -110,8 +108,7 @@ pub(crate) fn of(path: &Path) -> Option<&Path> {
 
 /// Reads a sheet.
 pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
-    let file = if path.is_dir() { &path.join(SHEET_FILE) } else { path };
-    let document = input::document(file)?;
+    let document = input::document(&input::sheet_file(path))?;
     FileKind::expect_document(&document, &[FileKind::Sheet])?;
     Sheet::from_document(&document).map_err(|error| in_input(error, path))
 }

@@ -13,6 +13,7 @@ use super::VERSION;
 use super::kes_value::{self, SheetValues};
 use super::loop_plot::{Loads, loop_plot};
 use super::quantity;
+use super::sheet_value::{self, CheckedValue};
 use super::value_law::value_laws;
 
 /// Returns the report of a fit: all that shows whether it can be trusted.
@@ -39,9 +40,24 @@ pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage {
         readings: sheet.readings().to_vec(),
         values,
         assumed: fit.assumed.clone(),
-        warnings: sheet.warnings().iter().map(ToString::to_string).chain(warnings).collect(),
+        warnings: sheet
+            .warnings()
+            .iter()
+            .map(ToString::to_string)
+            .chain(unusual_shear(sheet))
+            .chain(warnings)
+            .collect(),
         ..FitPage::default()
     }
+}
+
+/// Returns a warning for each shear stiffness that few fabrics of the sheet's mass per area have. The sheet
+/// itself warns about mass and bending.
+fn unusual_shear(sheet: &Sheet) -> Vec<String> {
+    let values = sheet_value::sheet_values(sheet);
+    let unusual =
+        values.iter().filter(|value| value.symbol == "G" && value.is_usual == Some(false));
+    unusual.filter_map(CheckedValue::warning).collect()
 }
 
 fn law(curve: &Curve, fit: &CurveFit) -> LawReport {

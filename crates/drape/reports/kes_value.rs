@@ -83,7 +83,7 @@ pub fn unused(symbol: &str, value: f64) -> Quantity {
 }
 
 /// Returns the units of a symbol of a sheet.
-fn units(symbol: &str) -> Units {
+pub fn units(symbol: &str) -> Units {
     if let Some(symbol) = Symbol::ALL.into_iter().find(|known| known.name() == symbol) {
         return named(symbol).units;
     }

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Quantity, closest};
+use drape_input::{Diagnostic, Quantity, closest};
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
@@ -172,8 +172,26 @@ fn layout(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Layout> 
 }
 
 impl CurveKeys {
-    /// Reads the curves of one file; `None` after reporting why there is none.
+    /// Reads the curves of one file; `None` after reporting why there is none. What is reported says
+    /// test, direction and file.
     fn curves(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
+        let (errors, warnings) = (findings.errors.len(), findings.warnings.len());
+        let curves = self.curves_of(file, findings);
+        let test = format!("{} {}", self.test.name(), self.direction.name());
+        let name = |mistake: &mut Diagnostic| {
+            // A mistake in the file itself has its name already.
+            let is_named = mistake.file.ends_with(file);
+            mistake.message +=
+                &if is_named { format!(" ({test})") } else { format!(" ({test}, {file})") };
+        };
+        findings.errors[errors..]
+            .iter_mut()
+            .chain(&mut findings.warnings[warnings..])
+            .for_each(name);
+        curves
+    }
+
+    fn curves_of(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
         let path = self.locate(file, findings)?;
         let table_file = findings.collect(file::read(&path, &self.layout))?;
         let request = Request {
@@ -199,7 +217,8 @@ impl CurveKeys {
             reading.extend(curve.remarks());
             curves.push(curve);
         }
-        let words = format!("{file}: {points} points; {}", reading.join("; "));
+        let curve = format!("{file}, {} {}", self.test.name(), self.direction.name());
+        let words = format!("{curve}: {points} points; {}", reading.join("; "));
         findings.readings.push(words);
         Some(curves)
     }
@@ -222,7 +241,7 @@ impl CurveKeys {
                     Error::TooFewPoints { .. } => "write one point per line",
                     _ => "check that the right column is named",
                 };
-                let finding = drape_input::Diagnostic::new(&series.path, error.to_string());
+                let finding = Diagnostic::new(&series.path, error.to_string());
                 findings.errors.push(finding.help(help));
                 None
             }

@@ -1,5 +1,8 @@
 //! Values of a sheet in a list, each with what the model uses it for.
 
+use std::ops::RangeInclusive;
+
+use crate::sheets::plausible;
 use crate::sheets::sheet::Sheet;
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
@@ -112,5 +115,37 @@ impl Sheet {
         add(None, "W", "mass per area", self.w, "mg/cm²", Some("mass"));
         add(None, "FM", "largest load of the tensile test", self.fm, "gf/cm", Some("traction"));
         listed
+    }
+
+    /// Returns the range, in SI, that nine fabrics in ten have of a value, by its symbol; `c` stands for
+    /// the bending length. That of G is for fabrics of the sheet's mass per area.
+    ///
+    /// `None` where the value was not measured on many fabrics.
+    ///
+    /// ```
+    /// use drape_kes::Sheet;
+    ///
+    /// let mut sheet = Sheet::default();
+    /// sheet.w = Some(11.0);
+    /// let [least, most] = sheet.usual_range("G", None).map(|range| [*range.start(), *range.end()]).expect("known");
+    /// // 0.18 to 1.6 gf/(cm·deg).
+    /// assert!((least - 9.9).abs() < 0.1 && (most - 87.2).abs() < 0.1);
+    /// assert_eq!(sheet.usual_range("MMD", None), None);
+    /// ```
+    #[must_use]
+    pub fn usual_range(
+        &self,
+        symbol: &str,
+        direction: Option<Direction>,
+    ) -> Option<RangeInclusive<f64>> {
+        plausible::usual_range(symbol, direction, self.density())
+    }
+
+    /// Returns the bending length of a direction, the cube root of rigidity over weight, in m; none
+    /// without B or W.
+    #[must_use]
+    pub fn bending_length(&self, direction: Direction) -> Option<f64> {
+        let rigidity = self.values(direction).bending_rigidity()?;
+        Some(plausible::bending_length(rigidity, self.density()?))
     }
 }

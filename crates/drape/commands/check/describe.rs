@@ -3,17 +3,20 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use drape::NamedCurve;
 use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone, TractionFriction};
 use drape::file::FileKind;
-use drape::input::{Diagnostic, Diagnostics, figure};
+use drape::input::{Diagnostic, Diagnostics, Document, figure};
 use drape::keep::describe_needs;
-use drape::kes::{Sheet, SheetDraft};
+use drape::kes::{Curve, Extent, Sheet, SheetDraft, Test};
 use drape::pattern::Pattern;
+use drape::reports::{CheckedValue, sheet_values};
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
 use drape::sweep::{Error as SweepError, Study};
 
 use super::pattern::CutOut;
+use super::values;
 use crate::commands::sheets::{self, drafted};
 use crate::input;
 
@@ -61,6 +64,13 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
     } else {
         sheet(path)
     }
+}
+
+/// Returns the values of a file that is a sheet.
+pub(crate) fn values_of(path: &Path) -> Option<Vec<CheckedValue>> {
+    let is_sheet = FileKind::of(path) == Some(FileKind::Sheet);
+    let sheet = is_sheet.then(|| sheets::read(path).ok()).flatten()?;
+    Some(sheet_values(&sheet))
 }
 
 /// Describes a study: what is run, and how often.
@@ -269,38 +279,28 @@ fn tables(path: &Path) -> Result<String, Diagnostics> {
         // The sheet that drape fit would write.
         let file = format!("{}.sheet.toml", drafted::name(path, &draft, several));
         let document = input::with_settings(&folder.join(file), &draft.text)?;
-        let sheet = draft.read_document(document).map_err(in_input)?;
+        let sheet = draft.read_document(document.clone()).map_err(in_input)?;
         let values = draft.values;
         let _ =
             writeln!(text, "drafted, with {values} values, {} sections to complete", draft.open);
-        text += &indent(&of_sheet(&sheet));
+        text += &indent(&of_sheet(&sheet, &document));
     }
     Ok(text)
 }
 
 fn sheet(file: &Path) -> Result<String, Diagnostics> {
-    Ok(of_sheet(&sheets::read(file)?))
+    let document = input::document(&input::sheet_file(file))?;
+    Ok(of_sheet(&sheets::read(file)?, &document))
 }
 
-/// Returns what a sheet holds.
-fn of_sheet(sheet: &Sheet) -> String {
+/// Returns what a sheet holds, which a document wrote.
+fn of_sheet(sheet: &Sheet, document: &Document) -> String {
     let density = sheet.density().map_or("no".into(), figure);
     let mut text =
         format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
-    for curve in &sheet.curves {
-        let (deformation, load) = (curve.deformation_range(), curve.load_range());
-        let _ = writeln!(
-            text,
-            "  {} {}: {} points, deformation {:.4e} to {:.4e}, load {:.4e} to {:.4e}",
-            curve.test.name(),
-            curve.direction.name(),
-            curve.deformation().len(),
-            deformation.low,
-            deformation.high,
-            load.low,
-            load.high
-        );
-    }
+    let named = NamedCurve::of(document);
+    sheet.curves.iter().for_each(|curve| text += &self::curve(curve, &named));
+    text += &values::describe(sheet);
     sheet.readings().iter().for_each(|reading| {
         let _ = writeln!(text, "  read {reading}");
     });
@@ -308,6 +308,29 @@ fn of_sheet(sheet: &Sheet) -> String {
         let _ = writeln!(text, "  warning: {warning}");
     });
     text
+}
+
+/// Describes a curve in a line: its test, direction and file, with the ranges of deformation and load.
+fn curve(curve: &Curve, named: &[NamedCurve]) -> String {
+    let file = named.iter().find(|entry| entry.is_called(&curve.name));
+    let file = file.map_or(String::new(), |entry| format!(", {}", entry.files.join(", ")));
+    let [deformation, load] = match curve.test {
+        Test::Tensile => [("strain", ""), ("tension", " N/m")],
+        Test::Shear => [("angle", " rad"), ("shear force", " N/m")],
+        Test::Bending => [("curvature", " 1/m"), ("moment", " N")],
+        Test::LoopBending => [("approach of the clamps", ""), ("force", " N/m")],
+    };
+    let range = |(name, unit): (&str, &str), extent: Extent| {
+        format!("{name} {:.4e} to {:.4e}{unit}", extent.low, extent.high)
+    };
+    format!(
+        "  {} {}{file}: {} points, {}, {}\n",
+        curve.test.name(),
+        curve.direction.name(),
+        curve.deformation().len(),
+        range(deformation, curve.deformation_range()),
+        range(load, curve.load_range()),
+    )
 }
 
 fn indent(text: &str) -> String {

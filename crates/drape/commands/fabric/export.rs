@@ -9,7 +9,6 @@ use drape::input::Diagnostic;
 use drape::material::{Error, Material};
 
 use super::read::read;
-use crate::commands::sheets::SHEET_FILE;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_written};
@@ -133,8 +132,6 @@ fn format(arguments: &MaterialArguments, output: Option<&Path>) -> Result<Format
 
 /// Returns the time at which a fabric was written; standard input has none.
 fn modified(path: &Path) -> SystemTime {
-    let sheet = path.join(SHEET_FILE);
-    let file = if path.is_dir() { &sheet } else { path };
-    let modified = std::fs::metadata(file).and_then(|file| file.modified());
+    let modified = std::fs::metadata(input::sheet_file(path)).and_then(|file| file.modified());
     modified.unwrap_or(SystemTime::UNIX_EPOCH)
 }

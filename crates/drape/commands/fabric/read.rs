@@ -6,7 +6,6 @@ use drape::fabric::Fabric;
 use drape::file::FileKind;
 use drape::scene::Model;
 
-use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::input;
 
@@ -16,7 +15,5 @@ const KINDS: [FileKind; 2] = [FileKind::Fabric, FileKind::Sheet];
 /// Reads a fabric from its file, or from a sheet or its folder, which it fits.
 pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     input::expect(path, &KINDS)?;
-    let sheet = path.join(sheets::SHEET_FILE);
-    let file = if path.is_dir() { &sheet } else { path };
-    Ok(drape::fabric_of(&input::document_of(file, &KINDS)?, Model::Kes)?)
+    Ok(drape::fabric_of(&input::document_of(&input::sheet_file(path), &KINDS)?, Model::Kes)?)
 }
