@@ -1,6 +1,8 @@
 //! The command line: files to start from, results that are there already, several scenes, signals,
 //! completions and manual pages.
 
+#[path = "command_line/compare.rs"]
+mod compare;
 #[path = "command_line/file_kinds.rs"]
 mod file_kinds;
 #[path = "command_line/grading.rs"]

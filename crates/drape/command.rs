@@ -89,7 +89,7 @@ enum Command {
     New(NewArguments),
     /// Identifies a fabric from KES curves or values and writes fabric.toml.
     Fit(FitArguments),
-    /// Lists fabrics, shows one, compares two, writes one for other programs.
+    /// Lists fabrics, shows one, compares several, writes one for other programs.
     #[command(subcommand)]
     Fabric(FabricCommand),
     /// Simulates scenes: frames, a picture and summary.json of each.

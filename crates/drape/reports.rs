@@ -4,6 +4,7 @@
 //! draws it; the numbers are not computed again here. `quantity` has the name, the symbol and the
 //! units of every number, `kes_value` those of KES values. Nothing here writes a file.
 
+mod compared;
 mod fabric;
 mod fit;
 mod instruments;
@@ -15,7 +16,8 @@ mod value_law;
 mod version;
 mod viewer;
 
-pub use fabric::{compare_page, show_page};
+pub use compared::{ComparedFabric, compare_page};
+pub use fabric::show_page;
 pub use fit::fit_page;
 pub use instruments::{TESTS, TestedLoop, instruments_page};
 pub use quantity::DIRECTIONS;

@@ -29,9 +29,10 @@ mod page;
 
 pub use error::Error;
 pub use page::{
-    CaptionedPicture, ComparePage, ComparedValue, EffectTable, Evidence, FabricName, FitPage,
-    KesValue, LawReport, LawValue, Limits, MeasureEffects, ModelScore, Quantity, Statistics,
-    StudyPage, Trust, ValidationCase, ValidationPage, ValidationRow, Verdict,
+    CaptionedPicture, ComparePage, Compared, ComparedNumber, ComparedValue, Difference,
+    EffectTable, Evidence, FabricName, FitPage, KesValue, LawReport, LawValue, Limits,
+    MeasureEffects, ModelScore, Quantity, Statistics, StudyPage, Trust, ValidationCase,
+    ValidationPage, ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};

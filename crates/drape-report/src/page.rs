@@ -8,6 +8,7 @@
 
 mod assets;
 mod compare_page;
+mod compared_value;
 mod fit_html;
 mod fit_page;
 mod fit_text;
@@ -17,7 +18,8 @@ mod shown;
 mod study_page;
 mod validation_page;
 
-pub use compare_page::{ComparePage, ComparedValue, FabricName};
+pub use compare_page::{ComparePage, FabricName};
+pub use compared_value::{Compared, ComparedNumber, ComparedValue, Difference};
 pub use fit_page::{FitPage, KesValue, Quantity};
 pub use law_report::{Evidence, LawReport, Limits, ModelScore, Statistics, Trust, Verdict};
 pub use law_value::LawValue;

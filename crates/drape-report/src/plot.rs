@@ -37,6 +37,6 @@ pub use uncertainty::{UncertaintyPlot, uncertainty_svg};
 pub(crate) use correlation::{correlation_figure, correlation_side};
 pub(crate) use graph::graph_figure;
 pub(crate) use loop_plot::loop_figure;
-pub(crate) use overlay::overlay_figure;
+pub(crate) use overlay::{COLOURS, overlay_figure};
 pub(crate) use style::{Placement, STYLE};
 pub(crate) use uncertainty::uncertainty_figure;

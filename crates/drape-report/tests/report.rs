@@ -6,8 +6,8 @@ mod samples;
 
 use drape_report::plot::{Point, UncertaintyPlot, correlation_svg, loop_svg, uncertainty_svg};
 use drape_report::{
-    CaptionedPicture, ComparePage, ComparedValue, Error, FabricName, FitPage, Interval, Scene,
-    Surface, Units, ValidationCase, ValidationPage, ValidationRow, View, render,
+    CaptionedPicture, ComparePage, ComparedNumber, ComparedValue, Error, FabricName, FitPage,
+    Interval, Scene, Surface, Units, ValidationCase, ValidationPage, ValidationRow, View, render,
 };
 use proptest::prelude::*;
 use samples::{a_graph, a_loop, a_page, an_overlay, classes, text_of, tree};
@@ -161,24 +161,73 @@ fn the_first_sentence_counts_laws_values_and_assumptions() {
     assert!(none.contains("Nothing was fitted; the numbers are as given."), "{none}");
 }
 
-#[test]
-fn two_fabrics_are_compared_by_the_ratio_of_their_values() {
-    let page = ComparePage {
-        fabrics: ["A", "B"].map(|name| FabricName { name: name.to_owned(), source: String::new() }),
+/// Page of masses, each measured with a standard deviation where it is not zero.
+fn a_comparison(names: &[&str], masses: &[[f64; 3]]) -> ComparePage {
+    let name = |name: &&str| FabricName { name: (*name).to_owned(), source: String::new() };
+    let number = |[measured, deviation, law]: &[f64; 3]| ComparedNumber {
+        measured: Some(*measured).filter(|own| *own > 0.0),
+        deviation: Some(*deviation).filter(|own| *own > 0.0),
+        law: Some(*law),
+        is_assumed: false,
+    };
+    ComparePage {
+        fabrics: names.iter().map(name).collect(),
         values: vec![ComparedValue {
             symbol: "W".to_owned(),
             name: "mass per area".to_owned(),
             direction: String::new(),
             units: Units::si("kg/m²").with_kes("mg/cm²", 0.01),
-            values: [Some(0.1), Some(0.23)],
+            numbers: masses.iter().map(number).collect(),
+            is_comparable: true,
         }],
         ..ComparePage::default()
-    };
+    }
+}
+
+#[test]
+fn two_fabrics_are_compared_by_the_difference_of_their_values() {
+    let page = a_comparison(&["A", "B"], &[[0.0, 0.0, 0.1], [0.0, 0.0, 0.23]]);
     let text = page.to_text().unwrap();
-    assert!(text.contains("W  mass per area  mg/cm²  10.00  23.00   2.30  !"), "{text}");
+    assert!(text.contains("W  mass per area  mg/cm²  10.00  23.00  +130 %  !"), "{text}");
     let html = page.to_html().unwrap();
-    assert!(html.contains(r#"<span class="apart">2.30</span>"#), "{html}");
+    assert!(html.contains(r#"<span class="apart">+130 %</span>"#), "{html}");
+    assert!(!html.contains("Measured"), "nothing was measured");
     tree(&html);
+}
+
+#[test]
+fn three_fabrics_have_what_was_measured_beside_the_laws() {
+    let masses = [[0.1, 0.002, 0.1], [0.104, 0.002, 0.105], [0.2, 0.002, 0.2]];
+    let page = a_comparison(&["A", "B", "C"], &masses);
+    let text = page.to_text().unwrap();
+    let row = text.lines().find(|line| line.starts_with("W ")).unwrap();
+    let cells: Vec<&str> = row.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    assert_eq!(
+        cells[3..],
+        [
+            "10.00 ± 0.20",
+            "10.00",
+            "10.40 ± 0.20",
+            "10.50",
+            "+4.00 %",
+            "≈",
+            "20.00 ± 0.20",
+            "20.00",
+            "+100 %",
+            "!"
+        ]
+    );
+    assert!(text.contains("≈: within twice"), "{text}");
+    let html = page.to_html().unwrap();
+    tree(&html);
+    assert_eq!(html.matches("<th class=\"n\">Measured</th>").count(), 3);
+    assert!(html.contains("swatch c3"), "{html}");
+    let json = serde_json::to_value(&page).unwrap();
+    let value = &json["values"][0];
+    assert_eq!(value["numbers"][1]["deviation"], 0.002);
+    assert_eq!(value["differences"][0], serde_json::Value::Null);
+    assert_eq!(value["differences"][2]["of"], "measured");
+    assert_eq!(value["differences"][1]["is_within_scatter"], true);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `drape fabric`: lists fabrics, shows one, compares two, writes one for other programs.
+//! `drape fabric`: lists fabrics, shows one, compares several, writes one for other programs.
 
 mod compare;
 mod export;
@@ -42,10 +42,12 @@ pub(crate) enum FabricCommand {
         #[arg(long)]
         json: bool,
     },
-    /// Compares two fabrics: their loops overlaid, a table of their values.
+    /// Compares fabrics: what was measured and the laws beside it, with the differences from the
+    /// first; curves and loops overlaid.
     Compare {
-        /// Fabrics, or sheets, which are fitted first.
-        #[arg(required = true, num_args = 2, value_names = ["FIRST", "SECOND"])]
+        /// Fabrics, or sheets, which are fitted first, two or more. What was measured is in a sheet, or
+        /// in the sheet beside a fabric that was fitted to it.
+        #[arg(required = true, num_args = 2.., value_name = "FABRIC")]
         fabrics: Vec<PathBuf>,
         /// Folder for a page with plots.
         #[arg(long, value_name = "FOLDER")]
@@ -64,11 +66,7 @@ pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
         FabricCommand::List { folders, json } => list(folders, *json),
         FabricCommand::Show { fabric, report, json } => show(fabric, report.as_deref(), *json),
         FabricCommand::Compare { fabrics, report, json } => {
-            let [first, second] = fabrics.as_slice() else {
-                let message = format!("two fabrics are compared, {} were given", fabrics.len());
-                return Err(Failure::Usage(message));
-            };
-            compare([first, second], report.as_deref(), *json)
+            compare(fabrics, report.as_deref(), *json)
         }
         FabricCommand::Export(arguments) => export(arguments),
     }

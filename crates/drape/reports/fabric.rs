@@ -1,5 +1,4 @@
-//! Pages of `drape fabric`: a fabric with the loops that an ideal instrument would draw of it, and
-//! two compared.
+//! Page of `drape fabric show`: a fabric with the loops that an ideal instrument would draw of it.
 
 use crate::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
@@ -7,14 +6,11 @@ use crate::fabric::{
 };
 use crate::fit::parameter_key;
 use crate::kes::{Curve, Direction, Sheet, Test};
-use crate::report::plot::OverlayPlot;
-use crate::report::{
-    ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
-};
+use crate::report::{FitPage, Interval, LawReport, Parameter, Quantity};
 use crate::validate::instrument;
 
 use super::VERSION;
-use super::loop_plot::{Loads, loop_plot, trace};
+use super::loop_plot::{Loads, loop_plot};
 use super::quantity::DIRECTIONS;
 use super::{kes_value, quantity};
 
@@ -23,10 +19,10 @@ use super::{kes_value, quantity};
 const POINTS: usize = 400;
 
 /// Tests of a fabric, in the order of the pages.
-const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
+pub const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
 
 /// Directions in which a test differs; there is one shear law.
-fn directions(test: Test) -> &'static [Direction] {
+pub fn directions(test: Test) -> &'static [Direction] {
     if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS }
 }
 
@@ -206,59 +202,4 @@ fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
             named([(plateau, element.plateau), (length, element.length)])
         })
         .collect()
-}
-
-/// Returns the page of two fabrics: their loops overlaid, their values side by side.
-#[must_use]
-pub fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
-    let names = fabrics.map(|fabric| fabric.name.clone());
-    let overlay = |test: Test| {
-        let [deformation, load] = quantity::axes(test);
-        let directions = directions(test);
-        let trace_of = |fabric: &Fabric, direction: Direction| {
-            let label = if test == Test::Shear { "shear" } else { direction.name() };
-            trace(label, &loop_of(fabric, test, direction))
-        };
-        OverlayPlot {
-            title: test.name().into(),
-            deformation,
-            load,
-            fabrics: names.clone(),
-            traces: fabrics.map(|fabric| directions.iter().map(|&d| trace_of(fabric, d)).collect()),
-        }
-    };
-    let given = |symbol: &str, name: &str, units, value: fn(&Fabric) -> f64| ComparedValue {
-        symbol: symbol.into(),
-        name: name.into(),
-        direction: String::new(),
-        units,
-        values: fabrics.map(|fabric| Some(value(fabric))),
-    };
-    let mut values = vec![
-        given("W", "mass per area", quantity::mass(), |fabric| fabric.density),
-        given("T", "thickness", quantity::thickness(), |fabric| fabric.thickness),
-        given("µ", "surface friction", quantity::ratio(), |fabric| fabric.surface_friction),
-    ];
-    for direction in DIRECTIONS {
-        let [first, second] = fabrics.map(|fabric| kes_value::of_fabric(fabric, direction));
-        values.extend(first.into_iter().zip(second).map(|(a, b)| ComparedValue {
-            symbol: a.symbol,
-            name: a.name,
-            direction: a.direction,
-            units: a.units,
-            values: [a.law, b.law],
-        }));
-    }
-    let note = |fabric: &Fabric| {
-        let assumed = fabric.provenance.as_ref().map_or(&[][..], |p| &p.assumed);
-        assumed.iter().map(|text| format!("{}: {text}", fabric.name)).collect::<Vec<_>>()
-    };
-    ComparePage {
-        fabrics: fabrics.map(|f| FabricName { name: f.name.clone(), source: f.source.clone() }),
-        version: VERSION.into(),
-        overlays: TESTS.into_iter().map(overlay).collect(),
-        values,
-        notes: fabrics.into_iter().flat_map(note).collect(),
-        ..ComparePage::default()
-    }
 }

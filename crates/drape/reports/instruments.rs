@@ -40,17 +40,17 @@ pub fn instruments_page(fabric: &Fabric, loops: &[TestedLoop]) -> ComparePage {
             title: test.name().into(),
             deformation,
             load,
-            fabrics: names.clone(),
-            traces: [traces(|c| &c.measured), traces(|c| &c.ideal)],
+            fabrics: names.clone().into(),
+            traces: vec![traces(|c| &c.measured), traces(|c| &c.ideal)],
         }
     };
     let values = loops.iter().flat_map(|tested| {
         let values = tested.comparison.values().into_iter();
-        values.map(|(symbol, values)| kes_value::compared(tested.direction, symbol, values))
+        values.map(|(symbol, values)| kes_value::simulated(tested.direction, symbol, values))
     });
     let source = format!("{}. {}", fabric.name, fabric.source);
     ComparePage {
-        fabrics: names.clone().map(|name| FabricName { name, source: source.clone() }),
+        fabrics: names.clone().map(|name| FabricName { name, source: source.clone() }).into(),
         version: VERSION.into(),
         overlays: TESTS.into_iter().map(overlay).collect(),
         values: values.collect(),

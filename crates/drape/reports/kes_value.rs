@@ -3,7 +3,7 @@
 use crate::fabric::Fabric;
 use crate::fit::{Settings, ValueComparison, ValueEstimate, compare_values, fabric_values};
 use crate::kes::{Direction, Sheet, SheetValue, Symbol};
-use crate::report::{ComparedValue, KesValue, LawValue, Quantity, Units};
+use crate::report::{ComparedNumber, ComparedValue, KesValue, LawValue, Quantity, Units};
 
 use super::fit::interval;
 use super::quantity;
@@ -82,6 +82,11 @@ pub fn unused(symbol: &str, value: f64) -> Quantity {
     Quantity { name: symbol.replace('.', " "), value: value * factor, units, origin }
 }
 
+/// Returns the words of a symbol.
+pub fn words(symbol: Symbol) -> &'static str {
+    named(symbol).words
+}
+
 /// Returns the units of a symbol of a sheet.
 pub fn units(symbol: &str) -> Units {
     if let Some(symbol) = Symbol::ALL.into_iter().find(|known| known.name() == symbol) {
@@ -105,12 +110,19 @@ pub fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
     Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
 }
 
-/// Returns a value of two fabrics, given in the laboratory's unit.
-pub fn compared(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
-    let [first, second] = numbers;
-    let KesValue { symbol, name, direction, units, sheet, curve, .. } =
-        shown(direction, symbol, [Some(first), Some(second), None]);
-    ComparedValue { symbol, name, direction, units, values: [sheet, curve] }
+/// Returns a value of simulated specimens, and that of the laws, given in the laboratory's unit.
+pub fn simulated(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
+    let Named { words, units } = named(symbol);
+    let unit = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
+    let law = |law: f64| ComparedNumber { law: Some(law * unit), ..ComparedNumber::default() };
+    ComparedValue {
+        symbol: symbol.name().into(),
+        name: words.into(),
+        direction: direction.name().into(),
+        units,
+        numbers: numbers.map(law).into(),
+        is_comparable: true,
+    }
 }
 
 /// Returns a value as a page shows it; the numbers, of the sheet, the curve and the law, are in the

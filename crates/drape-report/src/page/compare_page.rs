@@ -1,43 +1,46 @@
-//! Comparison of two fabrics, as a page and as text.
+//! Comparison of fabrics, as a page and as text.
 
 use askama::Template;
 use serde::Serialize;
 
 use super::assets::{PAGE_SCRIPT, PAGE_STYLE};
+use super::compared_value::{ComparedNumber, ComparedValue};
 use super::shown::{Marked, Shown, ShownValue};
 use crate::check;
 use crate::error::Error;
-use crate::parameter::Units;
-use crate::plot::{OverlayPlot, Placement, STYLE, overlay_figure};
-use crate::text::number::{percent, significant};
+use crate::plot::{COLOURS, OverlayPlot, Placement, STYLE, overlay_figure};
+use crate::text::number::{percent, signed_percent};
 use crate::text::table::Table;
 
-/// Comparison of two fabrics: their curves overlaid, their values with the ratio.
+/// Comparison of fabrics: their curves overlaid, what was measured and the laws beside it, with the
+/// differences from the first fabric.
 ///
 /// ```
-/// use drape_report::{ComparePage, ComparedValue, Units};
+/// use drape_report::{ComparePage, ComparedNumber, ComparedValue, FabricName, Units};
 ///
+/// let law = |law: f64| ComparedNumber { law: Some(law), ..ComparedNumber::default() };
 /// let mass = ComparedValue {
 ///     symbol: "W".to_owned(),
 ///     name: "mass per area".to_owned(),
 ///     direction: String::new(),
 ///     units: Units::si("kg/m²").with_kes("mg/cm²", 0.01),
-///     values: [Some(0.1), Some(0.23)],
+///     numbers: vec![law(0.1), law(0.23)],
+///     is_comparable: true,
 /// };
-/// assert_eq!(mass.ratio(), Some(2.3));
-/// let page = ComparePage { values: vec![mass], ..ComparePage::default() };
-/// assert!(page.to_text()?.contains("W  mass per area"));
+/// let fabrics = ["thin", "thick"].map(|name| FabricName { name: name.to_owned(), ..FabricName::default() });
+/// let page = ComparePage { fabrics: fabrics.into(), values: vec![mass], ..ComparePage::default() };
+/// assert!(page.to_text()?.contains("W  mass per area  mg/cm²  10.00  23.00  +130 %  !"));
 /// # Ok::<(), drape_report::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparePage {
-    /// Names and sources of the two fabrics.
-    pub fabrics: [FabricName; 2],
+    /// Names and sources of the fabrics, two or more.
+    pub fabrics: Vec<FabricName>,
     /// Program that made the report, as in "drape 0.1.0".
     pub version: String,
     /// Curves, test by test.
     pub overlays: Vec<OverlayPlot>,
-    /// Values in order.
+    /// Values in order, with a number of each fabric.
     pub values: Vec<ComparedValue>,
     /// Notes for the reader: assumed numbers, curves that only one fabric has.
     pub notes: Vec<String>,
@@ -55,7 +58,7 @@ impl Default for ComparePage {
     /// Returns an empty comparison with the usual limit.
     fn default() -> ComparePage {
         ComparePage {
-            fabrics: Default::default(),
+            fabrics: Vec::new(),
             version: String::new(),
             overlays: Vec::new(),
             values: Vec::new(),
@@ -74,48 +77,36 @@ pub struct FabricName {
     pub source: String,
 }
 
-/// Value of both fabrics, in SI.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ComparedValue {
-    /// Symbol, as in "B".
-    pub symbol: String,
-    /// Name, as in "bending rigidity".
-    pub name: String,
-    /// Direction, as in "warp"; may be empty.
-    pub direction: String,
-    /// Units.
-    pub units: Units,
-    /// Value of each fabric, where it has one.
-    pub values: [Option<f64>; 2],
-}
-
-impl ComparedValue {
-    /// Returns the second value over the first; `None` where one is missing or the first is zero.
-    #[must_use]
-    pub fn ratio(&self) -> Option<f64> {
-        let [first, second] = self.values;
-        let first = first.filter(|first| *first != 0.0)?;
-        Some(second? / first).filter(|ratio| ratio.is_finite())
-    }
-}
-
 #[derive(Template)]
 #[template(path = "page/compare.html")]
 struct View<'a> {
     page: &'a ComparePage,
+    /// Names with the numbers of their colours.
+    names: Vec<(usize, &'a str)>,
     styles: [&'static str; 2],
     script: &'static str,
     overlays: Vec<(&'a str, String)>,
     rows: Vec<Row<'a>>,
+    has_measured: bool,
+    has_scatter: bool,
+    has_assumed: bool,
     limit: String,
 }
 
 struct Row<'a> {
     value: &'a ComparedValue,
-    cells: [Option<ShownValue>; 2],
+    cells: Vec<Cell>,
     unit: &'a str,
     si_unit: Option<&'a str>,
-    ratio: Option<Marked>,
+}
+
+/// Numbers of a fabric, and how far they are from those of the first.
+struct Cell {
+    measured: Option<ShownValue>,
+    law: Option<ShownValue>,
+    is_assumed: bool,
+    difference: Option<Marked>,
+    is_within_scatter: bool,
 }
 
 impl ComparePage {
@@ -124,13 +115,12 @@ impl ComparePage {
     /// # Errors
     /// The first fault.
     pub fn check(&self) -> Result<(), Error> {
-        let [a, b] = &self.fabrics;
         if self.overlays.is_empty() && self.values.is_empty() {
-            return Err(Error::EmptyReport { name: format!("{} and {}", a.name, b.name) });
+            return Err(Error::EmptyReport { name: self.title() });
         }
         check::number(|| "the limit of a comparison".to_owned(), self.limit)?;
-        let texts = [&a.name, &a.source, &b.name, &b.source, &self.version];
-        for text in texts.into_iter().chain(&self.notes) {
+        let names = self.fabrics.iter().flat_map(|fabric| [&fabric.name, &fabric.source]);
+        for text in names.chain([&self.version]).chain(&self.notes) {
             check::text("a text of the comparison", text)?;
         }
         for overlay in &self.overlays {
@@ -141,11 +131,23 @@ impl ComparePage {
                 check::text("a text of a compared value", text)?;
             }
             value.units.check()?;
-            for number in value.values.iter().flatten() {
-                check::number(|| format!("{} {}", value.symbol, value.direction), *number)?;
+            let numbers = value.numbers.iter();
+            for number in numbers.flat_map(|own| [own.measured, own.deviation, own.law]).flatten() {
+                check::number(|| format!("{} {}", value.symbol, value.direction), number)?;
             }
         }
         Ok(())
+    }
+
+    /// Returns the names of the fabrics as a title.
+    fn title(&self) -> String {
+        let names: Vec<&str> = self.fabrics.iter().map(|fabric| fabric.name.as_str()).collect();
+        match names.split_last() {
+            Some((last, others)) if !others.is_empty() => {
+                format!("{} and {last}", others.join(", "))
+            }
+            _ => names.concat(),
+        }
     }
 
     /// Returns the comparison as one self-contained HTML page.
@@ -155,53 +157,49 @@ impl ComparePage {
     pub fn to_html(&self) -> Result<String, Error> {
         self.check()?;
         let overlays = self.overlays.iter();
+        let names = self.fabrics.iter().enumerate();
+        let rows: Vec<Row<'_>> = self.values.iter().map(|value| self.row(value)).collect();
+        let numbers = || self.values.iter().flat_map(|value| &value.numbers);
         let view = View {
             page: self,
+            names: names.map(|(index, f)| (index % COLOURS + 1, f.name.as_str())).collect(),
             styles: [STYLE, PAGE_STYLE],
             script: PAGE_SCRIPT,
             overlays: overlays
                 .map(|plot| (plot.title.as_str(), overlay_figure(plot, Placement::InPage)))
                 .collect(),
-            rows: self.values.iter().map(|value| self.row(value)).collect(),
+            has_measured: numbers().any(|own| own.measured.is_some()),
+            has_scatter: rows.iter().flat_map(|row| &row.cells).any(|cell| cell.is_within_scatter),
+            has_assumed: numbers().any(|own| own.is_assumed),
+            rows,
             limit: percent(self.limit),
         };
         Ok(view.render().expect("writing to a string does not fail"))
     }
 
-    /// Returns the table of values as text for a terminal.
+    /// Returns the table of values as text for a terminal, in the units of the laboratory.
     ///
     /// # Errors
     /// Those of [`ComparePage::check`].
     pub fn to_text(&self) -> Result<String, Error> {
         self.check()?;
-        let [a, b] = [&self.fabrics[0].name, &self.fabrics[1].name];
-        let mut lines = vec![format!("{a} and {b}"), String::new()];
-        let head = ["", "", "", "unit", a, b, "ratio", "", "SI", "", "unit"];
-        let mut table = Table::new(&head, &[4, 5, 6, 8, 9]);
-        for row in self.values.iter().map(|value| self.row(value)) {
-            let first = |cell: &Option<ShownValue>| {
-                cell.as_ref().map_or_else(String::new, |value| value.first().number())
-            };
-            let si = |cell: &Option<ShownValue>| {
-                let si = cell.as_ref().and_then(ShownValue::second);
-                si.map_or_else(String::new, Shown::number)
-            };
-            let ratio = row.ratio.as_ref();
-            table.row(vec![
-                row.value.symbol.clone(),
-                row.value.direction.clone(),
-                row.value.name.clone(),
-                row.unit.to_owned(),
-                first(&row.cells[0]),
-                first(&row.cells[1]),
-                ratio.map_or_else(String::new, |ratio| ratio.text.clone()),
-                if ratio.is_some_and(|ratio| ratio.apart) { "!" } else { "" }.to_owned(),
-                si(&row.cells[0]),
-                si(&row.cells[1]),
-                row.si_unit.unwrap_or_default().to_owned(),
-            ]);
+        let mut lines = vec![self.title(), String::new()];
+        let numbered = self.fabrics.iter().enumerate();
+        lines.extend(numbered.map(|(index, fabric)| format!("{}  {}", index + 1, fabric.name)));
+        lines.push(String::new());
+        lines.extend(self.table().lines(0));
+        lines.push(String::new());
+        lines.push(format!(
+            "differences from 1, of measured values where both have one, else of laws; !: more than {}",
+            percent(self.limit)
+        ));
+        let rows = self.values.iter().map(|value| self.row(value));
+        if rows.flat_map(|row| row.cells).any(|cell| cell.is_within_scatter) {
+            lines.push("≈: within twice the standard deviation of the difference".to_owned());
         }
-        lines.extend(table.lines(0));
+        if self.values.iter().flat_map(|value| &value.numbers).any(|own| own.is_assumed) {
+            lines.push("in brackets: assumed, not measured".to_owned());
+        }
         if !self.notes.is_empty() {
             lines.push(String::new());
             lines.extend(self.notes.iter().map(|note| format!("- {note}")));
@@ -210,18 +208,103 @@ impl ComparePage {
         Ok(lines.join("\n"))
     }
 
+    /// Returns the table of the text: two columns for each fabric, and two more for its difference.
+    fn table(&self) -> Table {
+        let mut head: Vec<String> = ["", "", "", "unit"].map(str::to_owned).into();
+        let mut right = Vec::new();
+        for number in 1..=self.fabrics.len() {
+            right.extend([head.len(), head.len() + 1]);
+            head.extend([format!("{number} measured"), format!("{number} law")]);
+            if number > 1 {
+                right.push(head.len());
+                head.extend([format!("{number} to 1"), String::new()]);
+            }
+        }
+        let head: Vec<&str> = head.iter().map(String::as_str).collect();
+        let mut table = Table::new(&head, &right);
+        for row in self.values.iter().map(|value| self.row(value)) {
+            let value = row.value;
+            let mut cells = vec![
+                value.symbol.clone(),
+                value.direction.clone(),
+                value.name.clone(),
+                row.unit.to_owned(),
+            ];
+            for (index, cell) in row.cells.iter().enumerate() {
+                let text = |shown: &Option<ShownValue>| {
+                    shown.as_ref().map_or_else(String::new, |value| value.first().number())
+                };
+                let law = text(&cell.law);
+                let law = if cell.is_assumed { format!("({law})") } else { law };
+                cells.extend([text(&cell.measured), law]);
+                if index > 0 {
+                    let difference = cell.difference.as_ref();
+                    let text =
+                        difference.map_or_else(String::new, |difference| difference.text.clone());
+                    cells.extend([text, cell.mark().to_owned()]);
+                }
+            }
+            table.row(cells);
+        }
+        table
+    }
+
     /// Returns the row of a value.
     fn row<'a>(&self, value: &'a ComparedValue) -> Row<'a> {
         let kes = value.units.kes.as_ref();
         Row {
             value,
-            cells: value.values.map(|number| Some(ShownValue::new(number?, &value.units))),
+            cells: (0..self.fabrics.len()).map(|index| self.cell(value, index)).collect(),
             unit: kes.map_or(&value.units.si, |unit| &unit.name),
             si_unit: kes.map(|_| value.units.si.as_str()),
-            ratio: value.ratio().map(|ratio| {
-                let text = significant(ratio, 3);
-                Marked { text, apart: (ratio - 1.0).abs() > self.limit }
-            }),
         }
+    }
+
+    /// Returns the numbers of a fabric, and how far they are from those of the first.
+    fn cell(&self, value: &ComparedValue, index: usize) -> Cell {
+        let ComparedNumber { measured, deviation, law, is_assumed } =
+            value.numbers.get(index).copied().unwrap_or_default();
+        let difference = value.difference(index);
+        let within = difference.and_then(|difference| difference.is_within_scatter);
+        let is_within_scatter = within == Some(true);
+        Cell {
+            measured: measured.map(|own| ShownValue::with_error(own, deviation, &value.units)),
+            law: law.map(|law| ShownValue::new(law, &value.units)),
+            is_assumed,
+            difference: difference.map(|difference| {
+                let relative = difference.ratio - 1.0;
+                let apart = relative.abs() > self.limit && !is_within_scatter;
+                Marked { text: signed_percent(relative), apart }
+            }),
+            is_within_scatter,
+        }
+    }
+}
+
+impl Cell {
+    /// Returns the sign behind a difference.
+    fn mark(&self) -> &'static str {
+        match &self.difference {
+            Some(_) if self.is_within_scatter => "≈",
+            Some(difference) if difference.apart => "!",
+            _ => "",
+        }
+    }
+
+    /// Returns what a page shows of a law or of a measured value, in both units.
+    fn pair(value: &Option<ShownValue>) -> Option<(String, Option<String>)> {
+        let value = value.as_ref()?;
+        Some((value.first().print(), value.second().map(Shown::print)))
+    }
+
+    /// Returns the numbers that a page shows: measured, if that has a column, and of the law, in
+    /// brackets where it was assumed.
+    fn shown(&self, has_measured: &bool) -> Vec<Option<(String, Option<String>)>> {
+        let measured = has_measured.then(|| Self::pair(&self.measured));
+        let mut law = Self::pair(&self.law);
+        if let Some((first, _)) = law.as_mut().filter(|_| self.is_assumed) {
+            *first = format!("({first})");
+        }
+        measured.into_iter().chain([law]).collect()
     }
 }

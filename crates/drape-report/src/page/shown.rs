@@ -19,10 +19,15 @@ pub(crate) struct Shown {
 impl Shown {
     /// Returns a value without a known uncertainty.
     pub(crate) fn bare(value: f64, unit: &str) -> Shown {
-        let notation = Notation::of(value, None);
+        Shown::with_error(value, None, unit)
+    }
+
+    /// Returns a value with its error, rounded together, where the error is known.
+    pub(crate) fn with_error(value: f64, error: Option<f64>, unit: &str) -> Shown {
+        let notation = Notation::of(value, error);
         Shown {
             value: notation.mantissa(value),
-            error: None,
+            error: error.map(|error| notation.mantissa(error)),
             power: notation.power(),
             unit: unit.to_owned(),
         }
@@ -43,7 +48,7 @@ impl Shown {
     }
 }
 
-/// Value without a known uncertainty in both of its units.
+/// Value in both of its units.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ShownValue {
     /// In the unit of the laboratory, where there is one.
@@ -54,10 +59,17 @@ pub(crate) struct ShownValue {
 impl ShownValue {
     /// Returns a value in SI in its units.
     pub(crate) fn new(value: f64, units: &Units) -> ShownValue {
-        let kes = units.kes.as_ref();
+        ShownValue::with_error(value, None, units)
+    }
+
+    /// Returns a value in SI with its error, where that is known, in its units.
+    pub(crate) fn with_error(value: f64, error: Option<f64>, units: &Units) -> ShownValue {
+        let scaled = |in_si: f64, unit: &str| {
+            Shown::with_error(value / in_si, error.map(|error| error / in_si), unit)
+        };
         ShownValue {
-            kes: kes.map(|unit| Shown::bare(value / unit.in_si, &unit.name)),
-            si: Shown::bare(value, &units.si),
+            kes: units.kes.as_ref().map(|unit| scaled(unit.in_si, &unit.name)),
+            si: scaled(1.0, &units.si),
         }
     }
 

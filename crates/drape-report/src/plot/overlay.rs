@@ -1,4 +1,4 @@
-//! Overlay: the curves of one test on two fabrics.
+//! Overlay: the curves of one test on several fabrics.
 
 use askama::Template;
 use serde::Serialize;
@@ -20,7 +20,7 @@ pub struct Trace {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Overlay of one test on two fabrics: each fabric has a colour, each of its curves a dash pattern.
+/// Overlay of one test on several fabrics: each fabric has a colour, each of its curves a dash pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverlayPlot {
     /// Title, as in "bending".
@@ -29,10 +29,10 @@ pub struct OverlayPlot {
     pub deformation: Axis,
     /// Axis of the load.
     pub load: Axis,
-    /// Names of the two fabrics.
-    pub fabrics: [String; 2],
-    /// Curves of each fabric; at most one of the lists may be empty.
-    pub traces: [Vec<Trace>; 2],
+    /// Names of the fabrics.
+    pub fabrics: Vec<String>,
+    /// Curves of each fabric, in the same order; not all of the lists may be empty.
+    pub traces: Vec<Vec<Trace>>,
 }
 
 impl OverlayPlot {
@@ -72,6 +72,9 @@ impl OverlayPlot {
 /// Height of the frame, in px.
 const HEIGHT: f64 = 380.0;
 
+/// Number of colours of fabrics in the style; further fabrics begin again with the first.
+pub(crate) const COLOURS: usize = 6;
+
 /// Number of dash patterns in the style; further curves begin again with the first.
 const DASHES: usize = 4;
 
@@ -103,28 +106,31 @@ pub fn overlay_svg(plot: &OverlayPlot) -> Result<String, Error> {
 /// Draws an overlay that has been checked.
 pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String {
     let dashes = dashes(plot);
-    let class = |side: usize, trace: &Trace| {
+    let class = |fabric: usize, trace: &Trace| {
         let dash = dashes.iter().position(|label| *label == trace.label);
-        format!("fabric{} dash{}", side + 1, dash.unwrap_or(0) % DASHES)
+        format!("fabric{} dash{}", fabric % COLOURS + 1, dash.unwrap_or(0) % DASHES)
     };
     let all = || {
-        let sides = plot.traces.iter().enumerate();
-        sides.flat_map(|(side, traces)| traces.iter().map(move |trace| (side, trace)))
+        let fabrics = plot.fabrics.iter().zip(&plot.traces).enumerate();
+        fabrics.flat_map(|(index, (name, traces))| {
+            traces.iter().map(move |trace| (index, name.as_str(), trace))
+        })
     };
-    let items = all().map(|(side, trace)| LegendItem {
+    let items = all().map(|(index, name, trace)| LegendItem {
         sign: Sign::Line,
-        class: class(side, trace),
-        label: format!("{}, {}", plot.fabrics[side], trace.label),
+        class: class(index, trace),
+        label: format!("{name}, {}", trace.label),
     });
     let legend = Legend::new(items.collect());
     let (top, bottom) = (legend.height, legend.height + HEIGHT);
     let axes = [&plot.deformation, &plot.load];
-    let values = |k: usize| all().flat_map(|(_, trace)| &trace.points).map(move |point| point[k]);
+    let values =
+        |k: usize| all().flat_map(|(_, _, trace)| &trace.points).map(move |point| point[k]);
     let plane = Plane::around(axes, values(0), values(1), [top, bottom]);
-    let lines = all().map(|(side, trace)| Series {
-        class: class(side, trace),
+    let lines = all().map(|(index, name, trace)| Series {
+        class: class(index, trace),
         data: line(trace.points.iter().map(|point| plane.pixel(*point))),
-        fabric: &plot.fabrics[side],
+        fabric: name,
         label: &trace.label,
     });
     let figure = OverlayFigure {
@@ -136,7 +142,7 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String
 }
 
 /// Returns the labels of the curves in order of appearance: the same label has the same dash
-/// pattern on both fabrics.
+/// pattern on all fabrics.
 fn dashes(plot: &OverlayPlot) -> Vec<&str> {
     let mut labels: Vec<&str> = Vec::new();
     for trace in plot.traces.iter().flatten() {

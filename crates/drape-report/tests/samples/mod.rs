@@ -134,8 +134,8 @@ pub fn an_overlay() -> OverlayPlot {
         title: "tensile".to_owned(),
         deformation: Axis::new("strain", "%", 0.01),
         load: Axis::new("tension", "gf/cm", GRAM_FORCE_PER_CM),
-        fabrics: ["A".to_owned(), "B".to_owned()],
-        traces: [vec![trace("warp", 2.0), trace("weft", 3.0)], vec![trace("weft", 4.0)]],
+        fabrics: vec!["A".to_owned(), "B".to_owned()],
+        traces: vec![vec![trace("warp", 2.0), trace("weft", 3.0)], vec![trace("weft", 4.0)]],
     }
 }
 
