@@ -128,6 +128,43 @@ fn progress_for_programs_is_one_json_object_a_line() {
         lines.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     assert_eq!(steps.len(), summary(&folder.path().join("out/scene"))["steps"]);
     assert!(steps.iter().all(|step| step["phase"] == "relax" && step["time"].is_f64()));
+    // The time was over before the cloth came to rest: the run is done all the same.
+    assert_eq!(done(&steps).last(), Some(&1.0));
+}
+
+/// Returns how much was done after each step, which never falls and is 1 after the last one alone.
+fn done(steps: &[Value]) -> Vec<f64> {
+    let done: Vec<f64> =
+        steps.iter().map(|step| step["done"].as_f64().expect("a number")).collect();
+    assert!(done.windows(2).all(|pair| pair[0] <= pair[1]), "{done:?}");
+    let (last, before) = done.split_last().expect("a step");
+    assert!(*last == 1.0 && before.iter().all(|done| *done < 1.0), "{done:?}");
+    let finished = steps.iter().filter(|step| step["finished"] == true).count();
+    assert_eq!((finished, &steps[steps.len() - 1]["finished"]), (1, &Value::Bool(true)));
+    done
+}
+
+#[test]
+fn progress_counts_evenly_to_rest_and_to_the_end_of_a_time() {
+    let folder = started();
+    let progress = |scene: &str, more: &[&str]| -> Vec<Value> {
+        let arguments = [&["run", scene, "--progress", "json", "-q"], more].concat();
+        let lines = String::from_utf8(drape(folder.path(), &arguments).stderr).expect("text");
+        lines.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
+    };
+    // To rest: every step counts, and none for more than a quarter.
+    let steps = progress("scene.toml", &[]);
+    let to_rest = done(&steps);
+    assert!(
+        to_rest.windows(2).all(|pair| pair[0] < pair[1] && pair[1] - pair[0] < 0.25),
+        "{to_rest:?}"
+    );
+    // In time: the part of the time.
+    let steps = progress("moving.toml", &["--until", "0.1"]);
+    for (step, done) in steps.iter().zip(done(&steps)) {
+        let time = step["time"].as_f64().expect("a time");
+        assert!((done - time / 0.1).abs() < 2e-3, "{done} at {time}");
+    }
 }
 
 #[test]

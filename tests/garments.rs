@@ -114,6 +114,35 @@ fn a_sewn_strip_carried_from_a_coarser_grid_hangs_like_one_sewn_on_its_own_and_a
 }
 
 #[test]
+fn progress_counts_over_sewing_grids_and_motion_to_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let phases = "[settle]\n[refine]\nspacings = [0.01]\n[motion]\nseconds = 0.2";
+    let scene = changed("seam-strip", &[("[settle]", phases)], folder.path());
+    let mut command = drape();
+    command.arg("run").arg(&scene).arg("-o").arg(folder.path().join("out"));
+    let said = command.args(["--progress", "json", "-q"]).output().expect("it runs").stderr;
+    let said = String::from_utf8(said).expect("text");
+    let steps: Vec<Value> =
+        said.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let mut phases: Vec<(&str, bool)> = Vec::new();
+    let mut before = 0.0;
+    for step in &steps {
+        let phase = (step["phase"].as_str().expect("a phase"), step["coarser_grid"].is_f64());
+        if phases.last() != Some(&phase) {
+            phases.push(phase);
+        }
+        let done = number(&step["done"]);
+        assert!(
+            done >= before && (done < 1.0) != (step["finished"] == true),
+            "{before}, then {step}"
+        );
+        before = done;
+    }
+    assert_eq!(phases, [("sew", true), ("relax", true), ("relax", false), ("simulate", false)]);
+    assert_eq!(before, 1.0);
+}
+
+#[test]
 fn a_strip_graded_by_an_earlier_run_hangs_like_one_that_is_fine_everywhere() {
     let folder = tempfile::tempdir().expect("a folder");
     let clamp = ("radius = 0.0165", "radius = 0.0245");

@@ -31,7 +31,8 @@ pub(crate) enum ProgressKind {
     /// A bar where stderr is a terminal.
     #[default]
     Auto,
-    /// One JSON object a line, for programs.
+    /// One JSON object a line, for programs: of a run one after each step, with `done`, which
+    /// grows from 0 to 1 over all of its phases.
     Json,
     /// None.
     None,

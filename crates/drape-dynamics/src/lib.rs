@@ -22,6 +22,7 @@ pub use record::summary::{
     Contacts, GridRecord, Phase, PhaseName, Solver, Status, Strain, Summary,
 };
 pub use record::topology::{Part, Topology};
+pub use simulation::plan::PlannedPhase;
 pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;
 pub use simulation::saved::SavedSimulation;

@@ -4,9 +4,11 @@
 //! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
 //! phase, or the run, is over. `run.rs` makes them all, watched; `saved.rs` is what a run goes on
 //! from after it was interrupted; `coarser_grid.rs` lets the cloth come to rest on coarser grids first;
-//! `seams.rs` ends the sewing; `prescription.rs` is what a program does between steps.
+//! `seams.rs` ends the sewing; `prescription.rs` is what a program does between steps; `plan.rs` says
+//! which phases are to come.
 
 pub(crate) mod coarser_grid;
+pub(crate) mod plan;
 pub(crate) mod prescription;
 pub(crate) mod run;
 pub(crate) mod saved;
@@ -226,6 +228,12 @@ impl Simulation {
     #[must_use]
     pub fn ticks_to_do(&self) -> usize {
         self.stepping.clock().ticks_to_do()
+    }
+
+    /// Returns the length of a whole step, in s.
+    #[must_use]
+    pub fn step_length(&self) -> f64 {
+        self.stepping.clock().step
     }
 
     /// Gives up the step in hand as soon as a flag is set, wherever the solver is in it.

@@ -94,8 +94,8 @@ struct Unkept<'a> {
 }
 
 impl Progress for Unkept<'_> {
-    fn step(&mut self, step: &Step, ticks: usize) {
-        let done = self.goal.done(step, ticks);
+    fn step(&mut self, step: &Step, _ticks: usize) {
+        let done = self.goal.done(step);
         self.reporter.step(step, done);
     }
 

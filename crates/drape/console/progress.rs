@@ -105,7 +105,8 @@ impl Watcher for RunProgress {
         let console = Console::get();
         if console.progress == ProgressKind::Json {
             tell(json!({
-                "scene": self.name, "phase": step.phase, "done": done, "time": step.time,
+                "scene": self.name, "phase": step.phase, "done": done,
+                "finished": step.finished, "time": step.time,
                 "coarser_grid": step.coarser_grid, "dt": step.dt, "speed_max": step.speed_max, "imbalance": step.imbalance,
                 "iterations": step.report.iterations, "rejected": step.report.rejected,
                 "slow": slow(step, self.step),

@@ -22,7 +22,8 @@ pub struct Keeping {
 
 /// Watcher of a run.
 pub trait Watcher {
-    /// Is called after a step, with how much of its phase is done, 0 to 1.
+    /// Is called after a step, with how much of the run is done, 0 to 1: it never falls, and is 1 after
+    /// the last step alone.
     fn step(&mut self, step: &Step, done: f64);
 
     /// Is called when a frame has been written.

@@ -184,8 +184,8 @@ struct KeptProgress<'a> {
 }
 
 impl Progress for KeptProgress<'_> {
-    fn step(&mut self, step: &Step, ticks: usize) {
-        let done = self.goal.done(step, ticks);
+    fn step(&mut self, step: &Step, _ticks: usize) {
+        let done = self.goal.done(step);
         self.keeper.step(Advance { phase: step.phase, done, time: step.time });
         self.watcher.step(step, done);
     }

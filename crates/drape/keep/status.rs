@@ -15,7 +15,7 @@ const EVERY: Duration = Duration::from_secs(1);
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Advance {
     pub(super) phase: PhaseName,
-    /// Part of the phase that is done, 0 to 1.
+    /// Part of the run that is done, 0 to 1.
     pub(super) done: f64,
     /// Time reached, in s.
     pub(super) time: f64,

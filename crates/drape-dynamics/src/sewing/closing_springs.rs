@@ -176,6 +176,11 @@ impl ClosingSprings {
         self.stiffening = stiffening;
     }
 
+    /// Returns the time until the gaps are to be closed, in s.
+    pub(crate) fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
     /// State of the seams at some positions and a time, in s, after a step that left an imbalance,
     /// over g, with the width of a gap that counts as narrow, in m.
     pub(crate) fn state(
