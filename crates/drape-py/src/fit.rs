@@ -1,13 +1,16 @@
 //! Sheets, fabrics, and fits of fabrics to sheets.
 
 use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
 
+use drape::file::FileKind;
 use drape::fit::{
     FittedSheet, FrictionOrder, Intervals, LoopModel, Settings, TractionModel, identify_all,
     identify_with, parameter_key,
 };
 use drape::input::{Diagnostic, Document};
 use drape::kes::SheetDraft;
+use drape::material::Material;
 use drape::report::FitPage;
 use drape::reports::fit_page;
 use pyo3::prelude::*;
@@ -16,6 +19,13 @@ use pyo3::types::PyDict;
 use crate::array::row;
 use crate::detached::Detached;
 use crate::error::{Kind, failure, input, mistake};
+
+/// Kinds of files that are read as sheets; of exports the reader says what is wrong.
+const SHEETS: [FileKind; 4] =
+    [FileKind::Sheet, FileKind::Table, FileKind::Workbook, FileKind::Archive];
+
+/// Latest time that an archive can have, since 1970.
+const LATEST: Duration = Duration::from_secs(1 << 32);
 
 /// Tables of `fabric.toml` that hold laws.
 const LAWS: [&str; 3] = ["warp", "weft", "shear"];
@@ -110,6 +120,7 @@ impl Sheet {
     #[staticmethod]
     #[pyo3(signature = (path, fabric=None))]
     fn read(path: PathBuf, fabric: Option<&str>) -> PyResult<Self> {
+        FileKind::expect(&path, &SHEETS).map_err(|mistakes| input(&mistakes))?;
         let sheet = SheetDraft::sheet(&path, fabric);
         sheet.map(Self).map_err(|error| of_sheet(error, &path.display().to_string()))
     }
@@ -204,6 +215,7 @@ pub(crate) fn fit_all(py: Python<'_>, paths: Vec<PathBuf>, laws: Laws) -> PyResu
 impl Fabric {
     #[staticmethod]
     fn read(path: PathBuf) -> PyResult<Self> {
+        FileKind::expect(&path, &[FileKind::Fabric]).map_err(|mistakes| input(&mistakes))?;
         let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
         let fabric = drape::fabric::Fabric::from_document(&document);
         fabric.map(Self).map_err(|mistakes| input(&mistakes))
@@ -232,6 +244,34 @@ impl Fabric {
 
     fn to_toml(&self) -> String {
         self.0.to_toml()
+    }
+
+    /// Bytes of the fabric as the material of another program, and what its numbers lose.
+    ///
+    /// `load`, in N/m, is that at which the stretch is read; `modified` is the time of the fabric, in s
+    /// since 1970.
+    fn material(
+        &self,
+        program: &str,
+        load: f64,
+        modified: f64,
+    ) -> PyResult<(Vec<u8>, Vec<String>)> {
+        let material = Material::of(&self.0, load).map_err(|error| failure(Kind::Usage, error))?;
+        let since = Duration::try_from_secs_f64(modified).unwrap_or_default();
+        let modified = SystemTime::UNIX_EPOCH + since.min(LATEST);
+        let bytes = match program {
+            "blender" => material.to_blender().into(),
+            "ppf" => material.to_ppf().into(),
+            "browzwear" => material.to_browzwear().into(),
+            "u3m" => material.to_u3m(modified).into(),
+            "u3ma" => material.to_u3ma(modified),
+            other => {
+                let known = "blender, ppf, browzwear, u3m, u3ma";
+                let message = format!("program={other:?} is not known; give one of {known}");
+                return Err(failure(Kind::Usage, message));
+            }
+        };
+        Ok((bytes, material.losses))
     }
 
     /// Numbers of the laws, with their keys in `fabric.toml`.

@@ -6,11 +6,12 @@
 //!
 //! * `error`: mistakes and failures as exceptions;
 //! * `detached`: work on threads of its own, without the lock of the interpreter, which Ctrl-C ends;
-//! * `fit`: sheets, fabrics and their fits; `scene`: scenes and their runs; `stepping`: a
+//! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of others; `scene`: scenes and their runs; `stepping`: a
 //!   simulation step by step; `recording`: runs that were stored; `instruments`: drapemeters and
 //!   the validation; `array`: NumPy arrays of numbers.
 
 mod array;
+mod convert;
 mod detached;
 mod error;
 mod fit;
@@ -22,6 +23,8 @@ mod stepping;
 /// Extension module.
 #[pyo3::pymodule]
 mod _drape {
+    #[pymodule_export]
+    use crate::convert::{convert_pattern, draft_sheet};
     #[pymodule_export]
     use crate::fit::{Fabric, Fit, Sheet, fit_all};
     #[pymodule_export]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
+use drape::file::FileKind;
 use drape::input::Document;
 use drape::keep::{Goal, Keeping, KeptRun, Limits, RunRequest, RunToResume, Watcher, end_at};
 use pyo3::exceptions::PyValueError;
@@ -192,6 +193,7 @@ impl Scene {
 impl Scene {
     #[staticmethod]
     fn read(path: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
+        FileKind::expect(&path, &[FileKind::Scene]).map_err(|mistakes| input(&mistakes))?;
         let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
         Self::new(document.allowing(&allow), Vec::new(), Some(path))
     }

@@ -23,7 +23,7 @@ def towel_over_a_ball(fabric, folder="."):
     builder.panel("towel", "cupro", rectangle=np.array([0.2, 0.3]), turn=(-90, 0, 0))
     builder.pin("towel", edge="top", motion={"times": [0, 0.05], "shift": [[0, 0, 0], [0, 0.01, 0]]})
     builder.mesh("ball", mesh.vertices, mesh.faces, center=[0, -0.052, 0], friction=0.3)
-    builder.body("plane", center=[0, -0.5, 0])
+    builder.body("floor", "plane", center=[0, -0.5, 0])
     return builder.set(output={"every": 0.02})
 
 
@@ -153,3 +153,24 @@ def test_names_of_files_are_told_apart(cupro):
     builder.panel("one", "a b", rectangle=[0.1, 0.1])
     builder.panel("two", "a/b", rectangle=[0.1, 0.1], center=[0.5, 0, 0])
     assert set(builder.scene().panels) == {"one", "two"}
+
+
+def test_the_name_of_a_body_comes_first_and_the_order_of_before_works():
+    new = drape.SceneBuilder().body("ball", "sphere", radius=0.1).body("floor", "plane")
+    assert new.to_toml() == drape.SceneBuilder().body("ball", kind="sphere", radius=0.1).body(
+        kind="plane", name="floor"
+    ).to_toml()
+    with pytest.warns(FutureWarning, match=r"body\('ball', 'sphere', ...\)"):
+        old = drape.SceneBuilder().body("sphere", name="ball", radius=0.1)
+    old.body("floor", "plane")
+    assert old.to_toml() == new.to_toml()
+    with pytest.warns(FutureWarning, match=r"body\('floor', 'plane', ...\)"):
+        assert "name" not in drape.SceneBuilder().body("plane", center=[0, 0, 0]).to_toml()
+    # A body may be called like a kind.
+    assert 'name = "box"' in drape.SceneBuilder().body("box", "box", size=[1, 1, 1]).to_toml()
+
+
+@pytest.mark.parametrize("arguments", [("ball",), ("sphere", "ball"), ()])
+def test_a_body_without_a_kind_is_asked_for_it(arguments):
+    with pytest.raises(drape.UsageError, match=r"body\('ball', 'sphere', ...\)"):
+        drape.SceneBuilder().body(*arguments)

@@ -13,6 +13,8 @@ def test_the_examples_of_a_page_run(page, root, tmp_path, monkeypatch):
     shutil.copytree(root / "fabrics", tmp_path / "fabrics")
     (tmp_path / "scenes").mkdir()
     shutil.copy(root / "scenes/curtain.toml", tmp_path / "scenes")
+    patterns = "crates/drape-pattern/patterns"
+    shutil.copytree(root / patterns, tmp_path / patterns)
     monkeypatch.chdir(tmp_path)
     names = {}
     blocks = BLOCK.findall((root / page).read_text(encoding="utf-8"))

@@ -121,7 +121,7 @@ def test_a_body_is_moved_between_steps(root):
     builder.fabric("cupro", root / "fabrics/cupro-weave")
     builder.panel("cloth", "cupro", rectangle=[0.12, 0.12], turn=[-90, 0, 0])
     builder.pin("cloth", edge="top").pin("cloth", edge="bottom")
-    builder.body("sphere", name="ball", radius=0.03, center=[0, -0.032, 0])
+    builder.body("ball", "sphere", radius=0.03, center=[0, -0.032, 0])
     simulation = drape.Simulation(builder.scene())
     start, triangles = simulation.bodies["ball"]
     assert start.shape[1] == triangles.shape[1] == 3

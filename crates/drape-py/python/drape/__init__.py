@@ -1,13 +1,15 @@
 """From measured fabric to moving cloth.
 
 Fabrics are fitted to the curves of a laboratory (`fit`), scenes are read (`Scene`) or built
-(`SceneBuilder`), run (`Scene.run`) or stepped (`Simulation`), and stored runs are opened again (`open`). All numbers are
-in SI; y is up.
+(`SceneBuilder`), run (`Scene.run`) or stepped (`Simulation`), and stored runs are opened again (`open`). Files of
+others are converted (`convert`), and fabrics are written for other programs (`Fabric.export`). All numbers are in SI; y is
+up.
 """
 
 from importlib.metadata import version as _version
 
 from ._builder import SceneBuilder
+from ._convert import Converted, convert
 from ._errors import (
     Error,
     InputError,
@@ -34,6 +36,7 @@ from ._run import Frames, Run, View, open, view
 from ._scene import Frame, Progress, Scene, Simulation, Step, resume
 
 __all__ = [
+    "Converted",
     "Curve",
     "Error",
     "Fabric",
@@ -58,6 +61,7 @@ __all__ = [
     "UsageError",
     "View",
     "cases",
+    "convert",
     "drapemeter",
     "fit",
     "fit_all",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -12,9 +14,13 @@ import numpy.typing as npt
 
 from . import _drape
 from ._errors import UsageError
-from ._fit import Fabric, Fit, StrPath
+from ._fit import Fabric, Fit
+from ._given import StrPath, path_of, refuse
 from ._scene import Scene
 from ._toml import dumps, plain
+
+# Kinds of bodies.
+_KINDS = ("sphere", "box", "cylinder", "plane", "mesh")
 
 
 class SceneBuilder:
@@ -25,13 +31,18 @@ class SceneBuilder:
     checked until `scene()`, which checks it as `Scene.read` does.
     """
 
-    def __init__(self, *, folder: StrPath = ".", allow: Iterable[StrPath] = (), **keys: Any) -> None:
+    def __init__(
+        self, *others: object, folder: StrPath = ".", allow: Iterable[StrPath] = (), **keys: Any
+    ) -> None:
         """Begins a scene with its own keys, such as `spacing=0.01, time={"step": 0.002, "end": 1}`.
 
         Files that it names are seen from `folder`; `allow` are files or folders elsewhere that it
-        may name.
+        may name. Raises `UsageError` for arguments without a keyword.
         """
-        self._folder = Path(folder)
+        if others:
+            advice = "name={} names the scene; drape.Scene.read(path) reads a file"
+            raise refuse("SceneBuilder", "keys of a scene", others[0], advice)
+        self._folder = path_of("SceneBuilder(folder=)", folder)
         self._allow = [Path(path) for path in allow]
         self._table: dict[str, Any] = plain(keys, "")
         self._documents: dict[str, str] = {}
@@ -47,13 +58,16 @@ class SceneBuilder:
             source = source.fabric
         if isinstance(source, Fabric):
             file = self._document("fabrics", name, ".toml", source.to_toml())
-        else:
+        elif isinstance(source, str | os.PathLike):
             file = Path(source).as_posix()
+        else:
+            advice = "drape.fit(sheet) fits a sheet, drape.Fabric.read(path) reads a fabric"
+            raise refuse("SceneBuilder.fabric", "a Fabric, a Fit or a path", source, advice)
         self._table.setdefault("fabric", {})[name] = {"file": file}
         return self
 
     def panel(self, name: str, fabric: str, **keys: Any) -> SceneBuilder:
-        """Adds a panel of a fabric, such as `rectangle=[0.2, 0.3], center=[0, 1, 0]`."""
+        """Adds a panel by its name and its fabric, such as `rectangle=[0.2, 0.3], center=[0, 1, 0]`."""
         return self._add("panel", {"name": name, "fabric": fabric} | keys)
 
     def garment(
@@ -68,11 +82,27 @@ class SceneBuilder:
         return self._add("garment", {"pattern": file, "fabric": fabric} | keys)
 
     def pin(self, panel: str, **keys: Any) -> SceneBuilder:
-        """Adds a pin of a panel, such as `edge="top"`, with a `motion` if it moves."""
+        """Adds a pin by the name of its panel, such as `edge="top"`, with a `motion` if it moves."""
         return self._add("pin", {"panel": panel} | keys)
 
-    def body(self, kind: str, **keys: Any) -> SceneBuilder:
-        """Adds a `"sphere"`, `"box"`, `"cylinder"`, `"plane"` or a `"mesh"` of a file."""
+    def body(self, name: str | None = None, /, kind: str | None = None, **keys: Any) -> SceneBuilder:
+        """Adds a body by its name and its kind, such as `"ball", "sphere", radius=0.1`.
+
+        The kind is `"sphere"`, `"box"`, `"cylinder"`, `"plane"`, or `"mesh"` of a file. As in `panel`
+        and `pin` the name comes first. The order of before, `"sphere", name="ball"`, works with a
+        warning. Raises `UsageError` for a body without a kind.
+        """
+        if kind is None and name in _KINDS:
+            shown = repr(keys.get("name", "floor" if name == "plane" else "ball"))
+            note = f"the name of a body comes first now: body({shown}, {name!r}, ...)"
+            warnings.warn(note, FutureWarning, stacklevel=2)
+            name, kind = keys.pop("name", None), name
+        if kind is None or (name in _KINDS and kind not in _KINDS):
+            shown = "'ball'" if name is None or name in _KINDS else repr(name)
+            kinds = ", ".join(repr(known) for known in _KINDS)
+            raise UsageError(f"a body has a name and a kind: body({shown}, 'sphere', ...); kinds are {kinds}")
+        if name is not None:
+            keys = {"name": name} | keys
         colliders = self._table.setdefault("collider", {})
         place = f"collider.{kind}[{len(colliders.get(kind, []))}]"
         colliders.setdefault(kind, []).append(plain(keys, place))
@@ -104,7 +134,7 @@ class SceneBuilder:
         if corners.ndim != 2 or corners.shape[1] != 3 or not np.issubdtype(corners.dtype, np.integer):
             shape = f"of shape {corners.shape} and type {corners.dtype}"
             raise UsageError(f"{name!r} has faces {shape}; give (m, 3) numbers of vertices, from 0")
-        own: dict[str, Any] = {"name": name}
+        own: dict[str, Any] = {}
         own["file"] = self._document("bodies", name, ".obj", _obj(places, corners))
         if frames is not None:
             moving = np.asarray(frames, dtype=np.float64)
@@ -117,7 +147,7 @@ class SceneBuilder:
             own["frames"] = f"{stem}_*.obj"
         if self._table.get("length", "m") != "m":
             own["scale"] = 1
-        return self.body("mesh", **(own | keys))
+        return self.body(name, "mesh", **(own | keys))
 
     def to_toml(self) -> str:
         """Returns the text of the scene."""

@@ -6,6 +6,7 @@ import html
 import math
 import os
 import tempfile
+import time
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,10 +17,12 @@ import numpy.typing as npt
 
 from . import _drape
 from ._errors import InputError, UsageError
+from ._given import StrPath, expect, path_of, refuse
 from ._toml import dumps
 
-StrPath = str | os.PathLike[str]
 
+# Programs of materials by the endings of their files.
+_PROGRAMS = {".py": "blender", ".toml": "ppf", ".csv": "browzwear", ".u3m": "u3m", ".u3ma": "u3ma"}
 
 # Units of the numbers of a test in SI: of deformation and load.
 _SI = {
@@ -87,6 +90,8 @@ class Sheet:
     """Sheet of a laboratory: KES values and curves of one fabric."""
 
     def __init__(self, inner: _drape.Sheet) -> None:
+        advice = ("drape.read_sheet({}) reads a file", "drape.Sheet.from_curves(name, curves) makes one")
+        expect("Sheet", _drape.Sheet, inner, advice)
         self._inner = inner
 
     @staticmethod
@@ -99,7 +104,11 @@ class Sheet:
         """
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary)
-            entries = [curve._write(folder, number) for number, curve in enumerate(curves, 1)]
+            entries = []
+            for number, curve in enumerate(curves, 1):
+                advice = "drape.Curve(test, direction, deformation, load)"
+                expect("a list of curves", Curve, curve, (advice, advice))
+                entries.append(curve._write(folder, number))
             text = dumps({"name": name, **(values or {}), "curve": entries})
             try:
                 return Sheet(_drape.Sheet.from_toml(text, folder))
@@ -135,12 +144,17 @@ class Fabric:
     """Fabric: its laws, in SI."""
 
     def __init__(self, inner: _drape.Fabric) -> None:
+        advice = (
+            "drape.Fabric.read({}) reads a file, drape.fit({}).fabric fits a sheet",
+            "drape.Fabric.from_values(name, values) makes one",
+        )
+        expect("Fabric", _drape.Fabric, inner, advice)
         self._inner = inner
 
     @staticmethod
     def read(path: StrPath) -> Fabric:
         """Reads a `fabric.toml`. Raises `InputError` with all its mistakes."""
-        return Fabric(_drape.Fabric.read(Path(path)))
+        return Fabric(_drape.Fabric.read(path_of("Fabric.read", path)))
 
     @staticmethod
     def from_toml(text: str) -> Fabric:
@@ -174,6 +188,34 @@ class Fabric:
     def to_toml(self) -> str:
         """Returns the text of its `fabric.toml`, as `drape fit` writes it."""
         return self._inner.to_toml()
+
+    def export(
+        self,
+        path: StrPath,
+        *,
+        program: str | None = None,
+        load: float = 20.0,
+        replace: bool = False,
+    ) -> list[str]:
+        """Writes the fabric as the material of another program, as `drape fabric export` does.
+
+        `program` is `"blender"`, `"ppf"`, `"browzwear"`, `"u3m"` or `"u3ma"`, by default that of the
+        ending: `*.py`, `*.toml`, `*.csv`, `*.u3m`, `*.u3ma`. The stretch is read at a `load`, in N/m.
+        Returns what the numbers lose, which stands in the file too. Raises `UsageError` for a program
+        that is not known, a load that the fabric never carries, and a file that is there already,
+        unless it may `replace` it.
+        """
+        path = path_of("Fabric.export", path)
+        chosen = program or _PROGRAMS.get(path.suffix.lower())
+        if chosen is None:
+            known = ", ".join(_PROGRAMS.values())
+            raise UsageError(f"{path}: the ending names no program; give program=, one of {known}")
+        if path.exists() and not replace:
+            raise UsageError(f"{path} exists; write elsewhere, or with replace=True")
+        content, losses = self._inner.material(chosen, load, time.time())
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+        return losses
 
     def __repr__(self) -> str:
         return f"<drape.Fabric {self.name!r}>"
@@ -247,6 +289,8 @@ class Fit:
     """Fit of a fabric to a sheet."""
 
     def __init__(self, inner: _drape.Fit) -> None:
+        advice = ("drape.fit({}) fits the sheet of a file", "drape.fit(sheet) makes a fit")
+        expect("Fit", _drape.Fit, inner, advice)
         self._inner = inner
         self.curves: list[dict[str, Any]] = inner.curves()
         """Curves with their laws: `name`, `test`, `direction`, `model`, `misfit` (a ratio),
@@ -330,13 +374,15 @@ def read_sheet(path: StrPath, *, fabric: str | None = None) -> Sheet:
     Tables are a workbook (`.xlsx`, `.xls`, `.xlsm`, `.ods`), a `.csv` or another table of text, a `.zip`, or
     a folder of exports. `fabric` is the name of one fabric where they hold several. Raises `InputError`.
     """
-    return Sheet(_drape.Sheet.read(Path(path), fabric))
+    return Sheet(_drape.Sheet.read(path_of("read_sheet", path), fabric))
 
 
 class Fits(Mapping[str, Fit]):
     """Fits of many sheets by their names, those of their folders, as `drape fit` calls them."""
 
     def __init__(self, fits: dict[str, Fit], failures: dict[str, Exception]) -> None:
+        advice = "drape.fit_all({}) fits the sheets of a folder"
+        expect("Fits", dict, fits, (advice, "drape.fit_all(sheets) makes fits"))
         self._fits = fits
         self.failures = failures
         """Sheets that have no fit, each with its exception."""
@@ -382,7 +428,13 @@ def fit(
             advice = f"fit them with drape.fit_all({str(path)!r})"
             raise UsageError(f"{path} holds {len(below)} sheets in its folders; {advice}")
         sheet = read_sheet(path, fabric=fabric)
-    own = sheet if isinstance(sheet, Sheet) else Sheet.from_curves("fabric", sheet)
+    if isinstance(sheet, Sheet):
+        own = sheet
+    elif isinstance(sheet, Iterable):
+        own = Sheet.from_curves("fabric", sheet)
+    else:
+        advice = "drape.read_sheet(path) reads a sheet, drape.Curve(...) holds arrays"
+        raise refuse("fit", "a Sheet, a path or a list of Curves", sheet, advice)
     return Fit(own._inner.fit(_laws(traction, bending, shear, profile)))
 
 
@@ -402,7 +454,10 @@ def fit_all(
     `failures`. Raises `UsageError` for a folder without sheets.
     """
     paths: list[Path] = []
-    for path in map(Path, [sheets] if isinstance(sheets, str | os.PathLike) else sheets):
+    if not isinstance(sheets, str | os.PathLike | Iterable):
+        raise refuse("fit_all", "paths", sheets, "give a folder of sheets, or a list of sheets")
+    given = [sheets] if isinstance(sheets, str | os.PathLike) else sheets
+    for path in (path_of("fit_all", one) for one in given):
         if not path.is_dir() or (path / _SHEET).exists():
             paths.append(path)
         elif below := _sheets_below(path):

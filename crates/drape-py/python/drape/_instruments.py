@@ -8,6 +8,7 @@ from typing import Any
 
 from . import _drape
 from ._fit import Fabric
+from ._given import expect
 
 
 def drapemeter(
@@ -25,6 +26,8 @@ def drapemeter(
     array), `nodes`, `spacing` and `spacing_bound` (in m). Ctrl-C returns at once; what is left
     of the work then ends by itself, or with the process. Raises `SolverError` and `UsageError`.
     """
+    advice = ("read it first, drape.Fabric.read({})", "give a fabric, of a fit its .fabric")
+    expect("drapemeter", Fabric, fabric, advice)
     settings = {"meter": meter, "starts": starts, "spacing": spacing, "shake": shake}
     return _drape.drapemeter(fabric._inner, settings)
 

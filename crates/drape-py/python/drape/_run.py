@@ -13,7 +13,8 @@ import numpy.typing as npt
 
 from . import _drape
 from ._errors import UsageError
-from ._fit import StrPath, frame
+from ._fit import frame
+from ._given import StrPath, expect, path_of, refuse
 
 Array = npt.NDArray[np.float64]
 
@@ -22,6 +23,8 @@ class Frames(Sequence[Array]):
     """Frames of a run, each read when it is asked for: positions, (n, 3), in m; read-only."""
 
     def __init__(self, recording: _drape.Recording) -> None:
+        advice = ("drape.open({}).frames are those of a folder", "drape.open(folder).frames has them")
+        expect("Frames", _drape.Recording, recording, advice)
         self._recording = recording
 
     def __len__(self) -> int:
@@ -48,6 +51,8 @@ class Run:
     """Run of a scene: its summary, and its frames where it has a folder."""
 
     def __init__(self, summary: dict[str, Any], folder: Path | None) -> None:
+        advice = ("drape.open({}) opens a stored run", "Scene.run makes one, drape.open(folder) opens one")
+        expect("Run", dict, summary, advice)
         self.summary = summary
         """Summary, as in `summary.json`; empty while another process runs the scene."""
         self.folder = folder
@@ -109,6 +114,8 @@ class View:
     """Runs as a page that turns, plays and measures them; a notebook shows it."""
 
     def __init__(self, html: str) -> None:
+        if not isinstance(html, str) or "<" not in html:
+            raise refuse("View", "a page", html, "drape.view(run) makes one of runs or their folders")
         self.html = html
         """The page, which needs nothing else."""
 
@@ -122,7 +129,7 @@ class View:
 
 def open(folder: StrPath) -> Run:
     """Opens a stored run, of this package or of `drape run`. Raises `OutputError`."""
-    folder = Path(folder)
+    folder = path_of("open", folder)
     path = folder / "summary.json"
     summary = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
     run = Run(summary, folder)
@@ -132,7 +139,7 @@ def open(folder: StrPath) -> Run:
 
 def view(*runs: Run | StrPath, megabytes: float | None = None) -> View:
     """Returns runs side by side as a page, of at most so many megabytes (20)."""
-    folders = [run.folder if isinstance(run, Run) else Path(run) for run in runs]
+    folders = [run.folder if isinstance(run, Run) else path_of("view", run) for run in runs]
     if not folders or None in folders:
         raise UsageError("view() shows stored runs; give them a folder: scene.run(output=...)")
     return View(_drape.view_html([f for f in folders if f is not None], megabytes))

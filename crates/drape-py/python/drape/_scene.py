@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _drape
 from ._errors import UsageError
-from ._fit import StrPath
+from ._given import StrPath, expect, path_of, refuse
 from ._run import Run
 
 Array = npt.NDArray[np.float64]
@@ -26,7 +26,7 @@ class Progress:
     time: float
     """Time reached, in s."""
     done: float
-    """Part of the phase that is done, 0 to 1."""
+    """Part of the run that is done: it never falls, and is 1 after the last step."""
     phase: str
     """`"sew"`, `"relax"` or `"simulate"`."""
     speed_max: float
@@ -72,6 +72,11 @@ class Scene:
     """Scene that was read and checked; `SceneBuilder` makes one without a file."""
 
     def __init__(self, inner: _drape.Scene) -> None:
+        advice = (
+            "drape.Scene.read({}) reads a file, drape.Scene.from_toml(text) a text",
+            "drape.Scene.read(path) reads one, drape.SceneBuilder(...).scene() makes one",
+        )
+        expect("Scene", _drape.Scene, inner, advice)
         self._inner = inner
 
     @staticmethod
@@ -81,11 +86,13 @@ class Scene:
         `allow` are files or folders that the scene may name beside those in its own folder and in
         the working folder. Raises `InputError` with all mistakes.
         """
-        return Scene(_drape.Scene.read(Path(path), [Path(p) for p in allow]))
+        return Scene(_drape.Scene.read(path_of("Scene.read", path), [Path(p) for p in allow]))
 
     @staticmethod
     def from_toml(text: str, folder: StrPath = ".", *, allow: Iterable[StrPath] = ()) -> Scene:
         """Makes a scene of a text; its relative paths are seen from a folder. Raises `InputError`."""
+        if not isinstance(text, str):
+            raise refuse("Scene.from_toml", "a text", text, "drape.Scene.read(path) reads a file")
         documents = [(Path("<text>"), text)]
         return Scene(_drape.Scene.from_toml(documents, Path(folder), [Path(p) for p in allow]))
 
@@ -148,7 +155,7 @@ class Scene:
 
 
 def resume(
-    run: StrPath,
+    run: Run | StrPath,
     *,
     scene: Scene | None = None,
     extend: float | None = None,
@@ -158,16 +165,24 @@ def resume(
     max_wall: float | None = None,
 ) -> Run:
     """Goes on with a run that was interrupted, from its last checkpoint, to the results that it would
-    have had; or with one that has ended, for `extend` seconds beyond its end.
+    have had; or with one that has ended, for `extend` seconds beyond its end. `run` is its folder.
 
     A run goes on where it was begun: the command cannot go on with a run of this package, nor this
     package with one of the command. `scene` is needed for one that was a text. Raises as
     `Scene.run`, and `InputError` for a scene that has changed.
     """
+    if isinstance(run, Run):
+        if run.folder is None:
+            raise UsageError("the run stored nothing; give it a folder: scene.run(output=...)")
+        run = run.folder
+    folder = path_of("resume", run)
     settings = _settings(None, None, threads, True)
     settings |= {"extend": extend, "max_wall": max_wall} | _callbacks(progress, on_frame)
+    if scene is not None:
+        advice = ("read it first, drape.Scene.read({})", "drape.Scene.read(path) reads one")
+        expect("resume(scene=)", Scene, scene, advice)
     inner = None if scene is None else scene._inner
-    return Run(json.loads(_drape.resume(Path(run), inner, settings)), Path(run))
+    return Run(json.loads(_drape.resume(folder, inner, settings)), folder)
 
 
 def _triple(key: str, value: npt.ArrayLike | None) -> list[float]:
@@ -214,6 +229,11 @@ class Simulation:
 
     def __init__(self, scene: Scene, *, threads: int | None = None) -> None:
         """Prepares a scene at its start, for so many threads (all of the machine)."""
+        advice = (
+            "read it first, drape.Simulation(drape.Scene.read({}))",
+            "drape.Scene.read(path) reads one, drape.SceneBuilder(...).scene() makes one",
+        )
+        expect("Simulation", Scene, scene, advice)
         self._inner = _drape.Simulation(scene._inner, threads)
         self.panels: dict[str, range] = scene.panels
         """Particles of each panel, by its name."""

@@ -1,0 +1,91 @@
+"""Files of others made into the project's own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from . import _drape
+from ._errors import UsageError
+from ._fit import StrPath
+from ._given import path_of
+
+# Name of a sheet in its folder.
+_SHEET = "sheet.toml"
+
+
+@dataclass(frozen=True)
+class Converted:
+    """What a conversion gave."""
+
+    kind: str
+    """`"pattern"`, `"drawing"` or `"sheet"`."""
+    text: str
+    """Text of the result: TOML, or SVG of a drawing, the first page where there are several."""
+    files: list[Path] = field(default_factory=list)
+    """Files that were written."""
+    notes: list[str] = field(default_factory=list)
+    """What was taken for what, and what is not in the result."""
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def convert(
+    source: StrPath,
+    to: StrPath | None = None,
+    *,
+    unit: str | None = None,
+    size: str | None = None,
+    paper: str | None = None,
+    width: float | None = None,
+    replace: bool = False,
+) -> Converted:
+    """Converts a pattern or a folder of exports, as `drape convert` does, to a text or to a file.
+
+    `source` is a pattern, `*.json` of GarmentCode or FreeSewing, `*.svg`, `*.dxf` or `*.toml`, or a
+    folder with the exports of a laboratory's instruments, which become a sheet. Without `to` nothing is
+    written. `to` is a `*.toml`, for a sheet its folder too, or for a pattern a `*.svg`, at true scale.
+
+    `unit` is that of a drawing that states none, `size` one of a graded DXF; `paper`, such as `"a4"`,
+    divides a drawing into pages, and `width`, in mm, is that of a plotter's roll. `replace` lets it
+    replace files. Raises `InputError` with all mistakes, and `UsageError`.
+    """
+    path = path_of("convert", source)
+    target = None if to is None else path_of("convert", to)
+    options = {"unit": unit, "size": size, "paper": paper, "width": width}
+    if path.is_dir():
+        return _sheet(path, target, [name for name, value in options.items() if value is not None], replace)
+    ending = "" if target is None else target.suffix.lower()
+    if target is not None and ending not in (".toml", ".svg"):
+        raise UsageError(f"{target}: patterns are written as *.toml or *.svg")
+    is_drawing = ending == ".svg"
+    files, notes = _drape.convert_pattern(path, is_drawing, options)
+    written: list[Path] = []
+    if target is not None:
+        named = {target.with_stem(target.stem + part): text for part, text in files}
+        written = _write(named, replace)
+    return Converted("drawing" if is_drawing else "pattern", files[0][1], written, notes)
+
+
+def _sheet(folder: Path, to: Path | None, options: list[str], replace: bool) -> Converted:
+    if options:
+        raise UsageError(f"{options[0]} is for patterns, and {folder} is a folder")
+    if to is not None and to.suffix.lower() != ".toml":
+        if to.suffix and not to.is_dir():
+            advice = "the sheet of a folder of exports is written as *.toml, or into a folder"
+            raise UsageError(f"{to}: {advice}")
+        to = to / _SHEET
+    # Without a file the sheet is one for the folder of the exports.
+    text, notes = _drape.draft_sheet(folder, folder if to is None else to.parent)
+    return Converted("sheet", text, [] if to is None else _write({to: text}, replace), notes)
+
+
+def _write(texts: dict[Path, str], replace: bool) -> list[Path]:
+    there = [str(file) for file in texts if file.exists()]
+    if there and not replace:
+        raise UsageError(f"{', '.join(there)} exists; write elsewhere, or with replace=True")
+    for file, text in texts.items():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8", newline="\n")
+    return list(texts)

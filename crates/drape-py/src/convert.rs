@@ -1,0 +1,110 @@
+//! Conversion of files of others: patterns to TOML or drawings, exports of instruments to sheets.
+
+use std::path::{Path, PathBuf};
+
+use drape::file::FileKind;
+use drape::input::Diagnostic;
+use drape::kes::SheetDraft;
+use drape::pattern::{Error, Paper, Pattern, Request, Unit};
+use drape::reports::VERSION;
+use pyo3::prelude::*;
+
+use crate::error::{Kind, failure, input, mistake};
+
+/// Kinds of files of which a pattern is made.
+const PATTERNS: [FileKind; 2] = [FileKind::Drawing, FileKind::Pattern];
+
+/// Widths that a drawing may have, in mm.
+const WIDTHS: std::ops::RangeInclusive<f64> = 100.0..=100_000.0;
+
+/// What a conversion is asked for.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Conversion {
+    unit: Option<String>,
+    size: Option<String>,
+    paper: Option<String>,
+    width: Option<f64>,
+}
+
+/// Text of a file that a conversion gives, and what its name has beside that which is asked for.
+type NamedText = (String, String);
+
+/// Converts a pattern to TOML or to a drawing; returns the files, and the notes on what was taken.
+#[pyfunction]
+pub(crate) fn convert_pattern(
+    path: PathBuf,
+    is_drawing: bool,
+    conversion: Conversion,
+) -> PyResult<(Vec<NamedText>, Vec<String>)> {
+    FileKind::expect(&path, &PATTERNS).map_err(|mistakes| input(&mistakes))?;
+    conversion.check(is_drawing)?;
+    let Conversion { unit, size, paper, width } = conversion;
+    let unit = unit.map(|word| {
+        let known = Unit::parse(&word);
+        known.ok_or_else(|| usage(format!("unit={word:?}: it is mm, cm, m, in, pt or px")))
+    });
+    let request = Request { path: path.clone(), unit: unit.transpose()?, size };
+    let pattern = Pattern::read_as(&request).map_err(|error| match error {
+        Error::Input(mistakes) => input(&mistakes),
+        other => mistake(Diagnostic::new(&path, other.to_string())),
+    })?;
+    let files = match (is_drawing, paper) {
+        (false, _) => vec![(String::new(), pattern.to_toml(&heading(&path)))],
+        (true, None) => vec![(String::new(), pattern.to_svg(width))],
+        (true, Some(word)) => {
+            let pages = pattern.to_pages(paper_of(&word)?).into_iter();
+            pages.map(|page| (format!("-{}", page.name), page.svg)).collect()
+        }
+    };
+    Ok((files, pattern.notes().iter().map(ToString::to_string).collect()))
+}
+
+/// Drafts the sheet of a folder of exports, for a place beside which its files are named; returns its
+/// text, and the notes on what was taken.
+#[pyfunction]
+pub(crate) fn draft_sheet(folder: PathBuf, beside: PathBuf) -> PyResult<(String, Vec<String>)> {
+    let draft = SheetDraft::of_folder(&folder, &beside).map_err(|error| match error {
+        drape::kes::Error::Input(mistakes) => input(&mistakes),
+        other => mistake(Diagnostic::new(&folder, other.to_string())),
+    })?;
+    Ok((draft.text, draft.notes))
+}
+
+impl Conversion {
+    /// Refuses what does not belong to the result.
+    fn check(&self, is_drawing: bool) -> PyResult<()> {
+        if !is_drawing && (self.paper.is_some() || self.width.is_some()) {
+            return Err(usage("paper and width are for a drawing: write it to a *.svg"));
+        }
+        if self.paper.is_some() && self.width.is_some() {
+            return Err(usage("paper and width: give one of them"));
+        }
+        match self.width {
+            Some(width) if !WIDTHS.contains(&width) => {
+                Err(usage(format!("width={width}: a width in mm from 100 to 100000, such as 900")))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Returns a paper by its word.
+fn paper_of(word: &str) -> PyResult<Paper> {
+    Paper::parse(word).ok_or_else(|| {
+        usage(format!(
+            "paper={word:?}: it is a4, a3, a2, a1, a0, letter, legal, tabloid, or a size in mm from 100x100 \
+             on, such as 210x297"
+        ))
+    })
+}
+
+fn usage(message: impl ToString) -> PyErr {
+    failure(Kind::Usage, message)
+}
+
+/// Returns the first line of a pattern that was converted, that of the command.
+fn heading(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    format!("Pattern converted from {name} by {VERSION}. Lengths are in mm, angles in degrees.")
+}
