@@ -28,8 +28,9 @@ fn laws() -> Vec<TractionLaw> {
     let law = |index: usize| {
         let toe = toe(&mut state);
         let friction = ProportionalFriction {
-            ratio: FRICTION_RATIO_MAX * if index % 3 == 0 { 1.0 } else { random(&mut state) },
-            plateau: if index % 2 == 0 { 0.0 } else { 8.0 * random(&mut state) },
+            ratio: FRICTION_RATIO_MAX
+                * if index.is_multiple_of(3) { 1.0 } else { random(&mut state) },
+            plateau: if index.is_multiple_of(2) { 0.0 } else { 8.0 * random(&mut state) },
             length: 0.0005 + 0.04 * random(&mut state),
         };
         let strain = friction.buckling_strain(&toe);

@@ -180,7 +180,9 @@ impl FileKind {
         // Standard input is typed as a dash.
         let path = if path.starts_with('<') { "-".into() } else { path };
         match self {
-            Self::Scene => format!("`drape run {path}` simulates it, `drape check {path}` describes it"),
+            Self::Scene => {
+                format!("`drape run {path}` simulates it, `drape check {path}` describes it")
+            }
             Self::Fabric => format!(
                 "`drape fabric show {path}` shows it, `drape test {path}` tests specimens of it; a scene \
                  names it: fabric.NAME.file = \"{path}\""
@@ -192,20 +194,21 @@ impl FileKind {
             Self::Pattern => format!(
                 "`drape check {path}` says how it is cut; a scene sews it: [[garment]] pattern = \"{path}\""
             ),
-            Self::Study => format!("`drape sweep run {path}` runs it, `drape check {path}` describes it"),
-            Self::Drawing => format!("`drape convert {path} -o pattern.toml` makes a pattern of it"),
+            Self::Study => {
+                format!("`drape sweep run {path}` runs it, `drape check {path}` describes it")
+            }
+            Self::Drawing => {
+                format!("`drape convert {path} -o pattern.toml` makes a pattern of it")
+            }
             Self::Body => format!(
                 "`drape check {path}` describes it; a scene names it: [[collider.mesh]] file = \"{path}\""
             ),
-            Self::Table | Self::Workbook | Self::Archive => {
-                "`drape convert FOLDER -o sheet.toml` makes a sheet of the tables in a folder, and `drape \
-                 fit sheet.toml` a fabric of the sheet"
-                    .into()
-            }
-            Self::Material => "name the fabric.toml that it was written from".into(),
-            Self::Run => format!(
-                "`drape view {path}` shows it, `drape check {path}` verifies it"
+            Self::Table | Self::Workbook | Self::Archive => format!(
+                "`drape fit {path}` fits a fabric to it, `drape convert {path} -o sheet.toml` makes a sheet \
+                 of it"
             ),
+            Self::Material => "name the fabric.toml that it was written from".into(),
+            Self::Run => format!("`drape view {path}` shows it, `drape check {path}` verifies it"),
             Self::Picture | Self::Page => "name the file that it shows".into(),
         }
     }

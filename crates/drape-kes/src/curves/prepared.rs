@@ -277,8 +277,7 @@ mod tests {
     #[test]
     fn a_strip_that_breaks_ends_at_its_break() {
         // Torn: the load falls to nearly nothing while the clamps go on.
-        let tail =
-            (1..200).map(|i| f64::from(i)).map(|i| (0.05 + 2e-4 * i, 150.0 * (-i / 20.0).exp()));
+        let tail = (1..200).map(f64::from).map(|i| (0.05 + 2e-4 * i, 150.0 * (-i / 20.0).exp()));
         // Torn at the largest strain: the clamps come back without load.
         let back = (0..=120).rev().map(|i| (0.05 * f64::from(i) / 120.0, 0.0));
         for (name, curve) in [
