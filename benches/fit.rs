@@ -10,7 +10,9 @@ use drape_fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Primed, ShearBackbone, ShearLaw,
     TractionBackbone, TractionLaw, drive,
 };
-use drape_fit::{FrictionOrder, LoopModel, Plateau, Settings, Toe, TractionModel, identify_with};
+use drape_fit::{
+    FitSettings, FrictionOrder, LoopModel, Plateau, Toe, TractionModel, identify_with,
+};
 use drape_kes::{Curve, Direction, Sheet, Test};
 use rustix::time::{ClockId, clock_gettime};
 
@@ -139,14 +141,14 @@ fn sheet(seed: u64) -> Sheet {
 }
 
 /// Returns settings with one law for each test, so that none is chosen.
-fn given() -> Settings {
-    Settings {
+fn given() -> FitSettings {
+    FitSettings {
         traction: Some(TractionModel::Primed),
         toe: Some(Toe::Moving),
         bending: Some(LoopModel::Linear(FrictionOrder::First)),
         shear: Some(LoopModel::Linear(FrictionOrder::First)),
         plateau: Some(Plateau::Growing),
-        ..Settings::default()
+        ..FitSettings::default()
     }
 }
 
@@ -155,7 +157,7 @@ fn fits(criterion: &mut Criterion<Processor>) {
     let mut group = criterion.benchmark_group("fabric of six curves");
     group.sample_size(20).measurement_time(Duration::from_secs(3));
     group.throughput(Throughput::Elements(1));
-    for (name, settings) in [("laws chosen", Settings::default()), ("laws given", given())] {
+    for (name, settings) in [("laws chosen", FitSettings::default()), ("laws given", given())] {
         let mut cycle = sheets.iter().cycle();
         group.bench_function(name, |bencher| {
             bencher.iter(|| {

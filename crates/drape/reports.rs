@@ -8,6 +8,7 @@ mod compared;
 mod fabric;
 mod fit;
 mod instruments;
+mod interval;
 mod kes_value;
 mod loop_plot;
 mod quantity;

@@ -6,7 +6,7 @@ mod mistake;
 use std::path::Path;
 
 use drape_fabric::Fabric;
-use drape_fit::{LoopModel, Settings, identify_with};
+use drape_fit::{FitSettings, LoopModel, identify_with};
 use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_kes::Sheet;
 use drape_scene::{FabricRequest, Model, Scene, is_fabric};
@@ -76,7 +76,7 @@ pub fn fabric_of(document: &Document, model: Model) -> Result<Fabric, Diagnostic
         other => Diagnostic::new(file, other.to_string()).into(),
     })?;
     let laws = (model == Model::Breen1994).then_some(LoopModel::Piecewise);
-    let settings = Settings { bending: laws, shear: laws, ..Settings::default() };
+    let settings = FitSettings { bending: laws, shear: laws, ..FitSettings::default() };
     let fit = identify_with(&sheet, &settings);
     let fit = fit.map_err(|error| Diagnostics::from(fit_mistake(document, &error)))?;
     Ok(fit.fabric)

@@ -5,6 +5,7 @@
 mod bending;
 mod friction;
 mod piecewise;
+mod report;
 mod shear;
 mod traction;
 mod varying;
@@ -18,6 +19,7 @@ use crate::assumed;
 use crate::check::Problem;
 use crate::fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
 use crate::file::bending::BendingFile;
+use crate::file::report::Report;
 use crate::file::shear::ShearFile;
 use crate::file::traction::TractionFile;
 
@@ -124,9 +126,6 @@ impl Fabric {
         assumed::marked(&text, assumed)
     }
 }
-
-/// Takes the key, the message and the remedy of a mistake.
-type Report<'a> = dyn FnMut(&str, &str, &str) + 'a;
 
 impl FabricFile {
     fn fabric(self, report: &mut Report<'_>) -> Fabric {

@@ -39,7 +39,7 @@ pub use regression::curve_fit::{CurveFit, Identified};
 pub use regression::estimate::{Estimate, Undetermined, ValueEstimate};
 pub use settings::model::{FrictionOrder, LoopModel, Plateau, Toe, TractionModel};
 pub use settings::weighting::Weighting;
-pub use settings::{Intervals, Settings};
+pub use settings::{FitSettings, Intervals};
 pub use values::bending::bending_from_values;
 pub use values::comparison::{ValueComparison, compare_values};
 pub use values::matched::Matched;

@@ -1,7 +1,7 @@
 //! Settings of an identification: the laws to fit, the weights of the points, the intervals, and
 //! the evaluation points of KES values.
 //!
-//! Every function that identifies something takes a [`Settings`]. A law that is not set is the one
+//! Every function that identifies something takes a [`FitSettings`]. A law that is not set is the one
 //! that the sheet asks for, or is selected by Akaike's criterion. The chapter knows the curves of
 //! drape-kes, and no law.
 //!
@@ -21,17 +21,17 @@ use weighting::Weighting;
 /// `CurveFit::candidates` lists the laws among which one was selected.
 ///
 /// ```
-/// use drape_fit::{FrictionOrder, LoopModel, Settings};
+/// use drape_fit::{FrictionOrder, LoopModel, FitSettings};
 ///
 /// // One friction element in bending; everything else is selected by the data.
-/// let settings = Settings {
+/// let settings = FitSettings {
 ///     bending: Some(LoopModel::Linear(FrictionOrder::First)),
-///     ..Settings::default()
+///     ..FitSettings::default()
 /// };
 /// assert_eq!(settings.shear, None);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Settings {
+pub struct FitSettings {
     /// Elastic load of the traction laws.
     pub traction: Option<TractionModel>,
     /// Whether the priming zone of the traction laws moves.
@@ -52,13 +52,14 @@ pub struct Settings {
     pub shear_points: ShearPoints,
 }
 
-impl Settings {
+impl FitSettings {
     /// Returns the settings with the bending and shear laws of a sheet where they are not set.
     pub(crate) fn with_default_model(self, model: Option<Model>) -> Self {
         let model = model.map(|model| match model {
             Model::FirstOrder => LoopModel::Linear(FrictionOrder::First),
             Model::TwoElements => LoopModel::Linear(FrictionOrder::Parallel),
             Model::SecondOrder => LoopModel::Linear(FrictionOrder::Second),
+            Model::Varying => LoopModel::Varying,
             Model::Breen1994 => LoopModel::Piecewise,
         });
         Self { bending: self.bending.or(model), shear: self.shear.or(model), ..self }

@@ -6,7 +6,7 @@
 mod random;
 
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
-use drape_fit::{Error, Settings, identify, identify_all};
+use drape_fit::{Error, FitSettings, identify, identify_all};
 use drape_kes::{Curve, Direction, Sheet, Test, Values};
 use random::Random;
 
@@ -44,7 +44,7 @@ fn each_fabric_of_a_batch_is_as_if_alone_and_a_bad_one_stops_nothing() {
     let good = |seed: u64| seed % 7 != 3;
     let summaries = identify_all(
         &seeds,
-        &Settings::default(),
+        &FitSettings::default(),
         |&seed| Ok::<_, Error>(sheet(seed, good(seed))),
         |&seed, result| (seed, result.map(|fitted| fitted.fit.clone()).map_err(|e| e.to_string())),
     );
@@ -73,7 +73,7 @@ fn ten_thousand_sheets_take_the_memory_of_a_few() {
         let seeds: Vec<u64> = (0..count).collect();
         let misfits = identify_all(
             &seeds,
-            &Settings::default(),
+            &FitSettings::default(),
             |&seed| Ok::<_, Error>(sheet(seed, true)),
             |_, result| result.map_or(f64::NAN, |fitted| fitted.fit.curves[0].misfit),
         );

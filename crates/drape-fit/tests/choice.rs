@@ -5,7 +5,7 @@
 mod random;
 
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
-use drape_fit::{FrictionOrder, LoopModel, Settings, identify_bending};
+use drape_fit::{FitSettings, FrictionOrder, LoopModel, identify_bending};
 use drape_kes::{Curve, Direction, Test};
 use random::Random;
 use rayon::prelude::*;
@@ -46,7 +46,7 @@ fn chosen(reversals: &[f64], friction: impl Fn(&mut Random) -> BlimanSorine + Sy
             let mut random = Random(trial << 32);
             let friction = friction(&mut random);
             let curve = measure(friction, reversals, &mut random);
-            let fit = identify_bending(&curve, &Settings::default()).expect("identified").fit;
+            let fit = identify_bending(&curve, &FitSettings::default()).expect("identified").fit;
             fit.chosen
         })
         .collect();
@@ -103,7 +103,8 @@ fn the_order_can_be_overridden() {
     let friction = second(&mut random);
     let curve = measure(friction, &CYCLE, &mut random);
     for order in FrictionOrder::ALL {
-        let settings = Settings { bending: Some(LoopModel::Linear(order)), ..Settings::default() };
+        let settings =
+            FitSettings { bending: Some(LoopModel::Linear(order)), ..FitSettings::default() };
         let fit = identify_bending(&curve, &settings).expect("identified").fit;
         assert_eq!(fit.candidates.len(), 1);
         assert_eq!(fit.candidates[0].law, order.name());

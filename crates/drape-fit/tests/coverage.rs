@@ -11,7 +11,7 @@ use drape_fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Law, ShearBackbone, ShearLaw, drive,
 };
 use drape_lm::{
-    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, minimise, profile,
+    Covariance, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings, minimise, profile,
 };
 use random::Random;
 use rayon::prelude::*;
@@ -129,7 +129,7 @@ fn trial(case: &Case, noise: f64, seed: u64) -> Vec<Count> {
         .iter()
         .map(|truth| Parameter::new(START * truth).between(1e-3 * truth, 1e3 * truth))
         .collect();
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
     let intervals = profile(&problem, &parameters, &report, &ProfileSettings::default());

@@ -5,7 +5,9 @@
 use std::path::PathBuf;
 
 use drape_fabric::{Law, TractionLaw};
-use drape_fit::{CurveFit, Settings, Toe, TractionModel, identify_loop_bending, identify_tensile};
+use drape_fit::{
+    CurveFit, FitSettings, Toe, TractionModel, identify_loop_bending, identify_tensile,
+};
 use drape_input::Document;
 use drape_kes::{Curve, Sheet, Test};
 
@@ -60,10 +62,10 @@ fn strain_at(law: &TractionLaw, tension: f64) -> f64 {
 
 #[test]
 fn strips_of_two_lengths_agree_to_the_scatter_of_specimens() {
-    let settings = Settings {
+    let settings = FitSettings {
         traction: Some(TractionModel::Primed),
         toe: Some(Toe::Still),
-        ..Settings::default()
+        ..FitSettings::default()
     };
     for direction in ["warp", "weft"] {
         let files = ["2cm", "8cm"].map(|gauge| format!("stretch-{gauge}-{direction}.csv"));
@@ -101,7 +103,7 @@ fn arches_of_one_fabric_scatter_by_more_than_their_errors() {
             .iter()
             .map(|curve| {
                 assert_eq!(curve.test, Test::LoopBending);
-                let fit = identify_loop_bending(&[curve], &Settings::default());
+                let fit = identify_loop_bending(&[curve], &FitSettings::default());
                 let fit = fit.expect("identified").swap_remove(0).fit;
                 println!("gauge {:.3} m", curve.gauge.expect("a gauge"));
                 print(&fit);

@@ -1,7 +1,7 @@
 //! A fabric from values alone, with a note on everything that the sheet does not have.
 
 use drape_fabric::{BendingBackbone, Fabric, Law, drive};
-use drape_fit::{FrictionOrder, LoopModel, Settings, identify, identify_with};
+use drape_fit::{FitSettings, FrictionOrder, LoopModel, identify, identify_with};
 use drape_kes::{BendingPoints, Curve, Direction, Model, ShearPoints, Sheet, Test, Values};
 
 const STEPS: usize = 4000;
@@ -248,7 +248,7 @@ fn a_sheet_asks_for_a_law_and_the_settings_overrule_it() {
     assert!(matches!(bending.backbone, BendingBackbone::Piecewise(_)), "{bending:?}");
     assert_eq!(bending.friction.plateau(), 0.0);
     let model = Some(LoopModel::Linear(FrictionOrder::First));
-    let fit = identify_with(&sheet, &Settings { bending: model, ..Settings::default() });
+    let fit = identify_with(&sheet, &FitSettings { bending: model, ..FitSettings::default() });
     let bending = fit.expect("identified").fabric.warp.bending;
     assert!(matches!(bending.backbone, BendingBackbone::Linear { .. }), "{bending:?}");
 }

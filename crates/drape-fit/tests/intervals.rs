@@ -16,7 +16,7 @@ use drape_fabric::{
     TractionBackbone, TractionLaw, drive,
 };
 use drape_fit::{
-    CurveFit, FrictionOrder, Intervals, LoopModel, Plateau, Settings, Toe, TractionModel,
+    CurveFit, FitSettings, FrictionOrder, Intervals, LoopModel, Plateau, Toe, TractionModel,
     identify_bending, identify_shear, identify_tensile,
 };
 use drape_kes::{Curve, Direction, Test};
@@ -31,12 +31,12 @@ struct Case {
     name: &'static str,
     curve: Curve,
     truth: Vec<(&'static str, f64)>,
-    settings: Settings,
+    settings: FitSettings,
 }
 
 impl Case {
     fn fit(&self, curve: &Curve, intervals: Intervals) -> CurveFit {
-        let settings = Settings { intervals, ..self.settings };
+        let settings = FitSettings { intervals, ..self.settings };
         match curve.test {
             Test::Tensile => identify_tensile(curve, &settings).expect("identified").fit,
             Test::Shear => identify_shear(curve, &settings).expect("identified").fit,
@@ -74,16 +74,16 @@ fn tensile(growth: f64) -> TractionLaw {
 }
 
 fn cases() -> Vec<Case> {
-    let tension = |toe| Settings {
+    let tension = |toe| FitSettings {
         traction: Some(TractionModel::Primed),
         toe: Some(toe),
-        ..Settings::default()
+        ..FitSettings::default()
     };
-    let loops = Settings {
+    let loops = FitSettings {
         bending: Some(LoopModel::Linear(FrictionOrder::First)),
         shear: Some(LoopModel::Linear(FrictionOrder::First)),
         plateau: Some(Plateau::Growing),
-        ..Settings::default()
+        ..FitSettings::default()
     };
     let cycles = history(&[0.0, 0.035, 0.0, 0.05, 0.0], 50);
     let own = [("stiffness", 1.4e4), ("toe_ratio", 0.65), ("toe_strain", 0.018)];

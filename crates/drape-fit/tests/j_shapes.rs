@@ -8,7 +8,7 @@
 
 mod random;
 
-use drape_fit::{Candidate, CurveFit, Settings, ValueEstimate, identify_tensile};
+use drape_fit::{Candidate, CurveFit, FitSettings, ValueEstimate, identify_tensile};
 use drape_kes::{Curve, Direction, Symbol, Test};
 use random::Random;
 
@@ -181,7 +181,7 @@ impl Tally {
         let (mut values, mut held) = (0, 0);
         for _ in 0..draws {
             let Some(curve) = kind.curve(random) else { return };
-            let fit = identify_tensile(&curve, &Settings::default()).expect("a law").fit;
+            let fit = identify_tensile(&curve, &FitSettings::default()).expect("a law").fit;
             self.faults.extend(faults(kind, &fit).into_iter().map(|f| format!("{kind:?}: {f}")));
             values += fit.values.len();
             held += fit.values.iter().filter(|value| holds(value, kind)).count();

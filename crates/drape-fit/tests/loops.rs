@@ -3,7 +3,7 @@
 
 mod random;
 
-use drape_fit::{CurveFit, Settings, identify_bending, identify_shear};
+use drape_fit::{CurveFit, FitSettings, identify_bending, identify_shear};
 use drape_kes::{Curve, Direction, Symbol, Test};
 use random::Random;
 
@@ -50,7 +50,7 @@ impl Loop {
 
     fn fit(&self, random: &mut Random) -> CurveFit {
         let curve = self.curve(random);
-        let settings = Settings::default();
+        let settings = FitSettings::default();
         match self.test {
             Test::Shear => identify_shear(&curve, &settings).expect("a law").fit,
             _ => identify_bending(&curve, &settings).expect("a law").fit,

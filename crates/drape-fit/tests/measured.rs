@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use drape_fabric::{BendingBackbone, TractionBackbone};
 use drape_fit::{
-    Candidate, CurveFit, Fit, Settings, identify, identify_tensile, predict_last_cycle,
+    Candidate, CurveFit, Fit, FitSettings, identify, identify_tensile, predict_last_cycle,
 };
 use drape_kes::{Direction, Sheet, Test};
 
@@ -70,7 +70,7 @@ fn the_last_cycle_of_the_cupro_strips_is_predicted_from_the_first_two() {
     let sheet = sheet("cupro-weave");
     let tensile = sheet.curves.iter().filter(|curve| curve.test == Test::Tensile);
     for curve in tensile {
-        let predictions = predict_last_cycle(curve, &Settings::default()).expect("three cycles");
+        let predictions = predict_last_cycle(curve, &FitSettings::default()).expect("three cycles");
         for p in &predictions {
             println!(
                 "{}, {}: cycles 1 and 2 {:.2} %, cycle 3 {:.2} %, its peak {:+.1} %",
@@ -90,7 +90,7 @@ fn the_last_cycle_of_the_cupro_strips_is_predicted_from_the_first_two() {
             assert!(moving.fitted < still.fitted, "{} {}", moving.fitted, still.fitted);
             assert!(moving.error > still.error, "{} {}", moving.error, still.error);
         }
-        let fit = identify_tensile(curve, &Settings::default()).expect("identified").fit;
+        let fit = identify_tensile(curve, &FitSettings::default()).expect("identified").fit;
         // The selected law follows the strip as closely as the law of the paper does, and predicts
         // its last cycle about as well.
         let chosen = &fit.candidates[fit.chosen];

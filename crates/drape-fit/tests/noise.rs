@@ -6,7 +6,7 @@
 
 mod random;
 
-use drape_fit::{CurveFit, Settings, identify_bending, identify_shear, identify_tensile};
+use drape_fit::{CurveFit, FitSettings, identify_bending, identify_shear, identify_tensile};
 use drape_kes::{Curve, Direction, Symbol, Test};
 use random::Random;
 
@@ -123,7 +123,7 @@ impl Loop {
 }
 
 fn identify(curve: &Curve) -> CurveFit {
-    let settings = Settings::default();
+    let settings = FitSettings::default();
     match curve.test {
         Test::Bending => identify_bending(curve, &settings).expect("a law").fit,
         Test::Shear => identify_shear(curve, &settings).expect("a law").fit,

@@ -13,7 +13,7 @@ use drape_fabric::{
     ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, drive,
 };
 use drape_fit::{
-    CurveFit, FrictionOrder, Identified, LoopModel, Plateau, Settings, Toe, TractionModel,
+    CurveFit, FitSettings, FrictionOrder, Identified, LoopModel, Plateau, Toe, TractionModel,
     identify_bending, identify_shear, identify_tensile,
 };
 use drape_kes::{Curve, Direction, Test};
@@ -28,21 +28,21 @@ const FABRICS: u64 = 100;
 /// digits for that.
 const TOLERANCE: f64 = 1e-6;
 
-fn primed_settings() -> Settings {
-    Settings {
+fn primed_settings() -> FitSettings {
+    FitSettings {
         traction: Some(TractionModel::Primed),
         toe: Some(Toe::Moving),
-        ..Settings::default()
+        ..FitSettings::default()
     }
 }
 
 /// One law for bending and shear, with a plateau that may grow.
-fn loops(model: LoopModel) -> Settings {
-    Settings {
+fn loops(model: LoopModel) -> FitSettings {
+    FitSettings {
         bending: Some(model),
         shear: Some(model),
         plateau: Some(Plateau::Growing),
-        ..Settings::default()
+        ..FitSettings::default()
     }
 }
 
@@ -179,7 +179,10 @@ fn a_polynomial_traction_law_is_recovered() {
             truth,
             identify_tensile(
                 &curve,
-                &Settings { traction: Some(TractionModel::Polynomial), ..Settings::default() },
+                &FitSettings {
+                    traction: Some(TractionModel::Polynomial),
+                    ..FitSettings::default()
+                },
             )
             .expect("identified"),
         )

@@ -3,7 +3,7 @@
 mod random;
 
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
-use drape_fit::{Settings, identify, identify_bending};
+use drape_fit::{FitSettings, identify, identify_bending};
 use drape_kes::{Curve, Direction, Sheet, Test};
 use random::Random;
 
@@ -32,7 +32,7 @@ fn of_specimens(times: &[f64]) -> Curve {
 #[test]
 fn the_scatter_of_specimens_is_in_the_standard_error_and_in_the_fabric() {
     let curve = of_specimens(&[0.9, 1.0, 1.1]);
-    let fit = identify_bending(&curve, &Settings::default()).expect("a law").fit;
+    let fit = identify_bending(&curve, &FitSettings::default()).expect("a law").fit;
     let rigidity = &fit.parameters[0];
     assert_eq!((rigidity.name, fit.repeats), ("rigidity", 3));
     assert!((rigidity.value / RIGIDITY - 1.0).abs() < 1e-6, "{rigidity:?}");
@@ -56,7 +56,8 @@ fn the_intervals_of_three_specimens_contain_the_fabric_as_often_as_they_say() {
     let trials = 200;
     let contained = (0..trials).filter(|_| {
         let times: Vec<f64> = (0..3).map(|_| 1.0 + SCATTER * random.normal()).collect();
-        let fit = identify_bending(&of_specimens(&times), &Settings::default()).expect("a law").fit;
+        let fit =
+            identify_bending(&of_specimens(&times), &FitSettings::default()).expect("a law").fit;
         let [low, high] = fit.parameters[0].interval.clone().expect("an interval");
         (low..=high).contains(&RIGIDITY)
     });

@@ -6,7 +6,7 @@
 
 mod random;
 
-use drape_fit::{Error, Settings, compare_values, fabric_values, identify};
+use drape_fit::{Error, FitSettings, compare_values, fabric_values, identify};
 use drape_kes::{Curve, Direction, Sheet, Symbol, Test, Values};
 use random::Random;
 
@@ -71,7 +71,7 @@ fn round_trips(trials: u64) {
         sheet.t = random.coin().then(|| random.logarithmic(0.1, 1.5));
         let fit =
             identify(&sheet).unwrap_or_else(|error| panic!("trial {trial}: {error}; {sheet:?}"));
-        let reading = Settings::default().evaluation_points(&sheet);
+        let reading = FitSettings::default().evaluation_points(&sheet);
         for direction in [Direction::Warp, Direction::Weft] {
             let found = fabric_values(&fit.fabric, direction, &reading);
             for symbol in Symbol::ALL {
@@ -160,7 +160,7 @@ fn a_sheet_that_disagrees_with_its_curve_is_named() {
     );
     sheet.curves.push(curve);
     let fit = identify(&sheet).expect("identified");
-    let rows = compare_values(&sheet, &fit.fabric, &Settings::default());
+    let rows = compare_values(&sheet, &fit.fabric, &FitSettings::default());
     let warnings: Vec<String> = rows.iter().filter_map(|row| row.warning()).collect();
     assert!(
         matches!(&*warnings, [one] if one.starts_with("warp 2HB: the sheet says 0.0800")),

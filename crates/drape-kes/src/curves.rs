@@ -13,7 +13,7 @@
 //! curves from files, drape-fit fits laws to them. The chapter reads no file and fits nothing.
 //!
 //! * `branch`: reversals and branches of a history.
-//! * `curve`: the curve itself; `prepared`: a curve as a law is fitted to it;
+//! * `curve`: the curve itself; `prepared`: a curve as a law is fitted to it, with its `preparation`;
 //!   `steady`: its path freed from noise; `mean`: the mean of repeats.
 //! * `loop_values`, `tensile_values`: values of one test, in SI.
 //! * `evaluation`: all values of a curve, in laboratory units.
@@ -23,6 +23,7 @@ pub(crate) mod curve;
 pub(crate) mod evaluation;
 pub(crate) mod loop_values;
 pub(crate) mod mean;
+pub(crate) mod preparation;
 pub(crate) mod prepared;
 pub(crate) mod steady;
 pub(crate) mod tensile_values;

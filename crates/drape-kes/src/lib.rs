@@ -33,7 +33,7 @@ pub use curves::branch::{Branch, reversals};
 pub use curves::curve::{Curve, Extent};
 pub use curves::evaluation::{CurveValue, EvaluationPoints};
 pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
-pub use curves::prepared::{Preparation, Rupture};
+pub use curves::preparation::{Preparation, Rupture};
 pub use curves::steady::SteadyPath;
 pub use curves::tensile_values::TensileValues;
 pub use error::Error;

@@ -1,8 +1,8 @@
 //! Sheets of a laboratory: TOML with KES values, and tables of curves beside it, checked and read.
 //!
 //! ```text
-//! sheet.toml ─ section ─┬─ values (plausible) ──────────────┐
-//!                       └─ [[curve]] ─ axis ─ (tables) ─ convert ─ suspect ─ Curve ─ Sheet
+//! sheet.toml ─ section ─┬─ values (checks) ─────────────────┐
+//!                       └─ [[curve]] ─ axis ─ (tables) ─ convert ─ checks ─ Curve ─ Sheet
 //! ```
 //!
 //! Units are converted here and nowhere later. Whatever is wrong is collected, not returned at the
@@ -14,24 +14,22 @@
 //! * `spelling`, `value_keys`: the values; `compression`: what those of KES-FB3 give together;
 //!   `listed`: all of them, with their use.
 //! * `schema`: JSON Schema of all that.
-//! * `plausible`, `suspect`: values and curves that cannot be right.
+//! * `checks`: values and curves that cannot be right, and the load of the tensile test.
 //! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `repeats`: curves of specimens.
-//! * `equal_load`: the load of the tensile test; `model`, `sheet`: the sheet.
+//! * `model`, `sheet`: the sheet.
 
 pub(crate) mod axis;
+pub(crate) mod checks;
 pub(crate) mod compression;
 pub(crate) mod convert;
 pub(crate) mod curve_file;
-pub(crate) mod equal_load;
 pub(crate) mod findings;
 pub(crate) mod listed;
 pub(crate) mod model;
-pub(crate) mod plausible;
 pub(crate) mod repeats;
 #[cfg(feature = "schema")]
 pub(crate) mod schema;
 pub(crate) mod section;
 pub(crate) mod sheet;
 pub(crate) mod spelling;
-pub(crate) mod suspect;
 pub(crate) mod value_keys;

@@ -1,7 +1,7 @@
 //! NIST reference problems from both starts: the minimiser alone, standard errors, profiles.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use drape_lm::{Covariance, Loss, ProfileSettings, Settings, minimise, profile};
+use drape_lm::{Covariance, Loss, MinimiserSettings, ProfileSettings, minimise, profile};
 
 #[path = "../tests/nist/model.rs"]
 mod model;
@@ -23,7 +23,7 @@ fn all_starts(c: &mut Criterion) {
             b.iter(|| {
                 let solve = |problem: &Nist, start: usize| {
                     let parameters = problem.parameters(start);
-                    minimise(problem, &parameters, &Settings::default()).sum
+                    minimise(problem, &parameters, &MinimiserSettings::default()).sum
                 };
                 let sums = problems.iter().map(|p| solve(p, 0) + solve(p, 1));
                 sums.sum::<f64>()
@@ -37,7 +37,7 @@ fn uncertainty(c: &mut Criterion) {
     let problem = Nist::all().into_iter().find(|p| p.name == "Hahn1");
     let problem = problem.expect("Hahn1 is one of them");
     let parameters = problem.parameters(1);
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     let mut group = c.benchmark_group("Hahn1, 7 parameters, 236 residuals");
     group.bench_function("fit", |b| {

@@ -6,8 +6,8 @@
 
 use drape_lm::nalgebra::DMatrix;
 use drape_lm::{
-    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise,
-    profile,
+    Covariance, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings, Undetermined,
+    minimise, profile,
 };
 
 /// Pressure and volume of a monomolecular adsorption.
@@ -58,7 +58,7 @@ impl Problem for Misra1a {
 fn main() -> Result<(), Undetermined> {
     // The first of the two certified starts, which is far from the solution.
     let start = [500.0, 1e-4].map(Parameter::new);
-    let report = minimise(&Misra1a, &start, &Settings::default());
+    let report = minimise(&Misra1a, &start, &MinimiserSettings::default());
     let covariance = Covariance::of(&Misra1a, &start, &report, Loss::Squares);
     let intervals = profile(&Misra1a, &start, &report, &ProfileSettings::default());
     assert!(report.stop.converged());

@@ -18,7 +18,7 @@ use crate::minimise::Report;
 /// are correlated, and differences come out too large.
 ///
 /// ```
-/// # use drape_lm::{Parameter, Problem, Settings, akaike, minimise};
+/// # use drape_lm::{Parameter, Problem, MinimiserSettings, akaike, minimise};
 /// # struct Mean([f64; 6]);
 /// # impl Problem for Mean {
 /// #     fn residual_count(&self) -> usize { 6 }
@@ -27,7 +27,7 @@ use crate::minimise::Report;
 /// #     }
 /// # }
 /// # let data = [1.0, 1.2, 0.9, 1.1, 1.0, 0.8];
-/// let fit = minimise(&Mean(data), &[Parameter::new(0.0)], &Settings::default());
+/// let fit = minimise(&Mean(data), &[Parameter::new(0.0)], &MinimiserSettings::default());
 /// let criterion = akaike(&fit, 6, 1).expect("six residuals are enough for one parameter");
 /// assert!(criterion < 0.0);
 /// ```

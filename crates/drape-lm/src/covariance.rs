@@ -66,7 +66,7 @@ pub enum Undetermined {
 /// data systematically the errors come out too small.
 ///
 /// ```
-/// # use drape_lm::{Covariance, Loss, Parameter, Problem, Settings, minimise};
+/// # use drape_lm::{Covariance, Loss, Parameter, Problem, MinimiserSettings, minimise};
 /// # struct Mean([f64; 4]);
 /// # impl Problem for Mean {
 /// #     fn residual_count(&self) -> usize { 4 }
@@ -77,7 +77,7 @@ pub enum Undetermined {
 /// // The mean of four measurements: its error is their standard deviation over √4.
 /// let problem = Mean([1.0, 2.0, 3.0, 4.0]);
 /// let start = [Parameter::new(0.0)];
-/// let report = minimise(&problem, &start, &Settings::default());
+/// let report = minimise(&problem, &start, &MinimiserSettings::default());
 /// let covariance = Covariance::of(&problem, &start, &report, Loss::Squares);
 /// let error = covariance.standard_error(0)?;
 /// assert!((error - (5.0f64 / 3.0).sqrt() / 2.0).abs() < 1e-9);

@@ -29,7 +29,7 @@ pub use akaike::akaike;
 pub use covariance::{Covariance, Undetermined};
 pub use linked::Linked;
 pub use loss::Loss;
-pub use minimise::{Report, Settings, Stop, minimise};
+pub use minimise::{MinimiserSettings, Report, Stop, minimise};
 pub use nalgebra;
 pub use problem::{Parameter, Problem};
 pub use profile::{End, Interval, ProfileSettings, profile};

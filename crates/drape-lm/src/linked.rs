@@ -22,7 +22,7 @@ type Rule<'a> = Box<dyn Fn(&[f64]) -> f64 + Sync + 'a>;
 /// where the parameters would be inadmissible.
 ///
 /// ```
-/// # use drape_lm::{Linked, Parameter, Problem, Settings, minimise};
+/// # use drape_lm::{Linked, Parameter, Problem, MinimiserSettings, minimise};
 /// # struct Line;
 /// # impl Problem for Line {
 /// #     fn residual_count(&self) -> usize { 3 }
@@ -33,7 +33,7 @@ type Rule<'a> = Box<dyn Fn(&[f64]) -> f64 + Sync + 'a>;
 /// // A line whose intercept is twice its slope.
 /// let linked = Linked::new(&Line).scaled(0, 1, 2.0);
 /// let start = linked.parameters(&[Parameter::new(0.0), Parameter::new(1.0)]);
-/// let report = minimise(&linked, &start, &Settings::default());
+/// let report = minimise(&linked, &start, &MinimiserSettings::default());
 /// let all = linked.complete(&report.parameters);
 /// assert!((all[0] - 4.0).abs() < 1e-12 && (all[1] - 2.0).abs() < 1e-12);
 /// ```

@@ -56,13 +56,13 @@ const POLISH_LENGTH: f64 = 1e-12;
 /// Stopping criteria and loss.
 ///
 /// ```
-/// use drape_lm::{Loss, Settings};
+/// use drape_lm::{Loss, MinimiserSettings};
 ///
-/// let settings = Settings { loss: Loss::Huber { size: 0.1 }, ..Settings::default() };
+/// let settings = MinimiserSettings { loss: Loss::Huber { size: 0.1 }, ..MinimiserSettings::default() };
 /// assert!(settings.polish);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct MinimiserSettings {
     /// Relative reduction of the sum at which to stop, for the last step and for the next one
     /// predicted.
     pub reduction: f64,
@@ -78,7 +78,7 @@ pub struct Settings {
     pub polish: bool,
 }
 
-impl Default for Settings {
+impl Default for MinimiserSettings {
     /// Returns least squares down to rounding: the problems here are small, and the last digits
     /// cost little.
     fn default() -> Self {
@@ -161,7 +161,7 @@ pub struct Report {
 /// model still does.
 ///
 /// ```
-/// use drape_lm::{Parameter, Problem, Settings, minimise};
+/// use drape_lm::{Parameter, Problem, MinimiserSettings, minimise};
 ///
 /// /// Rosenbrock's valley.
 /// struct Valley;
@@ -174,11 +174,15 @@ pub struct Report {
 /// }
 ///
 /// let start = [-1.2, 1.0].map(Parameter::new);
-/// let report = minimise(&Valley, &start, &Settings::default());
+/// let report = minimise(&Valley, &start, &MinimiserSettings::default());
 /// assert!(report.stop.converged() && (report.parameters[1] - 1.0).abs() < 1e-10);
 /// ```
 #[must_use]
-pub fn minimise(problem: &impl Problem, parameters: &[Parameter], settings: &Settings) -> Report {
+pub fn minimise(
+    problem: &impl Problem,
+    parameters: &[Parameter],
+    settings: &MinimiserSettings,
+) -> Report {
     let start: Vec<f64> = parameters.iter().map(|p| p.clamp(p.start)).collect();
     let mut iterate = Iterate::new(problem, parameters, &start, settings.loss);
     if parameters.is_empty() || iterate.residuals.is_empty() {
@@ -270,7 +274,11 @@ fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) ->
 
 /// Ends where no step can be taken: at a minimum, unless the gradient or the residuals are too
 /// large for one.
-fn no_step(iterate: Iterate<impl Problem>, settings: &Settings, iterations: usize) -> Report {
+fn no_step(
+    iterate: Iterate<impl Problem>,
+    settings: &MinimiserSettings,
+    iterations: usize,
+) -> Report {
     let floor = RESIDUAL_ROUNDING * iterate.length(&iterate.values);
     if iterate.gradient() > SLOPING && iterate.residuals.norm() > floor {
         return report(&iterate, iterations, Stop::Stalled);
@@ -281,7 +289,7 @@ fn no_step(iterate: Iterate<impl Problem>, settings: &Settings, iterations: usiz
 /// Ends with undamped steps, as long as they shrink and the sum rises by no more than rounding.
 fn polish(
     mut iterate: Iterate<impl Problem>,
-    settings: &Settings,
+    settings: &MinimiserSettings,
     iterations: usize,
     stop: Stop,
 ) -> Report {

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 /// Residuals as a function of parameters.
 ///
 /// ```
-/// use drape_lm::{Parameter, Problem, Settings, minimise};
+/// use drape_lm::{Parameter, Problem, MinimiserSettings, minimise};
 ///
 /// /// A straight line through the origin.
 /// struct Line;
@@ -21,7 +21,7 @@ use nalgebra::DMatrix;
 ///     }
 /// }
 ///
-/// let report = minimise(&Line, &[Parameter::new(1.0)], &Settings::default());
+/// let report = minimise(&Line, &[Parameter::new(1.0)], &MinimiserSettings::default());
 /// assert!((report.parameters[0] - 27.9 / 14.0).abs() < 1e-12);
 /// ```
 pub trait Problem {

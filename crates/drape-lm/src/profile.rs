@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 
 use crate::covariance::{Covariance, Undetermined};
-use crate::minimise::{Report, Settings, Stop, minimise};
+use crate::minimise::{MinimiserSettings, Report, Stop, minimise};
 use crate::problem::{Parameter, Problem};
 use crate::student::student_quantile;
 
@@ -31,20 +31,20 @@ const FIT_TOLERANCE: f64 = 1e-10;
 ///
 /// ```
 /// let settings = drape_lm::ProfileSettings { level: 0.99, ..Default::default() };
-/// assert_eq!(settings.minimiser, drape_lm::Settings::default());
+/// assert_eq!(settings.minimiser, drape_lm::MinimiserSettings::default());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfileSettings {
     /// Probability that an interval contains the true value, 0 to 1.
     pub level: f64,
-    /// Settings with which the fit was made.
-    pub minimiser: Settings,
+    /// MinimiserSettings with which the fit was made.
+    pub minimiser: MinimiserSettings,
 }
 
 impl Default for ProfileSettings {
     /// Returns a level of 95 % and the default settings of the minimiser.
     fn default() -> Self {
-        Self { level: 0.95, minimiser: Settings::default() }
+        Self { level: 0.95, minimiser: MinimiserSettings::default() }
     }
 }
 
@@ -122,7 +122,7 @@ pub fn profile(
         problem,
         parameters: &parameters[..count],
         report,
-        settings: Settings {
+        settings: MinimiserSettings {
             reduction: FIT_TOLERANCE,
             step: FIT_TOLERANCE,
             polish: false,
@@ -138,7 +138,7 @@ struct Profile<'a, P> {
     problem: &'a P,
     parameters: &'a [Parameter],
     report: &'a Report,
-    settings: Settings,
+    settings: MinimiserSettings,
     quantile: f64,
     covariance: &'a Covariance,
 }

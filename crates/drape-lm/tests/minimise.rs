@@ -1,6 +1,6 @@
 //! The minimiser against problems whose minima are known by other means.
 
-use drape_lm::{Parameter, Problem, Settings, Stop, minimise};
+use drape_lm::{MinimiserSettings, Parameter, Problem, Stop, minimise};
 use nalgebra::{DMatrix, DVector};
 
 /// Problem from a function of the parameters.
@@ -36,7 +36,7 @@ fn rosenbrocks_valley_is_followed_to_its_end() {
         r[0] = 10.0 * (p[1] - p[0] * p[0]);
         r[1] = 1.0 - p[0];
     });
-    let report = minimise(&valley, &starts(&[-1.2, 1.0]), &Settings::default());
+    let report = minimise(&valley, &starts(&[-1.2, 1.0]), &MinimiserSettings::default());
     assert!(report.stop.converged(), "{report:?}");
     for value in &report.parameters {
         assert!((value - 1.0).abs() < 1e-10, "{report:?}");
@@ -53,7 +53,8 @@ fn powells_singular_problem_is_solved_as_far_as_its_singularity_allows() {
         r[2] = (p[1] - 2.0 * p[2]).powi(2);
         r[3] = 10f64.sqrt() * (p[0] - p[3]).powi(2);
     });
-    let report = minimise(&singular, &starts(&[3.0, -1.0, 0.0, 1.0]), &Settings::default());
+    let report =
+        minimise(&singular, &starts(&[3.0, -1.0, 0.0, 1.0]), &MinimiserSettings::default());
     assert!(report.rms < 1e-12, "{report:?}");
     assert!(report.parameters.iter().all(|value| value.abs() < 1e-5), "{report:?}");
 }
@@ -73,7 +74,7 @@ fn a_linear_fit_with_weights_solves_the_normal_equations() {
             }
         },
     };
-    let report = minimise(&line, &starts(&[0.0, 0.0]), &Settings::default());
+    let report = minimise(&line, &starts(&[0.0, 0.0]), &MinimiserSettings::default());
     let a = DMatrix::from_fn(20, 2, |i, j| if j == 0 { 1.0 } else { x[i] });
     let w = DMatrix::from_diagonal(&DVector::from_vec(weights));
     let normal = a.transpose() * &w * &a;
@@ -93,10 +94,10 @@ fn a_bound_holds_and_the_others_still_reach_their_conditional_minimum() {
         r[1] = p[0] + p[1] - 5.0;
         r[2] = p[1] - 4.0;
     });
-    let free = minimise(&plane, &starts(&[0.0, 0.0]), &Settings::default());
+    let free = minimise(&plane, &starts(&[0.0, 0.0]), &MinimiserSettings::default());
     assert!((free.parameters[0] - 7.0 / 3.0).abs() < 1e-9, "{free:?}");
     let bounded = [Parameter::new(0.0).between(-1.0, 2.0), Parameter::new(0.0)];
-    let report = minimise(&plane, &bounded, &Settings::default());
+    let report = minimise(&plane, &bounded, &MinimiserSettings::default());
     assert_eq!(report.parameters[0], 2.0);
     assert!((report.parameters[1] - 3.5).abs() < 1e-9, "{report:?}");
     assert!(report.stop.converged(), "{report:?}");
@@ -111,7 +112,7 @@ fn a_start_at_a_bound_leaves_it_when_the_minimum_is_inside() {
         }
     });
     let start = [Parameter::new(0.0).between(0.0, 10.0), Parameter::new(5.0).between(0.1, 5.0)];
-    let report = minimise(&decay, &start, &Settings::default());
+    let report = minimise(&decay, &start, &MinimiserSettings::default());
     assert!((report.parameters[0] / 2.0 - 1.0).abs() < 1e-8, "{report:?}");
     assert!((report.parameters[1] / 0.7 - 1.0).abs() < 1e-8, "{report:?}");
 }
@@ -125,7 +126,7 @@ fn units_of_the_parameters_do_not_matter() {
                 *r = p[0] * x.powf(p[1] * unit) - 3.0 * x.powf(0.6);
             }
         });
-        let report = minimise(&power, &starts(&[1.0, 1.0 / unit]), &Settings::default());
+        let report = minimise(&power, &starts(&[1.0, 1.0 / unit]), &MinimiserSettings::default());
         (report.parameters[0], report.parameters[1] * unit, report.iterations)
     };
     let (a, b, steps) = solve(1.0);
@@ -139,9 +140,9 @@ fn units_of_the_parameters_do_not_matter() {
 fn a_trial_without_a_value_is_refused_and_the_search_goes_on() {
     // The full first step from 0.1 would take the logarithm of a negative number.
     let log = model(1, |p, r| r[0] = p[0].ln());
-    let report = minimise(&log, &starts(&[4.0]), &Settings::default());
+    let report = minimise(&log, &starts(&[4.0]), &MinimiserSettings::default());
     assert!((report.parameters[0] - 1.0).abs() < 1e-9, "{report:?}");
-    let report = minimise(&log, &starts(&[-1.0]), &Settings::default());
+    let report = minimise(&log, &starts(&[-1.0]), &MinimiserSettings::default());
     assert_eq!(report.stop, Stop::NotFinite);
 }
 
@@ -150,7 +151,7 @@ fn a_minimum_at_a_jump_is_no_convergence() {
     // The residual jumps at its minimum: no step, however short, achieves the predicted
     // reduction.
     let jump = model(1, |p, r| r[0] = if p[0] > 0.3 { 1.0 + p[0] } else { 5.0 });
-    let report = minimise(&jump, &starts(&[2.0]), &Settings::default());
+    let report = minimise(&jump, &starts(&[2.0]), &MinimiserSettings::default());
     assert_eq!(report.stop, Stop::Stalled, "{report:?}");
     assert!(!report.stop.converged());
     // Within the difference step of the jump the slope is that of the jump, and leads away from it.
@@ -163,7 +164,7 @@ fn a_parameter_without_effect_stays_where_it_started() {
         r[0] = p[0] - 1.0;
         r[1] = 2.0 * p[0] - 2.0;
     });
-    let report = minimise(&first, &starts(&[0.0, 7.0]), &Settings::default());
+    let report = minimise(&first, &starts(&[0.0, 7.0]), &MinimiserSettings::default());
     assert!((report.parameters[0] - 1.0).abs() < 1e-12, "{report:?}");
     assert_eq!(report.parameters[1], 7.0);
 }
@@ -184,7 +185,7 @@ fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
             true
         }
     }
-    let report = minimise(&Analytic, &starts(&[-1.2, 1.0]), &Settings::default());
+    let report = minimise(&Analytic, &starts(&[-1.2, 1.0]), &MinimiserSettings::default());
     assert!(report.stop.converged(), "{report:?}");
     assert!(report.parameters.iter().all(|value| (value - 1.0).abs() < 1e-12), "{report:?}");
     // With an analytic Jacobian each iteration costs one evaluation, or two with the second-order
@@ -201,7 +202,7 @@ fn a_lower_bound_holds_as_an_upper_one_does() {
         r[2] = p[1] - 4.0;
     });
     let bounded = [Parameter::new(0.0).between(-2.0, 1.0), Parameter::new(0.0)];
-    let report = minimise(&plane, &bounded, &Settings::default());
+    let report = minimise(&plane, &bounded, &MinimiserSettings::default());
     assert_eq!(report.parameters[0], -2.0);
     assert!((report.parameters[1] - 3.5).abs() < 1e-9, "{report:?}");
     assert!(report.stop.converged(), "{report:?}");
@@ -219,7 +220,8 @@ fn parabola() -> Model<impl Fn(&[f64], &mut [f64])> {
 #[test]
 fn polish_steps_go_on_where_each_gains_a_factor_of_two_only() {
     let error = |polish: bool| {
-        let settings = Settings { reduction: 1e-6, polish, ..Settings::default() };
+        let settings =
+            MinimiserSettings { reduction: 1e-6, polish, ..MinimiserSettings::default() };
         let report = minimise(&parabola(), &starts(&[1.0]), &settings);
         assert!(report.stop.converged(), "{report:?}");
         (report.parameters[0] - 0.5).abs()
@@ -232,13 +234,13 @@ fn polish_steps_go_on_where_each_gains_a_factor_of_two_only() {
 /// Checks the number of steps that a fit reports when it stops because its sum no longer falls.
 fn check_steps(problem: &impl Problem, reduction: f64) {
     let fit = |iterations: usize| {
-        let settings = Settings {
+        let settings = MinimiserSettings {
             reduction,
             iterations,
             step: 0.0,
             gradient: 0.0,
             polish: false,
-            ..Settings::default()
+            ..MinimiserSettings::default()
         };
         minimise(problem, &starts(&[1.0]), &settings)
     };
@@ -270,7 +272,7 @@ fn a_step_uphill_of_forward_differences_is_tried_again_with_central_ones() {
         r[1] = p[0];
     });
     let start = [Parameter::new(-0.02).with_scale(1e9)];
-    let report = minimise(&bowl, &start, &Settings::default());
+    let report = minimise(&bowl, &start, &MinimiserSettings::default());
     assert!(report.stop.converged(), "{report:?}");
     assert!(report.parameters[0].abs() < 1e-9, "{report:?}");
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use drape::file::FileKind;
 use drape::fit::{
-    FittedSheet, FrictionOrder, Intervals, LoopModel, Settings, TractionModel, identify_all,
+    FitSettings, FittedSheet, FrictionOrder, Intervals, LoopModel, TractionModel, identify_all,
     identify_with, parameter_key,
 };
 use drape::input::{Diagnostic, Document};
@@ -56,7 +56,7 @@ pub(crate) struct Laws {
 }
 
 impl Laws {
-    fn settings(&self) -> PyResult<Settings> {
+    fn settings(&self) -> PyResult<FitSettings> {
         let traction = match self.traction.as_deref() {
             None => None,
             Some("exponential") => Some(TractionModel::Exponential),
@@ -66,23 +66,24 @@ impl Laws {
                 return Err(unknown("traction", other, "exponential, primed, polynomial"));
             }
         };
-        Ok(Settings {
+        Ok(FitSettings {
             traction,
             bending: loop_model("bending", self.bending.as_deref())?,
             shear: loop_model("shear", self.shear.as_deref())?,
             intervals: if self.profile { Intervals::Profile } else { Intervals::Wald },
-            ..Settings::default()
+            ..FitSettings::default()
         })
     }
 }
 
 fn loop_model(test: &str, name: Option<&str>) -> PyResult<Option<LoopModel>> {
-    let known = "first-order, parallel, second-order, breen-1994";
+    let known = "first-order, parallel, second-order, varying, breen-1994";
     Ok(Some(match name {
         None => return Ok(None),
         Some("first-order") => LoopModel::Linear(FrictionOrder::First),
         Some("parallel") => LoopModel::Linear(FrictionOrder::Parallel),
         Some("second-order") => LoopModel::Linear(FrictionOrder::Second),
+        Some("varying") => LoopModel::Varying,
         Some("breen-1994") => LoopModel::Piecewise,
         Some(other) => return Err(unknown(test, other, known)),
     }))
@@ -165,7 +166,7 @@ impl Fit {
     fn new(
         sheet: &drape::kes::Sheet,
         fit: drape::fit::Fit,
-        settings: &Settings,
+        settings: &FitSettings,
     ) -> Result<Self, String> {
         let page = fit_page(sheet, &fit, settings);
         page.check().map_err(|error| error.to_string())?;

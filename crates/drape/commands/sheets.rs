@@ -68,7 +68,9 @@ pub(crate) fn is_of_tables(path: &Path) -> bool {
         let is_sheet = path.join(SHEET_FILE).exists();
         return !is_sheet && search(path, DEEPEST, &mut found).is_ok() && found.is_empty();
     }
-    !input::is_standard(path) && SheetDraft::reads(path)
+    let kinds = [FileKind::Table, FileKind::Workbook, FileKind::Archive];
+    let is_other = FileKind::of(path).is_some_and(|kind| !kinds.contains(&kind));
+    !input::is_standard(path) && !is_other && SheetDraft::reads(path)
 }
 
 /// Returns the name that the files of a sheet get: its folder's, or the file's.

@@ -1,7 +1,7 @@
 //! Page of `drape fabric compare`: what was measured on fabrics, and their laws beside it.
 
 use crate::fabric::Fabric;
-use crate::fit::{Settings, fabric_values};
+use crate::fit::{FitSettings, fabric_values};
 use crate::kes::{Curve, Direction, EvaluationPoints, Sheet, Symbol, Test};
 use crate::report::plot::{OverlayPlot, Trace};
 use crate::report::{ComparePage, ComparedNumber, ComparedValue, FabricName, Units};
@@ -34,7 +34,7 @@ pub struct ComparedFabric<'a> {
 impl ComparedFabric<'_> {
     /// Returns the points at which its KES values are read.
     fn points(&self) -> EvaluationPoints {
-        Settings::default().evaluation_points(self.sheet.unwrap_or(&Sheet::default()))
+        FitSettings::default().evaluation_points(self.sheet.unwrap_or(&Sheet::default()))
     }
 
     /// Returns the numbers of a KES value, in SI.

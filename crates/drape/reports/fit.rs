@@ -1,15 +1,14 @@
 //! Report of a fit: every law with its loop, its parameters and their intervals, and what was
 //! assumed.
 
-use crate::fit::{Choice, CurveFit, Estimate, Fit, Settings, Undetermined};
+use crate::fit::{Choice, CurveFit, Estimate, Fit, FitSettings};
 use crate::kes::{Curve, Sheet, Test};
 use crate::lm::Stop;
 use crate::report::plot::{Correlation, LoopPlot};
-use crate::report::{
-    FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
-};
+use crate::report::{FitPage, LawReport, ModelScore, Parameter, Quantity, Statistics, Units};
 
 use super::VERSION;
+use super::interval::{interval, is_shown};
 use super::kes_value::{self, SheetValues};
 use super::loop_plot::{Loads, loop_plot};
 use super::quantity;
@@ -18,7 +17,7 @@ use super::value_law::value_laws;
 
 /// Returns the report of a fit: all that shows whether it can be trusted.
 #[must_use]
-pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage {
+pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> FitPage {
     let given = |name: &str, value: Option<f64>, taken: f64, units: Units| Quantity {
         name: name.into(),
         value: value.unwrap_or(taken),
@@ -115,25 +114,6 @@ fn parameter(test: Test, estimate: &Estimate) -> Parameter {
         interval: interval(&estimate.interval, 1.0),
         units: named.units,
         incidental: named.incidental,
-    }
-}
-
-/// Largest standard error and end of an interval that tells something, in SI.
-const LARGEST: f64 = 1e30;
-
-fn is_shown(number: &f64) -> bool {
-    number.abs() <= LARGEST
-}
-
-/// Returns an interval in SI, where `factor` is its unit; one without bounds is none.
-pub(super) fn interval(interval: &Result<[f64; 2], Undetermined>, factor: f64) -> Interval {
-    match interval {
-        Ok(ends) if !ends.iter().all(|end| is_shown(&(end * factor))) => {
-            Interval::Unknown { reason: "not determined by this curve".into() }
-        }
-        Ok([lower, upper]) => Interval::Between { lower: lower * factor, upper: upper * factor },
-        Err(Undetermined::Fixed) => Interval::Fixed { reason: Undetermined::Fixed.to_string() },
-        Err(unknown) => Interval::Unknown { reason: unknown.to_string() },
     }
 }
 

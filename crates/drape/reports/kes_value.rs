@@ -1,11 +1,11 @@
 //! KES values as pages show them: in SI, with the unit of the laboratory beside it.
 
 use crate::fabric::Fabric;
-use crate::fit::{Settings, ValueComparison, ValueEstimate, compare_values, fabric_values};
+use crate::fit::{FitSettings, ValueComparison, ValueEstimate, compare_values, fabric_values};
 use crate::kes::{Direction, Sheet, SheetValue, Symbol};
 use crate::report::{ComparedNumber, ComparedValue, KesValue, LawValue, Quantity, Units};
 
-use super::fit::interval;
+use super::interval::interval;
 use super::quantity;
 
 /// Name of a KES value in words, and its units.
@@ -37,7 +37,7 @@ pub struct SheetValues {
 }
 
 /// Returns the values that a sheet or its curves have, each with that of the fitted fabric.
-pub fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> SheetValues {
+pub fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &FitSettings) -> SheetValues {
     let rows = compare_values(sheet, fabric, settings);
     let warnings = rows.iter().filter_map(ValueComparison::warning).collect();
     let known = rows.into_iter().filter(|row| row.sheet.is_some() || row.curve.is_ok());
@@ -105,7 +105,7 @@ pub fn units(symbol: &str) -> Units {
 
 /// Returns the values of a fabric in a direction.
 pub fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
-    let points = Settings::default().evaluation_points(&Sheet::default());
+    let points = FitSettings::default().evaluation_points(&Sheet::default());
     let values = fabric_values(fabric, direction, &points);
     Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
 }

@@ -1,7 +1,7 @@
 //! Laws that no curve gives: the loop of each along its instrument's test, the values of the sheet
 //! marked in it, and what of it was assumed.
 
-use crate::fit::{Fit, Settings};
+use crate::fit::{Fit, FitSettings};
 use crate::kes::{BendingPoints, Curve, Direction, Sheet, Symbol, Test, Values};
 use crate::report::plot::Mark;
 use crate::report::{Interval, LawReport};
@@ -15,13 +15,13 @@ const NORMAL_95: f64 = 1.96;
 /// Law of a test and direction, with the values that it comes from.
 struct ValueLaw<'a> {
     sheet: &'a Sheet,
-    settings: &'a Settings,
+    settings: &'a FitSettings,
     test: Test,
     direction: Direction,
 }
 
 /// Returns the laws of a fit that no curve of the sheet gives.
-pub fn value_laws(sheet: &Sheet, fit: &Fit, settings: &Settings) -> Vec<LawReport> {
+pub fn value_laws(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> Vec<LawReport> {
     let tests = [Test::Tensile, Test::Bending, Test::Shear];
     let laws = tests.into_iter().flat_map(|test| {
         // One law of shear for both directions.

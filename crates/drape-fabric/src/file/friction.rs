@@ -4,7 +4,7 @@ use drape_hysteresis::{BlimanSorine, Dahl};
 use drape_input::{Dimension, Given};
 use serde::{Deserialize, Serialize};
 
-use crate::file::Report;
+use crate::file::report::Report;
 
 /// Friction element: a load, and a deformation.
 #[derive(Serialize, Deserialize)]

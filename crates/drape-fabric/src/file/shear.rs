@@ -3,9 +3,9 @@
 use drape_input::{ForcePerWidth, Given, Ratio, ShearStiffness};
 use serde::{Deserialize, Serialize};
 
-use crate::file::Report;
 use crate::file::friction::{ElementFile, elements, friction};
 use crate::file::piecewise::PiecewiseFile;
+use crate::file::report::Report;
 use crate::file::varying::VaryingFile;
 use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
 

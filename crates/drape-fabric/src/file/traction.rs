@@ -3,8 +3,8 @@
 use drape_input::{ForcePerWidth, Given, Ratio};
 use serde::{Deserialize, Serialize};
 
-use crate::file::Report;
 use crate::file::friction::{ElementFile, elements, friction};
+use crate::file::report::Report;
 use crate::laws::traction::buckling::Buckling;
 use crate::laws::traction::exponential::ExponentialToe;
 #[cfg(feature = "schema")]

@@ -15,8 +15,8 @@ use crate::forward::loop_drive::drive_loop;
 use crate::regression::curve_fit::{COMPARED_POINTS, FitOptions, Identified, fit_curve};
 use crate::regression::functional::loop_functionals;
 use crate::regression::repeats::with_scatter;
-use crate::regression::selection::CandidateModel;
-use crate::settings::Settings;
+use crate::regression::selection::{CandidateModel, select};
+use crate::settings::FitSettings;
 use crate::settings::model::{LoopModel, Plateau};
 use crate::values::of_law::bending_values;
 
@@ -29,7 +29,7 @@ use crate::values::of_law::bending_values;
 ///
 /// ```
 /// use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
-/// use drape_fit::{Settings, identify_bending};
+/// use drape_fit::{FitSettings, identify_bending};
 /// use drape_kes::{Curve, Direction, Test};
 ///
 /// let law = BendingLaw {
@@ -42,7 +42,7 @@ use crate::values::of_law::bending_values;
 /// let moment = drive(&law, law.virgin(), &curvature);
 /// let curve = Curve::new(Test::Bending, Direction::Weft, curvature, moment).expect("it moves");
 ///
-/// let found = identify_bending(&curve, &Settings::default())?.law;
+/// let found = identify_bending(&curve, &FitSettings::default())?.law;
 /// assert!((found.friction.plateau() / 6e-4 - 1.0).abs() < 1e-9);
 /// # Ok::<(), drape_fit::Error>(())
 /// ```
@@ -51,7 +51,7 @@ use crate::values::of_law::bending_values;
 /// The curve is of another test, has no load, or does not rise.
 pub fn identify_bending(
     curve: &Curve,
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> Result<Identified<BendingLaw>, Error> {
     check(curve, Test::Bending)?;
     let curve = &*curve.prepared();
@@ -79,13 +79,13 @@ pub fn identify_bending(
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
     let path = FrictionPath::new(curvature);
     let forward = |chosen: usize| forms[chosen].forward(curvature, &path);
-    let mut fit = fit_curve(curve, compared, &models, forward, options);
+    let mut fit = fit_curve(curve, select(compared, &models), forward, options);
     let form = forms[fit.chosen];
     let (points, largest) = (settings.bending_points, largest(curvature));
     fit.values =
         value_estimates(curve, &fit, settings, |p| bending_values(&law(form, p), &points, largest));
     fit.remarks = remarks(curve, &fit, settings);
-    let settings = Settings { bending: Some(form.model()), ..*settings };
+    let settings = FitSettings { bending: Some(form.model()), ..*settings };
     let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, &settings)?.fit));
     Ok(Identified { law: law(form, &fit.parameter_values()), fit })
 }

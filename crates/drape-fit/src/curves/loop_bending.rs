@@ -16,7 +16,7 @@ use crate::regression::curve_fit::{CurveFit, Identified};
 use crate::regression::residuals::{NamedParameter, PointProblem};
 use crate::regression::search::{multistart, refine};
 use crate::regression::uncertainty::{FitEnd, uncertainty};
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 
 /// Least shortening of the strip that is used, over its length.
 ///
@@ -58,7 +58,7 @@ const OWN: usize = 3;
 /// A curve is of another test, has no load or no gauge, or its strip is hardly bent.
 pub fn identify_loop_bending(
     curves: &[&Curve],
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> Result<Vec<Identified<BendingLaw>>, Error> {
     let strips: Result<Vec<Strip<'_>>, Error> =
         curves.iter().map(|&curve| Strip::new(curve)).collect();
@@ -275,7 +275,8 @@ mod tests {
         let friction = BlimanSorine::first_order(plateau, slip);
         let own = [[0.7, 0.2, -0.4], [-0.3, 0.1, 0.6]];
         let curves = own.map(|own| strip(rigidity, &friction, own));
-        let found = identify_loop_bending(&[&curves[0], &curves[1]], &Settings::default()).unwrap();
+        let found =
+            identify_loop_bending(&[&curves[0], &curves[1]], &FitSettings::default()).unwrap();
         for (found, own) in found.iter().zip(own) {
             let exact = [rigidity, plateau, slip].into_iter().chain(own);
             for (estimate, exact) in found.fit.parameters.iter().zip(exact) {
@@ -293,12 +294,12 @@ mod tests {
         let load = vec![0.0, -0.1, -0.11];
         let mut curve = Curve::new(Test::LoopBending, Direction::Warp, strain, load).unwrap();
         assert!(matches!(
-            identify_loop_bending(&[&curve], &Settings::default()),
+            identify_loop_bending(&[&curve], &FitSettings::default()),
             Err(Error::MissingGauge { .. })
         ));
         curve.gauge = Some(0.02);
         assert!(matches!(
-            identify_loop_bending(&[&curve], &Settings::default()),
+            identify_loop_bending(&[&curve], &FitSettings::default()),
             Err(Error::FlatArch { .. })
         ));
     }

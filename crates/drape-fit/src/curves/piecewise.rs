@@ -10,8 +10,8 @@ use crate::curves::features::{StraightLine, falling, largest};
 use crate::error::Error;
 use crate::regression::curve_fit::{CurveFit, FitOptions, branch_of_each_point, fit_curve};
 use crate::regression::residuals::NamedParameter;
-use crate::regression::selection::CandidateModel;
-use crate::settings::Settings;
+use crate::regression::selection::{CandidateModel, select};
+use crate::settings::FitSettings;
 
 /// Part of the largest deformation above which the slope of the line is read.
 const OUTER: f64 = 0.6;
@@ -24,7 +24,7 @@ const KNOTS: [f64; 3] = [0.1, 0.3, 0.6];
 pub(crate) fn fit_first_branch(
     curve: &Curve,
     history: &[f64],
-    settings: &Settings,
+    settings: &FitSettings,
     drive: impl Fn(&[f64], &[f64], &mut [f64]) + Sync + Send,
 ) -> Result<CurveFit, Error> {
     let first = first_branch(curve)?;
@@ -39,7 +39,7 @@ pub(crate) fn fit_first_branch(
     let weights = settings.weighting.weights(&first, 0.0);
     let functionals = Vec::new();
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
-    let mut fit = fit_curve(&first, &first, &[model], |_| forward(), options);
+    let mut fit = fit_curve(&first, select(&first, &[model]), |_| forward(), options);
     let points = curve.load().len();
     fit.load.resize(points, 0.0);
     drive(&fit.parameter_values(), history, &mut fit.load);

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::regression::residuals::{ForwardModel, Residuals};
 use crate::regression::search::{multistart, refine};
 use crate::regression::selection::CandidateModel;
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 
 /// Least relative excess of the last cycle over all before it for its prediction to be a test.
 const EXCESS: f64 = 0.05;
@@ -40,7 +40,7 @@ pub struct Prediction {
 /// # Errors
 /// The curve is of another test, does not rise, or its last cycle is the first or does not go
 /// further.
-pub fn predict_last_cycle(curve: &Curve, settings: &Settings) -> Result<Vec<Prediction>, Error> {
+pub fn predict_last_cycle(curve: &Curve, settings: &FitSettings) -> Result<Vec<Prediction>, Error> {
     check(curve, Test::Tensile)?;
     let curve = &*curve.prepared();
     let last = last_cycle(curve).ok_or_else(|| Error::SingleCycle { name: curve.name.clone() })?;

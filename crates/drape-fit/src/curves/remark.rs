@@ -5,7 +5,7 @@ use drape_kes::{Curve, Test};
 use crate::regression::candidate::Candidate;
 use crate::regression::curve_fit::CurveFit;
 use crate::regression::estimate::{Estimate, Undetermined};
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 
 /// Number of parts of a branch whose residuals are compared.
 const PARTS: usize = 5;
@@ -17,7 +17,7 @@ const SIDES_DIFFER: f64 = 0.1;
 const OFFSET: f64 = 0.03;
 
 /// Returns the remarks on a fit, a sentence each, without a full stop.
-pub(crate) fn remarks(curve: &Curve, fit: &CurveFit, settings: &Settings) -> Vec<String> {
+pub(crate) fn remarks(curve: &Curve, fit: &CurveFit, settings: &FitSettings) -> Vec<String> {
     let mut remarks = curve.remarks();
     if fit.misfit > Candidate::FOLLOWS {
         remarks.push(departure(fit));
@@ -124,7 +124,7 @@ fn at_bound(estimate: &Estimate) -> Option<String> {
 }
 
 /// Returns how the two sides of a loop differ, if they do.
-fn sides(curve: &Curve, settings: &Settings) -> Option<String> {
+fn sides(curve: &Curve, settings: &FitSettings) -> Option<String> {
     let (name, slope) = match curve.test {
         Test::Bending => ("B", settings.bending_points.slope),
         _ => ("G", settings.shear_points.slope),
@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn sides_that_differ_and_an_offset_are_told() {
         let remarks = |curve: Curve| {
-            let found = identify_bending(&curve, &Settings::default()).expect("it bends");
+            let found = identify_bending(&curve, &FitSettings::default()).expect("it bends");
             found.fit.remarks.join("; ")
         };
         assert_eq!(remarks(loop_of(|k| 1e-5 * k)), "");
@@ -200,7 +200,7 @@ mod tests {
         });
         let load = load.collect();
         let curve = Curve::new(Test::Tensile, Direction::Warp, strain, load).expect("a curve");
-        let fit = identify_tensile(&curve, &Settings::default()).expect("it rises").fit;
+        let fit = identify_tensile(&curve, &FitSettings::default()).expect("it rises").fit;
         assert!(fit.misfit > Candidate::FOLLOWS, "{}", fit.misfit);
         let remark = fit.remarks.join("; ");
         assert!(remark.contains("no law of the set follows this curve to 2 %"), "{remark}");

@@ -15,8 +15,8 @@ use crate::forward::loop_drive::drive_loop;
 use crate::regression::curve_fit::{COMPARED_POINTS, FitOptions, Identified, fit_curve};
 use crate::regression::functional::loop_functionals;
 use crate::regression::repeats::with_scatter;
-use crate::regression::selection::CandidateModel;
-use crate::settings::Settings;
+use crate::regression::selection::{CandidateModel, select};
+use crate::settings::FitSettings;
 use crate::settings::model::{LoopModel, Plateau};
 use crate::values::of_law::shear_values;
 
@@ -29,7 +29,10 @@ use crate::values::of_law::shear_values;
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
-pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<ShearLaw>, Error> {
+pub fn identify_shear(
+    curve: &Curve,
+    settings: &FitSettings,
+) -> Result<Identified<ShearLaw>, Error> {
     check(curve, Test::Shear)?;
     let curve = &*curve.prepared();
     let angles = curve.deformation().iter();
@@ -60,7 +63,7 @@ pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<S
 fn linear(
     curve: &Curve,
     sines: &[f64],
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> Result<Identified<ShearLaw>, Error> {
     let compared = &*curve.thinned(COMPARED_POINTS);
     let compared_sines: Vec<f64> = compared.deformation().iter().map(|q| q.sin()).collect();
@@ -84,14 +87,14 @@ fn linear(
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
     let path = FrictionPath::new(sines);
     let forward = |chosen: usize| forms[chosen].forward(sines, &path);
-    let mut fit = fit_curve(curve, compared, &models, forward, options);
+    let mut fit = fit_curve(curve, select(compared, &models), forward, options);
     let form = forms[fit.chosen];
     let (points, largest) = (settings.shear_points, largest(curve.deformation()));
     fit.values =
         value_estimates(curve, &fit, settings, |p| shear_values(&law(form, p), &points, largest));
     fit.remarks = remarks(curve, &fit, settings);
     let (shear, plateau) = (Some(form.model()), Some(form.plateau));
-    let settings = Settings { shear, plateau, ..*settings };
+    let settings = FitSettings { shear, plateau, ..*settings };
     let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, &settings)?.fit));
     Ok(Identified { law: law(form, &fit.parameter_values()), fit })
 }

@@ -13,8 +13,8 @@ use crate::error::Error;
 use crate::regression::curve_fit::{COMPARED_POINTS, CurveFit, FitOptions, Identified, fit_curve};
 use crate::regression::functional::tensile_functionals;
 use crate::regression::repeats::with_scatter;
-use crate::regression::selection::CandidateModel;
-use crate::settings::Settings;
+use crate::regression::selection::{CandidateModel, select};
+use crate::settings::FitSettings;
 use crate::values::of_law::tensile_values;
 
 /// Identifies the traction law of one direction from a tensile curve, along its whole history.
@@ -35,7 +35,7 @@ use crate::values::of_law::tensile_values;
 /// The curve is of another test, has no load, or does not rise.
 pub fn identify_tensile(
     curve: &Curve,
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> Result<Identified<TractionLaw>, Error> {
     check(curve, Test::Tensile)?;
     let curve = &*curve.prepared();
@@ -52,7 +52,8 @@ pub fn identify_tensile(
     let weights = settings.weighting.weights(curve, guess.zero.strain);
     let functionals = tensile_functionals(curve);
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
-    let fit = fit_curve(curve, compared, &models, |chosen| forms[chosen].forward(curve), options);
+    let fit =
+        fit_curve(curve, select(compared, &models), |chosen| forms[chosen].forward(curve), options);
     let form = forms[fit.chosen];
     let fit = with_values(curve, fit, form, settings);
     let fit = with_scatter(curve, fit, |repeat| identify_form(repeat, form, settings));
@@ -64,7 +65,7 @@ fn with_values(
     curve: &Curve,
     mut fit: CurveFit,
     form: TensileForm,
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> CurveFit {
     let load = largest_load(curve);
     fit.values = value_estimates(curve, &fit, settings, |p| tensile_values(&form.law(p), load));
@@ -73,14 +74,18 @@ fn with_values(
 }
 
 /// Returns the fit of one form to one of several repeats.
-fn identify_form(curve: &Curve, form: TensileForm, settings: &Settings) -> Result<CurveFit, Error> {
+fn identify_form(
+    curve: &Curve,
+    form: TensileForm,
+    settings: &FitSettings,
+) -> Result<CurveFit, Error> {
     let compared = &*curve.thinned(COMPARED_POINTS);
     let guess = InitialGuess::new(compared)?;
     let weights = settings.weighting.weights(curve, guess.zero.strain);
     let functionals = tensile_functionals(curve);
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
     let models = [guess.model(form, compared)];
-    let fit = fit_curve(curve, compared, &models, |_| form.forward(curve), options);
+    let fit = fit_curve(curve, select(compared, &models), |_| form.forward(curve), options);
     Ok(with_values(curve, fit, form, settings))
 }
 
@@ -105,8 +110,8 @@ mod tests {
     use crate::forward::strip_drive::drive_slack_strip;
     use crate::settings::model::TractionModel;
 
-    fn primed() -> Settings {
-        Settings { traction: Some(TractionModel::Primed), ..Settings::default() }
+    fn primed() -> FitSettings {
+        FitSettings { traction: Some(TractionModel::Primed), ..FitSettings::default() }
     }
 
     /// Three growing cycles of a strip that hangs slack by 2 % between them.

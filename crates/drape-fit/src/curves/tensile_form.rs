@@ -8,7 +8,7 @@ use drape_kes::Curve;
 
 use crate::forward::strip_drive::{drive_slack_strip, drive_strip};
 use crate::regression::residuals::ForwardModel;
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 use crate::settings::model::{Toe, TractionModel};
 
 /// Largest strain over which a yarn may buckle for the sake of its friction without tension.
@@ -89,7 +89,7 @@ struct StripLaw {
 impl TensileForm {
     /// Returns the forms that the settings admit, in the order of preference: those of few
     /// parameters first.
-    pub(crate) fn admitted(strip: StripKind, settings: &Settings) -> Vec<Self> {
+    pub(crate) fn admitted(strip: StripKind, settings: &FitSettings) -> Vec<Self> {
         use {Terms::*, Toe::*, TractionModel::*};
         // Without recovery the motion of the toe cannot be seen, nor a friction.
         let toe = if strip.recovers { settings.toe } else { Some(Still) };

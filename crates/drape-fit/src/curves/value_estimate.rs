@@ -14,7 +14,7 @@ use drape_kes::{Curve, EvaluationPoints, Symbol, Test};
 
 use crate::regression::curve_fit::CurveFit;
 use crate::regression::estimate::{Undetermined, ValueEstimate};
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 use crate::values::of_law::LawValue;
 
 /// Step of a central difference over the size of a parameter: the cube root of the rounding of the
@@ -31,7 +31,7 @@ const NORMAL_QUANTILE: f64 = 1.96;
 pub(crate) fn value_estimates(
     curve: &Curve,
     fit: &CurveFit,
-    settings: &Settings,
+    settings: &FitSettings,
     values: impl Fn(&[f64]) -> Vec<LawValue>,
 ) -> Vec<ValueEstimate> {
     let parameters = fit.parameter_values();
@@ -65,7 +65,7 @@ pub(crate) fn value_estimates(
 /// The work under a branch is a sum over its points. LT is read at one point too, the largest load.
 /// The width of a loop is the difference of two loads. A slope is taken between the means of two
 /// loads. Loops have two sides.
-fn reading_noise(curve: &Curve, fit: &CurveFit, symbol: Symbol, settings: &Settings) -> f64 {
+fn reading_noise(curve: &Curve, fit: &CurveFit, symbol: Symbol, settings: &FitSettings) -> f64 {
     let noise = fit.noise * curve.load_range().span();
     let slope = |[from, to]: [f64; 2]| noise / ((to - from) * std::f64::consts::SQRT_2);
     match symbol {
@@ -114,7 +114,7 @@ fn extension_noise(curve: &Curve) -> f64 {
 
 /// Returns the points at which the values of a curve are read: of a tensile curve at its own largest
 /// load, so that curve and law are compared at equal load.
-fn own_points(curve: &Curve, settings: &Settings) -> EvaluationPoints {
+fn own_points(curve: &Curve, settings: &FitSettings) -> EvaluationPoints {
     EvaluationPoints {
         maximum_tension: largest_load(curve),
         bending: settings.bending_points,

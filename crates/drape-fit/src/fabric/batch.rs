@@ -7,7 +7,7 @@ use drape_kes::Sheet;
 
 use crate::error::Error;
 use crate::fabric::identify::{Fit, identify_with};
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 
 /// Sheet of a batch with its fit.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub struct FittedSheet<'a> {
 /// the same for any number of threads.
 ///
 /// ```
-/// use drape_fit::{Error, Settings, identify_all};
+/// use drape_fit::{Error, FitSettings, identify_all};
 /// use drape_kes::{Sheet, Values};
 ///
 /// let read = |b: &f64| {
@@ -37,14 +37,14 @@ pub struct FittedSheet<'a> {
 ///     sheet.warp = Values { b: Some(*b), ..Values::default() };
 ///     Ok::<_, Error>(sheet)
 /// };
-/// let names = identify_all(&[0.05, 0.1], &Settings::default(), read, |_, result| {
+/// let names = identify_all(&[0.05, 0.1], &FitSettings::default(), read, |_, result| {
 ///     result.map(|fitted| fitted.fit.fabric.name.clone())
 /// });
 /// assert_eq!(names[1].as_deref().ok(), Some("B = 0.1"));
 /// ```
 pub fn identify_all<I: Sync, E: From<Error>, T: Send>(
     inputs: &[I],
-    settings: &Settings,
+    settings: &FitSettings,
     read: impl Fn(&I) -> Result<Sheet, E> + Sync,
     summarise: impl Fn(&I, Result<FittedSheet<'_>, E>) -> T + Sync,
 ) -> Vec<T> {

@@ -10,7 +10,7 @@ use crate::fabric::laws::SheetLaws;
 use crate::fabric::measured_range::measured_range;
 use crate::fabric::{keys, scatter};
 use crate::regression::curve_fit::CurveFit;
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 use crate::values::assumed;
 use crate::values::bending::bending_from_values;
 use crate::values::matched::Noted;
@@ -46,7 +46,7 @@ pub struct Fit {
 /// # Errors
 /// A curve or a set of values gives no law, or the fabric is impossible.
 pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
-    identify_with(sheet, &Settings::default())
+    identify_with(sheet, &FitSettings::default())
 }
 
 /// Identifies a fabric from a sheet.
@@ -57,7 +57,7 @@ pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
 ///
 /// # Errors
 /// A curve or a set of values gives no law, or the fabric is impossible.
-pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
+pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error> {
     let settings = &settings.with_default_model(sheet.model);
     let laws = SheetLaws::new(sheet, settings)?;
     let mut notes = Vec::new();

@@ -11,7 +11,7 @@ use crate::curves::shear::identify_shear;
 use crate::curves::tensile::identify_tensile;
 use crate::error::Error;
 use crate::regression::curve_fit::{CurveFit, Identified};
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 use crate::values::assumed;
 use crate::values::bending::bending_from_values;
 use crate::values::completion::tensile_law;
@@ -47,7 +47,7 @@ fn groups(curves: &[Curve]) -> Vec<Vec<usize>> {
 }
 
 impl CurveLaw {
-    fn of_group(group: &[&Curve], settings: &Settings) -> Result<Vec<Self>, Error> {
+    fn of_group(group: &[&Curve], settings: &FitSettings) -> Result<Vec<Self>, Error> {
         let curve = group[0];
         Ok(match curve.test {
             Test::Tensile => vec![Self::Traction(identify_tensile(curve, settings)?)],
@@ -71,14 +71,14 @@ impl CurveLaw {
 /// Sheet with the laws of its curves.
 pub(crate) struct SheetLaws<'a> {
     sheet: &'a Sheet,
-    settings: &'a Settings,
+    settings: &'a FitSettings,
     /// Laws in the order of the sheet's curves.
     laws: Vec<CurveLaw>,
 }
 
 impl<'a> SheetLaws<'a> {
     /// Identifies the law of every curve, in parallel.
-    pub(crate) fn new(sheet: &'a Sheet, settings: &'a Settings) -> Result<Self, Error> {
+    pub(crate) fn new(sheet: &'a Sheet, settings: &'a FitSettings) -> Result<Self, Error> {
         let groups = groups(&sheet.curves);
         let identified: Result<Vec<Vec<CurveLaw>>, Error> = groups
             .par_iter()

@@ -5,28 +5,17 @@
 //! papers, `exponential` the law with an exponential toe.
 
 mod exponential;
+mod strip_state;
 mod weighted;
 
-use drape_fabric::{Memory, TractionLaw};
+use drape_fabric::TractionLaw;
 
 use crate::forward::strip_drive::exponential::ExponentialStrip;
+use crate::forward::strip_drive::strip_state::{StripState, StripStep};
 use crate::forward::strip_drive::weighted::WeightedStrip;
 
 /// Bisections for the strain at which a strip goes slack: the bits of a double.
 const BISECTIONS: usize = 60;
-
-/// Memory of a strip, with the end of the toe that follows from it.
-#[derive(Clone, Copy)]
-pub(crate) struct StripState {
-    pub(crate) memory: Memory,
-    pub(crate) toe: f64,
-}
-
-/// State after a step, with the load there.
-pub(crate) struct StripStep {
-    pub(crate) load: f64,
-    pub(crate) state: StripState,
-}
 
 /// Strip with a law that was prepared.
 enum Strip<'a> {

@@ -12,14 +12,14 @@ use crate::regression::functional::Functional;
 use crate::regression::noise::load_noise;
 use crate::regression::residuals::{ForwardModel, Residuals};
 use crate::regression::search::{SearchResult, refine};
-use crate::regression::selection::{CandidateModel, select};
+use crate::regression::selection::Selection;
 use crate::regression::uncertainty::{FitEnd, Independence, Uncertainty, uncertainty};
 use crate::settings::Intervals;
 
 /// Fit of a law to a measured curve: quality, parameters, candidates, loads.
 ///
 /// ```
-/// use drape_fit::{Settings, identify_shear};
+/// use drape_fit::{FitSettings, identify_shear};
 /// use drape_kes::{Curve, Direction, Test};
 ///
 /// // An elastic fabric of 30 N/(m·rad), sheared to 8° and back to −8°.
@@ -28,7 +28,7 @@ use crate::settings::Intervals;
 /// let forces = angles.iter().map(|angle| 30.0 * angle.sin()).collect();
 /// let curve = Curve::new(Test::Shear, Direction::Warp, angles, forces).expect("it moves");
 ///
-/// let fit = identify_shear(&curve, &Settings::default())?.fit;
+/// let fit = identify_shear(&curve, &FitSettings::default())?.fit;
 /// assert!(fit.misfit < 1e-9 && fit.r_squared > 0.999_999);
 /// let stiffness = &fit.parameters[0];
 /// assert!(stiffness.name == "stiffness" && (stiffness.value / 30.0 - 1.0).abs() < 1e-6);
@@ -129,19 +129,17 @@ pub(crate) struct FitOptions {
 /// in a tenth of the time.
 pub(crate) const COMPARED_POINTS: usize = 1500;
 
-/// Selects one of several laws, and fits it with its weights.
+/// Fits the law that was selected with its weights.
 ///
-/// The `models` belong to `compared`, the curve or some of its points. `forward` returns the loads of
-/// the selected one at all points of the curve. The selection is made without weights: a criterion of weighted
-/// residuals would take the noise of heavy points for structure.
+/// The `selection` was made on the curve or on some of its points, without weights: a criterion of
+/// weighted residuals would take the noise of heavy points for structure. `forward` returns the
+/// loads of the selected law at all points of the curve.
 pub(crate) fn fit_curve<'a>(
     curve: &Curve,
-    compared: &Curve,
-    models: &[CandidateModel<'_>],
+    selection: Selection,
     forward: impl FnOnce(usize) -> Box<dyn ForwardModel + 'a>,
     options: FitOptions,
 ) -> CurveFit {
-    let selection = select(compared, models);
     let forward = forward(selection.chosen);
     let noise = load_noise(curve);
     let systematic = systematic_part(selection.candidates[selection.chosen].misfit, noise);

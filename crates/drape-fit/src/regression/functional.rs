@@ -74,8 +74,8 @@ pub(crate) fn loop_functionals(curve: &Curve, slope: [f64; 2], widths: &[f64]) -
     let mut functionals = Vec::new();
     let [from, to] = slope;
     let middle = |q: f64, sign: f64| {
-        let mut terms = window(curve, q, half, true, 0.5 * sign)?;
-        terms.extend(window(curve, q, half, false, 0.5 * sign)?);
+        let mut terms = mean_load(curve, Window { center: q, half, rising: true }, 0.5 * sign)?;
+        terms.extend(mean_load(curve, Window { center: q, half, rising: false }, 0.5 * sign)?);
         Some(terms)
     };
     let mut terms = Vec::new();
@@ -89,8 +89,8 @@ pub(crate) fn loop_functionals(curve: &Curve, slope: [f64; 2], widths: &[f64]) -
     for width in widths {
         let mut terms = Vec::new();
         for q in [*width, -width] {
-            let (rising, falling) =
-                (window(curve, q, half, true, 1.0), window(curve, q, half, false, -1.0));
+            let rising = mean_load(curve, Window { center: q, half, rising: true }, 1.0);
+            let falling = mean_load(curve, Window { center: q, half, rising: false }, -1.0);
             if let (Some(rising), Some(falling)) = (rising, falling) {
                 terms.extend(rising);
                 terms.extend(falling);
@@ -101,18 +101,27 @@ pub(crate) fn loop_functionals(curve: &Curve, slope: [f64; 2], widths: &[f64]) -
     functionals
 }
 
-/// Returns the mean load within a window, times a `factor`, on the last branch of a direction that
-/// passes the window whole; `None` where there is no such branch.
-fn window(curve: &Curve, q: f64, half: f64, rising: bool, factor: f64) -> Option<Vec<Term>> {
+/// Window of deformations about a `center`, as wide as twice `half`, on branches of one direction.
+#[derive(Clone, Copy)]
+struct Window {
+    center: f64,
+    half: f64,
+    rising: bool,
+}
+
+/// Returns the mean load within a window, times a `factor`, on the last branch that passes the window
+/// whole; `None` where there is no such branch.
+fn mean_load(curve: &Curve, window: Window, factor: f64) -> Option<Vec<Term>> {
+    let Window { center, half, rising } = window;
     let deformation = curve.deformation();
     let branches = curve.branches();
     let passes = |branch: &&Branch| {
         let ends = [deformation[branch.points.start], deformation[branch.points.end - 1]];
         let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        branch.rising == rising && low <= q - half && high >= q + half
+        branch.rising == rising && low <= center - half && high >= center + half
     };
     let branch = branches.iter().rev().find(passes)?;
-    let within = |&i: &usize| (deformation[i] - q).abs() <= half;
+    let within = |&i: &usize| (deformation[i] - center).abs() <= half;
     let points: Vec<usize> = branch.points.clone().filter(within).collect();
     let coefficient = factor / points.len() as f64;
     let terms = points.into_iter().map(|point| Term { point, coefficient }).collect::<Vec<_>>();

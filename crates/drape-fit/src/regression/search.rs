@@ -2,7 +2,7 @@
 //!
 //! `selection` compares laws by rough searches; `curve_fit` refines the one that was selected.
 
-use drape_lm::{Parameter, Problem, Report, Settings, Stop, minimise};
+use drape_lm::{MinimiserSettings, Parameter, Problem, Report, Stop, minimise};
 use rayon::prelude::*;
 
 use crate::regression::residuals::NamedParameter;
@@ -38,7 +38,11 @@ pub(crate) struct SearchResult {
     pub(crate) evaluations: usize,
 }
 
-fn minimise_named(problem: &impl Problem, named: &[NamedParameter], settings: &Settings) -> Report {
+fn minimise_named(
+    problem: &impl Problem,
+    named: &[NamedParameter],
+    settings: &MinimiserSettings,
+) -> Report {
     let parameters: Vec<Parameter> = named.iter().map(|named| named.parameter).collect();
     minimise(problem, &parameters, settings)
 }
@@ -62,11 +66,11 @@ pub(crate) fn multistart(
     problem: &(impl Problem + Sync),
     starts: &[Vec<NamedParameter>],
 ) -> SearchResult {
-    let rough = |iterations: usize| Settings {
+    let rough = |iterations: usize| MinimiserSettings {
         iterations,
         reduction: COMPARISON_REDUCTION,
         polish: false,
-        ..Settings::default()
+        ..MinimiserSettings::default()
     };
     let screened: Vec<SearchResult> = starts
         .par_iter()
@@ -88,7 +92,7 @@ pub(crate) fn multistart(
     if best.report.stop.converged() {
         return best;
     }
-    resume(problem, best, &rough(Settings::default().iterations))
+    resume(problem, best, &rough(MinimiserSettings::default().iterations))
 }
 
 /// Continues from the end of a search down to rounding.
@@ -97,7 +101,8 @@ pub(crate) fn multistart(
 /// and each step then goes a part of the way. Such parameters are moved to the bound, and the search
 /// goes on with the others, as long as the sum hardly rises.
 pub(crate) fn refine(problem: &impl Problem, result: SearchResult) -> SearchResult {
-    let short = Settings { iterations: CREEPING_ITERATIONS, ..Settings::default() };
+    let short =
+        MinimiserSettings { iterations: CREEPING_ITERATIONS, ..MinimiserSettings::default() };
     let mut best = resume(problem, result, &short);
     for _ in 0..ROUNDS {
         let moved = at_bounds(&best.parameters);
@@ -123,7 +128,7 @@ pub(crate) fn refine(problem: &impl Problem, result: SearchResult) -> SearchResu
         return best;
     }
     let sum = best.report.sum;
-    let mut last = resume(problem, best, &Settings::default());
+    let mut last = resume(problem, best, &MinimiserSettings::default());
     if !last.report.stop.converged() && last.report.sum >= sum * (1.0 - NEGLIGIBLE) {
         // Hundreds of steps along a flat valley have changed nothing that the curve can tell.
         last.report.stop = Stop::Reduction;
@@ -148,7 +153,11 @@ fn at_bounds(named: &[NamedParameter]) -> Option<Vec<NamedParameter>> {
     any.then_some(moved)
 }
 
-fn resume(problem: &impl Problem, result: SearchResult, settings: &Settings) -> SearchResult {
+fn resume(
+    problem: &impl Problem,
+    result: SearchResult,
+    settings: &MinimiserSettings,
+) -> SearchResult {
     let mut report = minimise_named(problem, &result.parameters, settings);
     report.iterations += result.report.iterations;
     SearchResult {

@@ -304,7 +304,7 @@ fn derivatives(
 
 #[cfg(test)]
 mod tests {
-    use drape_lm::{Problem, Settings, minimise};
+    use drape_lm::{MinimiserSettings, Problem, minimise};
 
     use super::*;
 
@@ -340,7 +340,7 @@ mod tests {
             NamedParameter { name, parameter }
         });
         let own = parameters.each_ref().map(|named| named.parameter);
-        let report = minimise(&line, &own, &Settings::default());
+        let report = minimise(&line, &own, &MinimiserSettings::default());
         let unweighted = &report.parameters;
         let end = FitEnd { parameters: &parameters, report: &report, unweighted };
         let [wald, profile] = [Intervals::Wald, Intervals::Profile]

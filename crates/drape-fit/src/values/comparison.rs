@@ -3,7 +3,7 @@
 use drape_fabric::Fabric;
 use drape_kes::{Direction, EvaluationPoints, Sheet, Symbol, Test};
 
-use crate::settings::Settings;
+use crate::settings::FitSettings;
 use crate::values::simulated::fabric_values;
 
 /// Relative disagreement of two values that is reported.
@@ -46,7 +46,11 @@ impl ValueComparison {
 
 /// Compares all KES values of a fabric with those of its sheet and of the sheet's curves.
 #[must_use]
-pub fn compare_values(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> Vec<ValueComparison> {
+pub fn compare_values(
+    sheet: &Sheet,
+    fabric: &Fabric,
+    settings: &FitSettings,
+) -> Vec<ValueComparison> {
     let points = settings.evaluation_points(sheet);
     let rows = |direction: Direction| {
         let law = fabric_values(fabric, direction, &points);

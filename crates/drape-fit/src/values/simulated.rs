@@ -15,7 +15,7 @@ use crate::values::of_law::{
 /// tensile test.
 ///
 /// ```
-/// use drape_fit::{Settings, fabric_values, identify};
+/// use drape_fit::{FitSettings, fabric_values, identify};
 /// use drape_kes::{Direction, Sheet, Values};
 ///
 /// let mut sheet = Sheet::default();
@@ -23,7 +23,7 @@ use crate::values::of_law::{
 /// sheet.warp = Values { b: Some(0.09), two_hb: Some(0.06), ..Values::default() };
 /// let fabric = identify(&sheet)?.fabric;
 ///
-/// let points = Settings::default().evaluation_points(&sheet);
+/// let points = FitSettings::default().evaluation_points(&sheet);
 /// let values = fabric_values(&fabric, Direction::Warp, &points);
 /// assert!((values.b.expect("a fabric bends") / 0.09 - 1.0).abs() < 1e-9);
 /// # Ok::<(), drape_fit::Error>(())

@@ -10,7 +10,7 @@ use drape_fabric::{
     BlimanSorine, Buckling, ExponentialToe, FRICTION_RATIO_MAX, Law, Primed, ProportionalFriction,
     STEEPNESS_MIN, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
 };
-use drape_lm::{Parameter, Problem, Settings, minimise};
+use drape_lm::{MinimiserSettings, Parameter, Problem, minimise};
 
 use crate::error::Error;
 use crate::values::assumed::TENSILE_FRICTION_LENGTH;
@@ -64,7 +64,7 @@ pub struct TensileTarget {
 pub fn tensile_from_values(target: &TensileTarget) -> Result<Matched<TractionLaw>, Error> {
     let nearest = |shape: Shape| {
         let problem = TensileProblem { shape, target };
-        let report = minimise(&problem, &problem.parameters(), &Settings::default());
+        let report = minimise(&problem, &problem.parameters(), &MinimiserSettings::default());
         Matched { law: problem.law(&report.parameters), deviation: report.rms }
     };
     // The exponential toe is for curves that the priming zone cannot follow.

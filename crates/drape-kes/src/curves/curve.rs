@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::curves::branch::{Branch, reversals};
-use crate::curves::prepared::Preparation;
+use crate::curves::preparation::Preparation;
 use crate::error::Error;
 use crate::test::{Direction, Test};
 

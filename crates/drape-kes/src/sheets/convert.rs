@@ -12,9 +12,9 @@
 use drape_input::Diagnostic;
 
 use crate::sheets::axis::{AxisKeys, Zero, deformations, loads};
+use crate::sheets::checks::suspect::AsWritten;
 use crate::sheets::findings::Findings;
 use crate::sheets::section::ColumnOrLength;
-use crate::sheets::suspect::AsWritten;
 use crate::tables::columns::named;
 use crate::tables::heading::words::Words;
 use crate::tables::heading::{self, Kind};

@@ -9,10 +9,10 @@ use drape_input::{Diagnostic, Quantity, closest};
 use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::sheets::axis::AxisKeys;
+use crate::sheets::checks::suspect::{AxesAsWritten, Keys, examine};
 use crate::sheets::convert::{deformation, load};
 use crate::sheets::findings::Findings;
 use crate::sheets::section::{Choice, Section};
-use crate::sheets::suspect::{AxesAsWritten, Keys, examine};
 use crate::tables::block::Lines;
 use crate::tables::encoding;
 use crate::tables::file;
@@ -232,8 +232,9 @@ impl CurveKeys {
         match Curve::new(self.test, self.direction, deformation.si, load.si) {
             Ok(mut curve) => {
                 (curve.gauge, curve.slack) = (q.size, self.slack);
-                let written = AxesAsWritten { deformation: q, load: f };
-                let curve = examine(curve, &written, &self.paths, self.zero_strain, findings)?;
+                let zero_strain = self.zero_strain;
+                let written = AxesAsWritten { deformation: q, load: f, zero_strain };
+                let curve = examine(curve, &written, &self.paths, findings)?;
                 Some((curve, words))
             }
             Err(error) => {

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::sheets::plausible;
+use crate::sheets::checks::plausible;
 use crate::sheets::sheet::Sheet;
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};

@@ -10,14 +10,16 @@ pub enum Model {
     TwoElements,
     /// Linear backbone with a fast friction element less a slow one \[BS95\].
     SecondOrder,
+    /// Backbone whose stiffness changes along the test, with one friction element.
+    Varying,
     /// Parabola that continues as a straight line, without friction, on the first branch \[BHW94\].
     Breen1994,
 }
 
 impl Model {
     /// All models.
-    pub const ALL: [Self; 4] =
-        [Self::FirstOrder, Self::TwoElements, Self::SecondOrder, Self::Breen1994];
+    pub const ALL: [Self; 5] =
+        [Self::FirstOrder, Self::TwoElements, Self::SecondOrder, Self::Varying, Self::Breen1994];
 
     /// Returns the name used in sheets.
     #[must_use]
@@ -26,6 +28,7 @@ impl Model {
             Self::FirstOrder => "first-order",
             Self::TwoElements => "two-elements",
             Self::SecondOrder => "second-order",
+            Self::Varying => "varying",
             Self::Breen1994 => "breen-1994",
         }
     }

@@ -190,7 +190,7 @@ fn curve() -> Value {
         "deformation": axis(&DEFORMATION_KEYS, "Column of the deformation; detected if missing."),
         "load": axis(&LOAD_KEYS, "Column of the load; detected if missing."),
         "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start, so that the zeros of strain and force are fitted; `false` if missing." },
-        "zero_strain": json!({ "type": ["number", "string"], "description": "Strain of the file at which a tensile strip is taut and carries nothing, in percent: positive for a strip that hung slack before, negative for one under a pretension. The curve counts from there; from its first point if missing." }),
+        "zero_strain": json!({ "anyOf": [{ "type": "number" }, { "type": "string" }], "description": "Strain of the file at which a tensile strip is taut and carries nothing, in percent: positive for a strip that hung slack before, negative for one under a pretension. The curve counts from there; from its first point if missing." }),
         "encoding": text("Encoding of the file; detected if missing."),
         "separator": choice(&SEPARATOR, "Sign between columns; detected if missing."),
         "decimal": choice(&DECIMAL, "Decimal sign; detected if missing."),

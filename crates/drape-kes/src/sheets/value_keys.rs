@@ -1,8 +1,8 @@
 //! KES values of a sheet: by direction, or one for both, in any spelling.
 
 use crate::scatter::{self, Scatter};
+use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
-use crate::sheets::plausible;
 use crate::sheets::section::{Measured, Section};
 use crate::sheets::spelling::KEYS;
 use crate::symbol::Symbol;

@@ -8,7 +8,7 @@ mod model;
 mod number;
 mod problem;
 
-use drape_lm::{Covariance, Loss, Problem, Report, Settings, minimise};
+use drape_lm::{Covariance, Loss, MinimiserSettings, Problem, Report, minimise};
 use problem::Nist;
 
 /// Digits required of parameters, standard errors and the residual standard deviation.
@@ -44,7 +44,7 @@ struct Outcome {
 
 fn solve(problem: &Nist, start: usize) -> Outcome {
     let parameters = problem.parameters(start);
-    let report = minimise(problem, &parameters, &Settings::default());
+    let report = minimise(problem, &parameters, &MinimiserSettings::default());
     let covariance = Covariance::of(problem, &parameters, &report, Loss::Squares);
     let errors = (0..parameters.len()).map(|j| covariance.standard_error(j).unwrap_or(f64::NAN));
     assert_eq!(

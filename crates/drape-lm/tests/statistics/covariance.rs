@@ -1,8 +1,8 @@
 //! Standard errors and correlations against the normal equations.
 
 use drape_lm::{
-    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise,
-    profile,
+    Covariance, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings, Undetermined,
+    minimise, profile,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -13,7 +13,7 @@ fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
     let weights: Vec<f64> = (0..22).map(|i| f64::from(i % 4)).collect();
     let problem = line(&weights);
     let parameters = starts(&[1.0, 1.0]);
-    let report = minimise(&problem, &parameters, &Settings::default());
+    let report = minimise(&problem, &parameters, &MinimiserSettings::default());
     let found = Covariance::of(&problem, &parameters, &report, Loss::Squares);
 
     let a = DMatrix::from_fn(22, 2, |i, j| if j == 0 { 1.0 } else { i as f64 });
@@ -48,7 +48,7 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
         }
     });
     let mut parameters = starts(&[0.0, 2.0, 5.0, 2.0]);
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&product, &parameters, &settings);
     let covariance = Covariance::of(&product, &parameters, &report, Loss::Squares);
     assert!(covariance.standard_error(0).is_ok());
@@ -80,7 +80,7 @@ fn as_many_parameters_as_residuals_leave_no_error_to_estimate() {
         r[1] = p[0] + p[1] - 3.0;
     });
     let parameters = starts(&[0.0, 0.0]);
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&exact, &parameters, &settings);
     let covariance = Covariance::of(&exact, &parameters, &report, Loss::Squares);
     assert_eq!(covariance.standard_error(0), Err(Undetermined::NoDegreesOfFreedom));

@@ -1,6 +1,6 @@
 //! Linked parameters against the same problems without links.
 
-use drape_lm::{Covariance, Linked, Loss, Problem, Settings, minimise};
+use drape_lm::{Covariance, Linked, Loss, MinimiserSettings, Problem, minimise};
 use nalgebra::DMatrix;
 
 use crate::{line, model, starts};
@@ -12,7 +12,7 @@ fn linked_parameters_follow_and_pass_their_errors_on() {
     let linked = Linked::new(&problem).linked(1, |p| -p[0] * p[0] / 20.0);
     let parameters = linked.parameters(&starts(&[2.0, 7.0]));
     assert_eq!(parameters[1].start, -0.2);
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&linked, &parameters, &settings);
     let written = model(22, |p: &[f64], r: &mut [f64]| {
         line(&[]).residuals(&[p[0], -p[0] * p[0] / 20.0], r);

@@ -1,6 +1,6 @@
 //! Losses with and without outliers.
 
-use drape_lm::{Covariance, Loss, ProfileSettings, Settings, minimise, profile};
+use drape_lm::{Covariance, Loss, MinimiserSettings, ProfileSettings, minimise, profile};
 
 use crate::{line, model, scatter, starts};
 
@@ -14,7 +14,7 @@ fn robust_losses_hardly_see_outliers_that_spoil_least_squares() {
     });
     let parameters = starts(&[0.0, 0.0]);
     let fit = |loss: Loss| {
-        let settings = Settings { loss, ..Settings::default() };
+        let settings = MinimiserSettings { loss, ..MinimiserSettings::default() };
         let report = minimise(&spoilt, &parameters, &settings);
         assert!(report.stop.converged(), "{loss:?}: {report:?}");
         let covariance = Covariance::of(&spoilt, &parameters, &report, loss);
@@ -36,7 +36,7 @@ fn without_outliers_a_robust_loss_gives_nearly_the_errors_of_least_squares() {
     let problem = line(&[]);
     let parameters = starts(&[0.0, 0.0]);
     let error = |loss: Loss| {
-        let settings = Settings { loss, ..Settings::default() };
+        let settings = MinimiserSettings { loss, ..MinimiserSettings::default() };
         let report = minimise(&problem, &parameters, &settings);
         let covariance = Covariance::of(&problem, &parameters, &report, loss);
         let interval = profile(

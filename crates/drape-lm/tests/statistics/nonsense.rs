@@ -1,12 +1,14 @@
 //! Problems that cannot be fitted.
 
-use drape_lm::{Covariance, Parameter, ProfileSettings, Settings, Stop, minimise, profile};
+use drape_lm::{
+    Covariance, MinimiserSettings, Parameter, ProfileSettings, Stop, minimise, profile,
+};
 
 use crate::{Model, starts};
 
 #[test]
 fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     type Plain = Model<fn(&[f64], &mut [f64])>;
     let all = |problem: &Plain, parameters: &[Parameter]| {
         let report = minimise(problem, parameters, &settings);

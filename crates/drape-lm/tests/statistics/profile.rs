@@ -1,8 +1,8 @@
 //! Profile intervals against those known by other means.
 
 use drape_lm::{
-    Covariance, End, Interval, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined,
-    minimise, profile, student_quantile,
+    Covariance, End, Interval, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings,
+    Undetermined, minimise, profile, student_quantile,
 };
 use nalgebra::DMatrix;
 
@@ -12,7 +12,7 @@ use crate::{Model, line, model, scatter, starts};
 fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     let problem = line(&[]);
     let parameters = starts(&[1.0, 1.0]);
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
     for (j, interval) in profile(
@@ -52,7 +52,7 @@ fn decay() -> Model<impl Fn(&[f64], &mut [f64])> {
 fn the_profile_of_a_curved_model_ends_where_the_conditional_sum_reaches_the_level() {
     let problem = decay();
     let parameters = [Parameter::new(1.0), Parameter::new(1.0).between(0.01, 1e3)];
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     let interval = profile(
         &problem,
@@ -89,7 +89,7 @@ fn the_profile_of_a_curved_model_ends_where_the_conditional_sum_reaches_the_leve
 fn a_parameter_at_its_bound_has_a_one_sided_interval_and_no_error() {
     let parameters = [Parameter::new(1.0), Parameter::new(0.0).between(-0.45, 1.0)];
     let problem = line(&[]);
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     assert_eq!(report.parameters[1], -0.45);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
@@ -119,7 +119,7 @@ fn an_interval_without_an_end_says_so() {
         }
     });
     let parameters = [Parameter::new(4.0), Parameter::new(3.0).between(0.0, f64::INFINITY)];
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let report = minimise(&rise, &parameters, &settings);
     let intervals = profile(
         &rise,
@@ -147,7 +147,7 @@ fn a_false_minimum_is_found_out_by_its_profile() {
             *r = scatter(i);
         }
     });
-    let settings = Settings::default();
+    let settings = MinimiserSettings::default();
     let parameters = starts(&[0.1]);
     let report = minimise(&valleys, &parameters, &settings);
     assert!(report.parameters[0].abs() < 0.1, "{report:?}");
@@ -168,7 +168,7 @@ fn a_false_minimum_is_found_out_by_its_profile() {
 /// Returns the profile interval of a fit of one parameter.
 fn interval(problem: &(impl Problem + Sync), parameter: Parameter) -> Interval {
     let parameters = [parameter];
-    let report = minimise(problem, &parameters, &Settings::default());
+    let report = minimise(problem, &parameters, &MinimiserSettings::default());
     let mut intervals = profile(problem, &parameters, &report, &ProfileSettings::default());
     intervals.remove(0).expect("determined")
 }

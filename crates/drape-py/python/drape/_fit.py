@@ -417,8 +417,8 @@ def fit(
     `fabric` names one of several in them.
 
     The laws are those that the curves support best unless they are named: `traction` is
-    `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`, `"parallel"`,
-    `"second-order"` or `"breen-1994"`. `profile` takes intervals from the profile of the residuals.
+    `"exponential"`, `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`,
+    `"parallel"`, `"second-order"`, `"varying"` or `"breen-1994"`. `profile` takes intervals from the profile of the residuals.
     Ctrl-C returns at once; the work then ends by itself. Raises `InputError`, and `UsageError` for
     a law that is not known and a folder of many sheets, which are for `fit_all`.
     """

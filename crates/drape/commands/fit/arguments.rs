@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
+use drape::fit::{FitSettings, FrictionOrder, Intervals, LoopModel, TractionModel};
 use drape::input::Setting;
 
 #[derive(Args)]
@@ -76,6 +76,8 @@ enum Loop {
     Parallel,
     /// A line with friction of second order (Bliman & Sorine 1995).
     SecondOrder,
+    /// A stiffness that changes along the test, with one friction element.
+    Varying,
     /// A quadratic and a line without friction (Breen et al. 1994).
     #[value(name = "breen-1994")]
     Breen,
@@ -87,6 +89,7 @@ impl Loop {
             Self::FirstOrder => LoopModel::Linear(FrictionOrder::First),
             Self::Parallel => LoopModel::Linear(FrictionOrder::Parallel),
             Self::SecondOrder => LoopModel::Linear(FrictionOrder::Second),
+            Self::Varying => LoopModel::Varying,
             Self::Breen => LoopModel::Piecewise,
         }
     }
@@ -94,8 +97,8 @@ impl Loop {
 
 impl LawArguments {
     /// Returns the settings of the fit that the arguments ask for.
-    pub(crate) fn settings(self) -> Settings {
-        Settings {
+    pub(crate) fn settings(self) -> FitSettings {
+        FitSettings {
             traction: self.traction.map(|traction| match traction {
                 Traction::Exponential => TractionModel::Exponential,
                 Traction::Primed => TractionModel::Primed,
@@ -104,7 +107,7 @@ impl LawArguments {
             bending: self.bending.map(Loop::model),
             shear: self.shear.map(Loop::model),
             intervals: if self.profile { Intervals::Profile } else { Intervals::Wald },
-            ..Settings::default()
+            ..FitSettings::default()
         }
     }
 }

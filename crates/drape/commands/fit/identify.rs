@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::job::Job;
-use drape::fit::{Fit, Settings, identify_with};
+use drape::fit::{Fit, FitSettings, identify_with};
 use drape::kes::Sheet;
 use drape::report::FitPage;
 use drape::reports::fit_page;
@@ -19,7 +19,7 @@ pub(crate) struct Identified {
 }
 
 /// Reads a sheet, fits it and reports the fit.
-pub(crate) fn identify(job: &Job, settings: &Settings) -> Result<Identified, Failure> {
+pub(crate) fn identify(job: &Job, settings: &FitSettings) -> Result<Identified, Failure> {
     let sheet = job.read()?;
     let fit = identify_with(&sheet, settings);
     let fit = fit.map_err(|error| Failure::from(error).of(&job.sheet))?;
@@ -28,7 +28,7 @@ pub(crate) fn identify(job: &Job, settings: &Settings) -> Result<Identified, Fai
 }
 
 /// Returns the report of a fit, checked.
-pub(crate) fn page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> Result<FitPage, Failure> {
+pub(crate) fn page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> Result<FitPage, Failure> {
     let page = fit_page(sheet, fit, settings);
     page.check()?;
     Ok(page)

@@ -6,7 +6,7 @@ use drape_fabric::{
 };
 use drape_hysteresis::exp_m1;
 
-use crate::forward::strip_drive::{StripState, StripStep};
+use crate::forward::strip_drive::strip_state::{StripState, StripStep};
 
 /// Traction law with an exponential toe that stores the end of its toe and what takes an exponential
 /// to compute.

@@ -3,7 +3,7 @@
 use drape_fabric::{BlimanSorine, Memory, Primed, TractionBackbone, TractionFriction, TractionLaw};
 use drape_hysteresis::Slip;
 
-use crate::forward::strip_drive::{StripState, StripStep};
+use crate::forward::strip_drive::strip_state::{StripState, StripStep};
 
 /// Traction law of the papers that stores the length of its priming zone, which takes an exponential to compute.
 ///

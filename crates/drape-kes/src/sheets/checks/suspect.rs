@@ -70,6 +70,8 @@ impl AsWritten {
 pub(crate) struct AxesAsWritten {
     pub(crate) deformation: AsWritten,
     pub(crate) load: AsWritten,
+    /// Strain of the file that counts as zero, a ratio, where the sheet has one.
+    pub(crate) zero_strain: Option<f64>,
 }
 
 /// Largest deformation and load of a test on a fabric, in SI.
@@ -96,7 +98,6 @@ pub(crate) fn examine(
     curve: Curve,
     written: &AxesAsWritten,
     keys: &Keys,
-    zero_strain: Option<f64>,
     findings: &mut Findings<'_>,
 ) -> Option<Curve> {
     let curve = without_duplicates(curve, keys, findings);
@@ -118,7 +119,7 @@ pub(crate) fn examine(
         findings.error(&keys.file, message, help);
         return None;
     }
-    match zero_strain {
+    match written.zero_strain {
         Some(zero) => from_given_zero(&curve, zero, keys, findings),
         None => from_zero(curve, keys, findings),
     }
@@ -180,7 +181,7 @@ fn wrong_size(curve: &Curve, written: &AxesAsWritten) -> Option<WrongSize> {
         range.start(),
         range.end()
     );
-    let AxesAsWritten { deformation: q, load: f } = written;
+    let AxesAsWritten { deformation: q, load: f, .. } = written;
     let mut help = Vec::new();
     let exchanged = usual.deformation.contains(&q.to_si(f.largest).abs())
         && usual.load.contains(&f.to_si(q.largest).abs());
