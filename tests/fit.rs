@@ -216,9 +216,8 @@ fn a_fit_says_what_was_read_and_why_a_law_was_taken() {
     for said in [
         "[Read] - tensile.csv, tensile warp:",
         "taken: ",
-        "compared: ",
-        "AICc",
-        "at most 6 above the best",
+        "model parameters misfit AICc above best weight",
+        "chosen",
     ] {
         assert!(words.contains(said), "{said} is missing in\n{text}");
     }
@@ -301,7 +300,7 @@ fn a_workbook_is_fitted_by_a_first_command() {
     let words = out.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
         "B warp = 0.112 ± 0.00336 gf.cm2/cm: book.xlsx, sheet \"Summary\", line 4: mean of 3 specimens",
-        "book.xlsx: 321 points; sheet \"Shear warp\"",
+        "book.xlsx, shear warp: 321 points; sheet \"Shear warp\"",
         "sheet written to book.sheet.toml",
         "fabric written to book.toml",
         "report written to page/book.html",

@@ -63,14 +63,16 @@ fn search(folder: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) -> Result<
 /// Returns whether a path stands for tables: a workbook, a table, an archive, or a folder without a sheet in it or
 /// below.
 pub(crate) fn is_of_tables(path: &Path) -> bool {
+    let kinds = [FileKind::Table, FileKind::Workbook, FileKind::Archive];
+    if FileKind::of(path).is_some_and(|kind| !kinds.contains(&kind)) {
+        return false;
+    }
     if path.is_dir() {
         let mut found = BTreeSet::new();
         let is_sheet = path.join(SHEET_FILE).exists();
         return !is_sheet && search(path, DEEPEST, &mut found).is_ok() && found.is_empty();
     }
-    let kinds = [FileKind::Table, FileKind::Workbook, FileKind::Archive];
-    let is_other = FileKind::of(path).is_some_and(|kind| !kinds.contains(&kind));
-    !input::is_standard(path) && !is_other && SheetDraft::reads(path)
+    !input::is_standard(path) && SheetDraft::reads(path)
 }
 
 /// Returns the name that the files of a sheet get: its folder's, or the file's.

@@ -82,8 +82,8 @@ impl fmt::Display for Choice {
             Self::Only => write!(f, "it is the only law"),
             Self::Supported => write!(
                 f,
-                "it is the first, in the order of preference, whose AICc is at most {} above the best \
-                 and that predicts the last cycle better than those before it",
+                "of the laws whose AICc is at most {} above the best, it is the first in the order of \
+                 preference that predicts a last cycle no worse than the others",
                 Candidate::LEAD
             ),
             Self::Closer => write!(
