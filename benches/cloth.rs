@@ -10,27 +10,50 @@ use criterion::{
 };
 use drape_cloth::{Cloth, Lattice, Reference, State, Trial, Workspace};
 use drape_fabric::{
-    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Fabric, Locking, Primed, SURFACE_FRICTION,
-    ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, YarnLaws,
+    BendingBackbone, BendingLaw, BlimanSorine, Buckling, ExponentialToe, Fabric, Locking, Primed,
+    ProportionalFriction, SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone,
+    TractionFriction, TractionLaw, YarnLaws,
 };
 use rayon::ThreadPoolBuilder;
 
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
 
-/// Returns a fabric of 200 g/m² with friction in every law, each of one element.
-fn fabric() -> Fabric {
+/// Returns a law of traction with a priming zone and a plateau of friction.
+fn primed() -> TractionLaw {
+    TractionLaw {
+        backbone: TractionBackbone::Primed(Primed {
+            stiffness: 5000.0,
+            toe_ratio: 0.6,
+            toe_strain: 0.015,
+            toe_strain_after: 0.02,
+        }),
+        friction: BlimanSorine::first_order(3.0, 0.001).into(),
+        buckling: Buckling::default(),
+    }
+}
+
+/// Returns a law of traction with an exponential toe and friction in proportion to the tension.
+fn exponential() -> TractionLaw {
+    let toe = ExponentialToe {
+        base_stiffness: 200.0,
+        stiffness: 5000.0,
+        steepness: 2.0,
+        toe_strain: 0.015,
+        toe_strain_after: 0.02,
+    };
+    let friction = ProportionalFriction { ratio: 0.3, plateau: 0.5, length: 0.001 };
+    TractionLaw {
+        buckling: Buckling { strain: friction.buckling_strain(&toe) },
+        backbone: TractionBackbone::Exponential(toe),
+        friction: TractionFriction::Proportional(friction),
+    }
+}
+
+/// Returns a fabric of 200 g/m² with friction in every law.
+fn fabric(traction: TractionLaw) -> Fabric {
     let direction = |rigidity: f64| YarnLaws {
-        traction: TractionLaw {
-            backbone: TractionBackbone::Primed(Primed {
-                stiffness: 5000.0,
-                toe_ratio: 0.6,
-                toe_strain: 0.015,
-                toe_strain_after: 0.02,
-            }),
-            friction: BlimanSorine::first_order(3.0, 0.001).into(),
-            buckling: Buckling::default(),
-        },
+        traction,
         bending: BendingLaw {
             backbone: BendingBackbone::Linear { rigidity },
             rest_curvature: 0.0,
@@ -66,8 +89,8 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(side: usize) -> Self {
-        let fabric = fabric();
+    fn new(side: usize, traction: TractionLaw) -> Self {
+        let fabric = fabric(traction);
         let spacing = 1.0 / (side - 1) as f64;
         let lattice = Lattice::rectangle(1.0, 1.0, spacing).expect("a square");
         let panels = [(&lattice, &fabric)];
@@ -122,7 +145,7 @@ fn compare(
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_millis(1000));
     for side in SIDES {
-        let sheet = Sheet::new(side);
+        let sheet = Sheet::new(side, primed());
         group.throughput(Throughput::Elements(sheet.particles() as u64));
         let id = |name: &str| BenchmarkId::new(name, side);
         grid(&mut group, id("grid"), &sheet, sheet.workspace(1));
@@ -225,5 +248,29 @@ fn commit(criterion: &mut Criterion) {
     );
 }
 
-criterion_group!(kernels, forces, potential, stiffness, commit);
+/// Benches forces and tangents of a sheet with each law of traction, one thread.
+fn laws(criterion: &mut Criterion) {
+    const SIDE: usize = 100;
+    let mut group = criterion.benchmark_group("laws of traction");
+    group.sample_size(50).measurement_time(Duration::from_secs(3));
+    for (name, traction) in [("priming zone", primed()), ("exponential toe", exponential())] {
+        let sheet = Sheet::new(SIDE, traction);
+        let mut workspace = sheet.workspace(1);
+        let mut forces = vec![0.0; 3 * sheet.particles()];
+        group.bench_function(BenchmarkId::new("forces", name), |bencher| {
+            bencher.iter(|| {
+                workspace.add_forces(sheet.trial(), &mut forces);
+            });
+        });
+        let mut values = vec![0.0; 9 * sheet.cloth.sparsity().blocks()];
+        group.bench_function(BenchmarkId::new("stiffness", name), |bencher| {
+            bencher.iter(|| {
+                workspace.add_stiffness(sheet.trial(), false, &mut values);
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(kernels, laws, forces, potential, stiffness, commit);
 criterion_main!(kernels);

@@ -10,6 +10,7 @@ use drape_lm::{Parameter, Problem};
 use crate::curves::features::check;
 use crate::curves::loop_form::friction;
 use crate::curves::loop_start::LEAST_LENGTH;
+use crate::curves::remark::remarks;
 use crate::error::Error;
 use crate::forward::arch::Arch;
 use crate::regression::curve_fit::{CurveFit, Identified};
@@ -93,6 +94,7 @@ pub fn identify_loop_bending(
         fit.misfit = (squares / out.len() as f64).sqrt();
         fit.rms = fit.misfit / strip.scale;
         fit.band = band;
+        fit.remarks = remarks(strip.curve, &fit, settings);
         Identified { law, fit }
     });
     Ok(identified.collect())

@@ -117,7 +117,7 @@ impl Curve {
         })
     }
 
-    /// Returns the curve with the times of its points, in seconds.
+    /// Returns the curve with the times of its points, in seconds or another unit.
     ///
     /// They help to tell noise of the deformation from changes of its rate. Times that are not as
     /// many as the points, or that do not rise, are left out.
@@ -129,7 +129,7 @@ impl Curve {
         self
     }
 
-    /// Returns the time of each point in seconds, if it is known.
+    /// Returns the time of each point in the unit of [`with_time`](Self::with_time), if it is known.
     #[must_use]
     pub fn time(&self) -> Option<&[f64]> {
         self.time.as_deref()

@@ -51,6 +51,8 @@ impl SteadyPath {
         let times =
             if backward_steps == 1 { "once".to_owned() } else { format!("{backward_steps} times") };
         let percent = 100.0 * largest_step / span;
+        let most =
+            if percent < 0.01 { "less than 0.01".into() } else { format!("at most {percent:.2}") };
         let verb = if smoothed { "smoothed" } else { "made monotone" };
         let between = match turns {
             0 => "as one branch".to_owned(),
@@ -58,8 +60,8 @@ impl SteadyPath {
             _ => format!("between its {turns} turns"),
         };
         format!(
-            "the deformation turns back {times}, by at most {percent:.2} % of its range; its path was \
-             {verb} {between}"
+            "the deformation turns back {times}, by {most} % of its range; its path was {verb} \
+             {between}"
         )
     }
 }

@@ -232,6 +232,11 @@ impl CurveKeys {
         match Curve::new(self.test, self.direction, deformation.si, load.si) {
             Ok(mut curve) => {
                 (curve.gauge, curve.slack) = (q.size, self.slack);
+                // The unit of the times tells nothing: they only tell how far apart points are.
+                let curve = match series.times() {
+                    Some(times) => curve.with_time(times),
+                    None => curve,
+                };
                 let zero_strain = self.zero_strain;
                 let written = AxesAsWritten { deformation: q, load: f, zero_strain };
                 let curve = examine(curve, &written, &self.paths, findings)?;

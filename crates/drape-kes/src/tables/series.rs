@@ -7,7 +7,8 @@ use drape_input::{Diagnostic, Diagnostics};
 use crate::tables::block::Block;
 use crate::tables::columns::Pair;
 use crate::tables::grid::{Cell, Row};
-use crate::tables::heading::words::Words;
+use crate::tables::heading::words::{TIMES, Words, single};
+use crate::tables::heading::{Heading, has_word, normal};
 use crate::tables::number::Decimal;
 use crate::tables::stated::{Around, Stated, size_column};
 
@@ -85,6 +86,17 @@ impl Series {
             )
         };
         Diagnostic::new(&self.path, message).on_line(row.line).help(help)
+    }
+
+    /// Returns the times of the points in the unit of their column, where there is such a column and
+    /// its cells are numbers.
+    pub(crate) fn times(&self) -> Option<Vec<f64>> {
+        let is_time = |heading: &Heading| {
+            let name = normal(&heading.name);
+            single(TIMES).any(|word| has_word(&name, word))
+        };
+        let column = self.block.headings.iter().position(is_time)?;
+        self.numbers(column).ok()
     }
 
     /// Returns the unit of a column, within its cells or of its heading.

@@ -143,6 +143,10 @@ pub(super) const DIRECTIONS: [(Direction, Words); 2] = [
     ),
 ];
 
+/// Words of the time at which a point was measured.
+pub(crate) const TIMES: Words =
+    &["time, zeit, prüfzeit, temps, tiempo, tempo, zaman, süre", "時間, 経過時間, 时间"];
+
 /// Words of a strip that is cut at 45° to the yarns, besides the angle itself.
 pub(super) const BIAS: Words = &[
     "bias, biais, sbieco, al bies, sesgo, viés, verev, schräg, diagonal, diagonale, diagonalrichtung",
