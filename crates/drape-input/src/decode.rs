@@ -27,7 +27,7 @@ use serde::de::DeserializeOwned;
 use crate::diagnostic::Diagnostic;
 use crate::node::Node;
 
-pub(crate) use self::state::Fault;
+pub(crate) use self::state::{Change, Fault};
 
 use self::reader::{Path, Reader};
 use self::state::State;
@@ -108,7 +108,7 @@ pub(crate) fn decode<T: DeserializeOwned>(root: &Node) -> Decoded<T> {
             }
             Err(Stop::Other(message)) => {
                 if !now.is_last {
-                    now.faults.push(Fault { span: None, message, help: String::new() });
+                    now.faults.push(Fault { message, ..Fault::default() });
                 }
                 None
             }

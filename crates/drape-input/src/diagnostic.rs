@@ -7,7 +7,9 @@ use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use crate::edit::Edit;
 use crate::figure::cut;
+use crate::subject::Subject;
 
 /// Largest number of letters of a message or a remedy.
 const LETTERS_MAX: usize = 1000;
@@ -37,6 +39,11 @@ pub struct Diagnostic {
     pub message: String,
     /// Remedy.
     pub help: Option<String>,
+    /// Part of the input that the mistake speaks of, where it is one.
+    pub subject: Option<Subject>,
+    /// Changes of files that make the remedy, all of them together; empty where the remedy is no
+    /// change that a program can make alone. Of several remedies the first counts.
+    pub edits: Vec<Edit>,
 }
 
 impl Diagnostic {
@@ -50,6 +57,8 @@ impl Diagnostic {
             span: None,
             message: shorten(message.into()),
             help: None,
+            subject: None,
+            edits: Vec::new(),
         }
     }
 
@@ -57,6 +66,20 @@ impl Diagnostic {
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(shorten(help.into()));
+        self
+    }
+
+    /// Adds the part of the input that the mistake speaks of.
+    #[must_use]
+    pub fn about(mut self, subject: Subject) -> Self {
+        self.subject = Some(subject);
+        self
+    }
+
+    /// Adds the changes that make the remedy.
+    #[must_use]
+    pub fn with_edits(mut self, edits: impl IntoIterator<Item = Edit>) -> Self {
+        self.edits = edits.into_iter().collect();
         self
     }
 

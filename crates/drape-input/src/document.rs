@@ -11,14 +11,17 @@ use std::sync::OnceLock;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
-use crate::decode::{Decoded, Fault, Faults, decode};
+use crate::decode::{Change, Decoded, Fault, Faults, decode};
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::edit::Edit;
 use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
+use crate::key_path::{Part, parts};
 use crate::node::{Node, Value};
 use crate::places::{Misplaced, Places};
 use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
+use crate::subject::Subject;
 use size_limit::SizeLimit;
 
 /// Limit of TOML files: sheets, fabrics and scenes have a few kilobytes.
@@ -191,15 +194,47 @@ impl Document {
             return Err(sorted(content.mistakes.iter().map(told).collect()));
         }
         let Decoded { value, faults, keys } = decode(&content.root);
-        let mistake = |fault: Fault| {
-            let mistake = self.locate(fault.span, fault.message);
-            if fault.help.is_empty() { mistake } else { mistake.help(fault.help) }
-        };
-        let mistakes: Vec<Diagnostic> = faults.into_iter().map(mistake).collect();
+        let mistakes: Vec<Diagnostic> = faults.into_iter().map(|fault| self.told(fault)).collect();
         value.map_or_else(
             || Err(sorted(mistakes.clone())),
             |value| Ok((value, Faults::new(mistakes.clone(), keys))),
         )
+    }
+
+    /// Returns the mistake of a fault.
+    fn told(&self, fault: Fault) -> Diagnostic {
+        let Fault { span, key, message, help, changes } = fault;
+        let mut mistake = self.locate(span, message);
+        mistake.help = (!help.is_empty()).then_some(help);
+        mistake.subject = Subject::of_key(&self.content().root, &key);
+        let edits = changes.iter().map(|(key, change)| match change {
+            Change::Value(value) => self.edit(key, Some(value)),
+            Change::Moved(span) => self.edit(key, Some(self.text.get(span.clone())?)),
+            Change::Removal => self.edit(key, None),
+        });
+        mistake.edits = edits.collect::<Option<_>>().unwrap_or_default();
+        mistake
+    }
+
+    /// Returns the change of the value at a key path to another one, in TOML, or its removal.
+    ///
+    /// Returns `None` where the file cannot be changed so: the value was set beside the text, or is
+    /// a table with a heading of its own.
+    #[must_use]
+    pub fn edit(&self, key: &str, new: Option<&str>) -> Option<Edit> {
+        let old = match self.find(key) {
+            Some(place) if place.is_whole => {
+                let text = place.value.filter(|_| place.set.is_none());
+                Some(text.and_then(|span| self.text.get(span))?.to_owned())
+            }
+            _ => None,
+        };
+        (old.is_some() || new.is_some()).then(|| Edit {
+            file: self.path.clone(),
+            key: key.to_owned(),
+            old,
+            new: new.map(str::to_owned),
+        })
     }
 
     /// Returns whether the text has a value at a key path.
@@ -216,8 +251,11 @@ impl Document {
     #[must_use]
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
         let message = format!("{}: {}", cut(key, KEY_MAX), message.into());
-        let Some(place) = self.find(key) else { return self.locate(None, message) };
-        let mut mistake = self.locate(Some(place.span), message);
+        let subject = Subject::of_key(&self.content().root, key);
+        let Some(place) = self.find(key) else {
+            return Diagnostic { subject, ..self.locate(None, message) };
+        };
+        let mut mistake = Diagnostic { subject, ..self.locate(Some(place.span), message) };
         // Of a list of the text, elements may have been set.
         let set = place.set.filter(|_| mistake.span.is_some());
         if let Some(setting) = set.and_then(|index| self.settings.get(index)) {
@@ -263,6 +301,7 @@ impl Document {
     fn find(&self, key: &str) -> Option<Place> {
         let whole = |node: &Node| Place {
             span: node.span.clone(),
+            value: node.text.clone(),
             is_whole: true,
             set: node
                 .first_element_behind(self.text.len())
@@ -313,6 +352,8 @@ impl Lines {
 /// Place of a value, or of a table that it should be in.
 struct Place {
     span: Range<usize>,
+    /// Bytes of the value, if it stands in one piece.
+    value: Option<Range<usize>>,
     /// Whether it is the value itself.
     is_whole: bool,
     /// Number of the setting of an element, if the value is a list.
@@ -325,34 +366,6 @@ fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
         Err(mistakes) => mistakes,
         Ok(()) => Diagnostics(Vec::new()),
     }
-}
-
-/// Key of a key path, with the index of an element if it is an array, of an element of that if it is
-/// an array of arrays, and so on.
-struct Part<'a> {
-    name: &'a str,
-    indices: Vec<usize>,
-}
-
-/// Splits a key path at its dots outside of quotes.
-fn parts(key: &str) -> impl Iterator<Item = Part<'_>> {
-    let mut quoted = false;
-    let pieces = key.split(move |letter: char| {
-        quoted ^= letter == '"';
-        letter == '.' && !quoted
-    });
-    pieces.map(|piece| match piece.strip_prefix('"').and_then(|rest| rest.split_once('"')) {
-        Some((name, rest)) => Part { name, indices: indices(rest) },
-        None => {
-            let (name, rest) = piece.split_once('[').unwrap_or((piece, ""));
-            Part { name, indices: indices(rest) }
-        }
-    })
-}
-
-/// Returns the numbers in brackets.
-fn indices(text: &str) -> Vec<usize> {
-    text.split(['[', ']']).filter_map(|number| number.parse().ok()).collect()
 }
 
 /// Returns advice on a path that does not exist: the file beside it that was probably meant.
@@ -440,6 +453,38 @@ mod tests {
         assert_eq!(line("panel.\"simon.back\".grain"), Some(2));
         assert_eq!(line("panel.\"simon.back\".fold[1]"), Some(5));
         assert_eq!(line("panel.\"simon.back\""), Some(1));
+    }
+
+    #[test]
+    fn an_edit_has_the_value_that_stands_there_unless_it_was_set_or_has_a_heading() {
+        let text = "a = 1 # one\nb = { c = [2, \"x\"] }\n[d]\ne.f = 3\n[[g]]\nh = 4\n";
+        let document = Document::new("a.toml", text);
+        let old = |key: &str| document.edit(key, Some("0")).map(|edit| edit.old);
+        let some = |text: &str| Some(Some(text.to_owned()));
+        assert_eq!([old("a"), old("b.c[1]"), old("d.e.f")], [some("1"), some("\"x\""), some("3")]);
+        assert_eq!([old("b"), old("g[0].h")], [some("{ c = [2, \"x\"] }"), some("4")]);
+        assert_eq!([old("d.x"), old("g[1].h")], [Some(None), Some(None)]);
+        assert_eq!([old("d"), old("d.e"), old("g"), old("g[0]")], [const { None }; 4]);
+        assert_eq!(document.edit("d.x", None), None, "there is nothing to remove");
+        let set = document.with_settings(&["a=7".parse().expect("it is one")]).expect("it fits");
+        assert_eq!(set.edit("a", Some("0")), None);
+    }
+
+    #[test]
+    fn slips_of_the_pen_have_their_remedies_as_edits() {
+        let text = "[[curve]]\nfil = \"x\"\n[[curve]]\nfil = { a = 1 }\nfile = \"y\"\n";
+        let document = Document::new("a.toml", format!("dt = 1\n{text}"));
+        let mistakes = document.decode::<Outer>().expect_err("there are slips").0;
+        let edits = |index: usize| -> Vec<_> {
+            let edits = mistakes[index].edits.iter();
+            edits
+                .map(|edit| (edit.key.as_str(), edit.old.as_deref(), edit.new.as_deref()))
+                .collect()
+        };
+        let of_first =
+            [("curve[0].fil", Some("\"x\""), None), ("curve[0].file", None, Some("\"x\""))];
+        assert_eq!(edits(0), of_first, "{:?}", mistakes[0]);
+        assert_eq!(edits(1), [], "there is a file already: {:?}", mistakes[1]);
     }
 
     #[test]

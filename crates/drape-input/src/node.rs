@@ -10,6 +10,8 @@ use toml::de::{DeTable, DeValue};
 pub(crate) struct Node {
     /// Bytes that a message points to: a table's name or header, any other value itself.
     pub(crate) span: Range<usize>,
+    /// Bytes of the value itself; none of a table with a heading, or of a value that was set.
+    pub(crate) text: Option<Range<usize>>,
     pub(crate) value: Value,
 }
 
@@ -36,7 +38,7 @@ pub(crate) struct Entry {
 impl Node {
     /// Returns the content of a text.
     pub(crate) fn root(table: &DeTable<'_>) -> Self {
-        Self { span: 0..0, value: Value::Table(entries(table)) }
+        Self { span: 0..0, text: None, value: Value::Table(entries(table)) }
     }
 
     fn new(value: &Spanned<DeValue<'_>>) -> Self {
@@ -55,7 +57,7 @@ impl Node {
             DeValue::Array(list) => Value::List(list.iter().map(Self::new).collect()),
             DeValue::Table(table) => Value::Table(entries(table)),
         };
-        Self { span, value }
+        Self { text: Some(span.clone()), span, value }
     }
 
     /// Returns the entry of a key, if this is a table that has it.
@@ -65,9 +67,18 @@ impl Node {
         entries.get(index)
     }
 
+    /// Returns the text, if it is one.
+    pub(crate) fn as_text(&self) -> Option<String> {
+        match &self.value {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+
     /// Gives the value, and all in it, one place.
     pub(crate) fn move_to(&mut self, place: usize) {
         self.span = place..place;
+        self.text = None;
         match &mut self.value {
             Value::List(elements) => elements.iter_mut().for_each(|node| node.move_to(place)),
             Value::Table(entries) => entries.iter_mut().for_each(|entry| {
@@ -115,6 +126,13 @@ fn entries(table: &DeTable<'_>) -> Vec<Entry> {
     let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| {
         let key: &Spanned<std::borrow::Cow<'_, str>> = key;
         let mut node = Node::new(value);
+        // A table with a heading has the place of the heading.
+        if value.span().start < key.span().end {
+            node.text = None;
+            if let Value::List(tables) = &mut node.value {
+                tables.iter_mut().for_each(|table| table.text = None);
+            }
+        }
         if matches!(node.value, Value::Table(_)) {
             node.span = key.span();
         }

@@ -158,7 +158,7 @@ impl std::error::Error for SettingError {}
 fn child<'a>(entries: &'a mut Vec<Entry>, name: &str, place: usize) -> &'a mut Node {
     let index = entries.binary_search_by(|entry| entry.key.as_str().cmp(name));
     let index = index.unwrap_or_else(|index| {
-        let node = Node { span: place..place, value: Value::Table(Vec::new()) };
+        let node = Node { span: place..place, text: None, value: Value::Table(Vec::new()) };
         entries.insert(index, Entry { key: name.into(), span: place..place, node });
         index
     });

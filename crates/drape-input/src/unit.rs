@@ -300,6 +300,8 @@ pub struct UnitError {
     pub message: String,
     /// The remedy.
     pub help: String,
+    /// Text that was probably meant, if one is near.
+    pub meant: Option<String>,
 }
 
 /// Parses a unit of one of the given quantities, which are tried in order.
@@ -313,12 +315,12 @@ pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> 
     let names: Vec<&str> = accepted.iter().map(|q| q.name()).collect();
     let lists: Vec<String> = accepted.iter().map(|q| q.list()).collect();
     let known = accepted.iter().flat_map(|q| q.units()).map(|u| u.0);
-    let hint = closest(&wanted, known)
-        .map(|close| format!("did you mean `{close}`? "))
-        .unwrap_or_default();
+    let close = closest(&wanted, known);
+    let hint = close.map(|close| format!("did you mean `{close}`? ")).unwrap_or_default();
     Err(UnitError {
         message: format!("\"{}\" is not a unit of {}", excerpt(text), names.join(" or ")),
         help: format!("{hint}units accepted here: {}", lists.join("; ")),
+        meant: close.map(str::to_owned),
     })
 }
 
@@ -368,12 +370,16 @@ pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitErr
         return Err(UnitError {
             message: format!("\"{}\" does not begin with a number", excerpt(text)),
             help: format!("write the number and its unit, such as \"1.5 {unit}\""),
+            meant: None,
         });
     };
     let rest = text[end..].trim();
     let unit = match rest {
         "" => quantity.laboratory(),
-        written => parse_unit(written, &[quantity])?,
+        written => parse_unit(written, &[quantity]).map_err(|error| UnitError {
+            meant: error.meant.map(|unit| format!("{} {unit}", text[..end].trim_end())),
+            ..error
+        })?,
     };
     Ok(Written { number, unit })
 }

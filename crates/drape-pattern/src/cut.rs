@@ -22,7 +22,6 @@ mod cutter;
 mod lattice;
 mod merge;
 mod panel_cut;
-mod partition;
 mod quality;
 mod rectangle;
 mod rim;

@@ -233,7 +233,7 @@ fn measures(reader: &mut Reader<'_>, files: &[MeasureFile]) -> Vec<Measure> {
     for (index, MeasureFile { key, name, unit }) in files.iter().enumerate() {
         let place = format!("measure[{index}]");
         match Measure::new(key, name.as_deref(), unit.as_deref()) {
-            Err(UnitError { message, help }) => {
+            Err(UnitError { message, help, .. }) => {
                 reader.fail(&format!("{place}.unit"), message, help)
             }
             Ok(own) if measures.iter().any(|other| other.name == own.name) => {

@@ -9,12 +9,12 @@ use serde::forward_to_deserialize_any;
 use crate::figure::excerpt;
 use crate::given;
 use crate::node::{Entry, Node, Value};
-use crate::quoting::toml_key;
+use crate::quoting::{toml_key, toml_string};
 use crate::spelling::closest;
 use crate::unit::{Quantity, Written, parse_quantity};
 
 use super::stand_in::{Kind, StandIn};
-use super::state::{Fault, State};
+use super::state::{Change, Fault, State};
 use super::stop::Stop;
 
 /// Place of a value: the keys and numbers that lead to it.
@@ -97,6 +97,11 @@ impl<'a> Reader<'a> {
 
     /// Writes down a mistake in the value.
     fn fault(&self, message: String, help: String) {
+        self.fault_of(message, help, None);
+    }
+
+    /// Writes down a mistake in the value, which another value, in TOML, remedies.
+    fn fault_of(&self, message: String, help: String, meant: Option<String>) {
         let mut state = self.state.borrow_mut();
         if let Some((path, address)) = self.path.keyed() {
             state.wrong.insert(address);
@@ -108,7 +113,9 @@ impl<'a> Reader<'a> {
         let place = self.path.text();
         let message = if place.is_empty() { message } else { format!("{place}: {message}") };
         let span = Some(self.node.span.clone());
-        state.faults.push(Fault { span, message, help });
+        let changes = meant.map(|value| (place.clone(), Change::Value(value)));
+        let changes = changes.into_iter().collect();
+        state.faults.push(Fault { span, key: place, message, help, changes });
     }
 
     fn stand_in<V>(&self, kind: Kind, visit: impl FnOnce(StandIn<'_>) -> V) -> V {
@@ -192,7 +199,7 @@ impl<'a> Reader<'a> {
                 let message = format!("\"{number}\" has no unit");
                 let help =
                     format!("write {number} without quotes, or a unit, as in \"{}\"", examples[1]);
-                self.fault(message, help);
+                self.fault_of(message, help, Some(text.trim().to_owned()));
                 visitor.visit_f64(1.0)
             }
             Err(error) => {
@@ -200,7 +207,8 @@ impl<'a> Reader<'a> {
                     true => error.help,
                     false => format!("write {} or \"{}\"", examples[0], examples[1]),
                 };
-                self.fault(error.message, help);
+                let meant = error.meant.map(|text| toml_string(&text));
+                self.fault_of(error.message, help, meant);
                 visitor.visit_f64(1.0)
             }
         }
@@ -370,8 +378,11 @@ impl<'a> Reader<'a> {
             };
             let mut state = self.state.borrow_mut();
             if !state.is_last {
-                let message = format!("{}: there is no such key", self.path.key(&entry.key));
-                state.faults.push(Fault { span: Some(entry.span.clone()), message, help });
+                let key = self.path.key(&entry.key);
+                let message = format!("{key}: there is no such key");
+                let span = Some(entry.span.clone());
+                let changes = near.map(|near| self.renamed(entry, near)).unwrap_or_default();
+                state.faults.push(Fault { span, key, message, help, changes });
             }
             if let Some(near) = near.filter(|near| found.iter().all(|(key, _)| key != near)) {
                 found.push((near, Some(entry)));
@@ -385,6 +396,15 @@ impl<'a> Reader<'a> {
             }
         }
         found
+    }
+
+    /// Returns the changes that give an entry another key, where its value stands in one piece.
+    fn renamed(&self, entry: &Entry, key: &str) -> Vec<(String, Change)> {
+        let (Some(value), None) = (entry.node.text.clone(), self.node.entry(key)) else {
+            return Vec::new();
+        };
+        let [old, new] = [&entry.key, key].map(|key| self.path.key(key));
+        vec![(old, Change::Removal), (new, Change::Moved(value))]
     }
 
     /// Returns whether the last reading leaves an entry out, since its value is wrong.
@@ -402,7 +422,8 @@ impl<'a> Reader<'a> {
         if !state.is_last {
             let span = (!matches!(self.path.step, Step::Root)).then(|| self.node.span.clone());
             let help = format!("add {key} = …, {}", asked.get().words());
-            state.faults.push(Fault { span, message: format!("{path}: is missing"), help });
+            let message = format!("{path}: is missing");
+            state.faults.push(Fault { span, key: path.clone(), message, help, ..Fault::default() });
         }
         state.keys.insert(path);
         Ok(value)

@@ -4,10 +4,25 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Mistake of a text, before its line is looked up.
+#[derive(Default)]
 pub(crate) struct Fault {
     pub(crate) span: Option<Range<usize>>,
+    /// Key path of the value; empty of the whole text.
+    pub(crate) key: String,
     pub(crate) message: String,
     pub(crate) help: String,
+    /// Changes at key paths that remedy it, together.
+    pub(crate) changes: Vec<(String, Change)>,
+}
+
+/// Change of the value at a key path.
+pub(crate) enum Change {
+    /// A value, in TOML.
+    Value(String),
+    /// The value at some bytes of the text.
+    Moved(Range<usize>),
+    /// No value.
+    Removal,
 }
 
 /// State of a reading.

@@ -1,9 +1,9 @@
 //! Pattern cut at one spacing: the cuts of its panels and the nodes of its seams.
 
 use super::panel_cut::Cut;
-use super::partition::Partition;
 use super::seam_nodes::SeamNodes;
 use crate::note::Note;
+use crate::partition::Partition;
 
 /// Pattern cut at one spacing.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,13 +4,13 @@
 //! counts the arcs and places the nodes; each [`SampledOutline`] becomes a cut panel.
 
 use super::breakpoint::{Breakpoints, SeamPiece};
-use super::partition::Partition;
 use super::seam_nodes::{NodeId, SeamNodes, Tie};
 use super::simplify::Simplifier;
 use crate::edge::{Curve, Edge};
 use crate::mistake::Mistake;
 use crate::note::Note;
 use crate::panel::Panel;
+use crate::partition::Partition;
 use crate::pattern::Pattern;
 
 /// Largest angle between an edge and a yarn that counts as parallel, in rad.

@@ -1,0 +1,272 @@
+//! Edits: changes of single values of a TOML file, which remedy a mistake.
+//!
+//! A [`Diagnostic`](crate::Diagnostic) has them beside its remedy in words. [`edited`] makes them in
+//! a text and leaves its comments and its layout as they are.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
+
+use crate::key_path::{Part, parts};
+
+/// Change of one value of a TOML file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Edit {
+    /// File, as messages name it.
+    pub file: PathBuf,
+    /// Key path of the value, such as `seam.side.sides[1][0]`.
+    pub key: String,
+    /// Value that stands there, in TOML; `None` if the key is to be added.
+    pub old: Option<String>,
+    /// Value that is to stand there, in TOML; `None` if the key is to be removed.
+    pub new: Option<String>,
+}
+
+/// Reason why an edit cannot be made in a text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum EditError {
+    /// The text is no TOML.
+    Grammar,
+    /// The new value is no TOML.
+    Value {
+        /// Key path of the edit.
+        key: String,
+    },
+    /// The key path leads through a value that is no table, or to an element that is not there.
+    Place {
+        /// Key path of the edit.
+        key: String,
+    },
+    /// The value is not the old one: the text was changed since the mistake was found.
+    Changed {
+        /// Key path of the edit.
+        key: String,
+    },
+}
+
+impl fmt::Display for EditError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Grammar => f.write_str("the text has mistakes of grammar: correct them first"),
+            Self::Value { key } => write!(f, "{key}: the new value is no TOML"),
+            Self::Place { key } => write!(f, "{key}: the text has no place for it"),
+            Self::Changed { key } => write!(f, "{key}: the text was changed: read it again"),
+        }
+    }
+}
+
+impl std::error::Error for EditError {}
+
+/// Returns a text of TOML with edits made, one after the other. Which file the edits belong to is
+/// not looked at.
+///
+/// ```
+/// use drape_input::{Edit, edited};
+///
+/// let text = "[seam.side]  # of the skirt\nsides = [[\"a.left\"], [\"b.right\"]]\n";
+/// let (file, key) = ("skirt.toml".into(), "seam.side.reversed".into());
+/// let edit = Edit { file, key, old: None, new: Some("true".into()) };
+/// let expected = format!("{text}reversed = true\n");
+/// assert_eq!(edited(text, &[edit]), Ok(expected));
+/// ```
+///
+/// # Errors
+/// An edit does not fit the text.
+pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
+    let mut document: DocumentMut = text.parse().map_err(|_| EditError::Grammar)?;
+    for edit in edits {
+        edit.make(document.as_table_mut())?;
+    }
+    Ok(document.to_string())
+}
+
+/// Value on the way to the place of an edit.
+enum Place<'a> {
+    Table(&'a mut Table),
+    Tables(&'a mut ArrayOfTables),
+    Inline(&'a mut InlineTable),
+    Value(&'a mut Value),
+}
+
+/// Last step of a key path.
+enum Step<'a> {
+    Key(&'a str),
+    Index(usize),
+}
+
+impl Edit {
+    /// Makes the edit in a document.
+    fn make(&self, root: &mut Table) -> Result<(), EditError> {
+        let new = self.new.as_deref().map(str::parse::<Value>).transpose();
+        let new = new.map_err(|_| EditError::Value { key: self.key.clone() })?;
+        let mut steps: Vec<Step<'_>> = Vec::new();
+        let path: Vec<Part<'_>> = parts(&self.key).collect();
+        for Part { name, indices } in &path {
+            steps.push(Step::Key(name));
+            steps.extend(indices.iter().map(|index| Step::Index(*index)));
+        }
+        let misplaced = || EditError::Place { key: self.key.clone() };
+        let last = steps.pop().ok_or_else(misplaced)?;
+        let mut place = Place::Table(root);
+        for step in &steps {
+            place = place.enter(step, new.is_some()).ok_or_else(misplaced)?;
+        }
+        if place.text(&last).as_deref().map(str::trim) != self.old.as_deref().map(str::trim) {
+            return Err(EditError::Changed { key: self.key.clone() });
+        }
+        place.set(&last, new).ok_or_else(misplaced)
+    }
+}
+
+impl<'a> Place<'a> {
+    /// Returns the value a step farther; with `adds`, tables that are missing are added.
+    fn enter(self, step: &Step<'_>, adds: bool) -> Option<Self> {
+        match (self, step) {
+            (Self::Table(table), Step::Key(key)) => {
+                if adds && !table.contains_key(key) {
+                    let mut added = Table::new();
+                    added.set_implicit(true);
+                    added.set_dotted(table.is_dotted());
+                    table.insert(key, Item::Table(added));
+                }
+                Self::of_item(table.get_mut(key)?)
+            }
+            (Self::Tables(tables), Step::Index(index)) => tables.get_mut(*index).map(Self::Table),
+            (Self::Inline(table), Step::Key(key)) => {
+                if adds && !table.contains_key(key) {
+                    table.insert(*key, Value::InlineTable(InlineTable::new()));
+                }
+                table.get_mut(key).map(Self::of_value)
+            }
+            (Self::Value(value), Step::Index(index)) => {
+                value.as_array_mut()?.get_mut(*index).map(Self::of_value)
+            }
+            _ => None,
+        }
+    }
+
+    fn of_item(item: &'a mut Item) -> Option<Self> {
+        match item {
+            Item::Table(table) => Some(Self::Table(table)),
+            Item::ArrayOfTables(tables) => Some(Self::Tables(tables)),
+            Item::Value(value) => Some(Self::of_value(value)),
+            Item::None => None,
+        }
+    }
+
+    fn of_value(value: &'a mut Value) -> Self {
+        match value {
+            Value::InlineTable(table) => Self::Inline(table),
+            value => Self::Value(value),
+        }
+    }
+
+    /// Returns the value at the last step, as it is written; `None` if there is none, or a table
+    /// with a heading.
+    fn text(&self, step: &Step<'_>) -> Option<String> {
+        let value = match (self, step) {
+            (Self::Table(table), Step::Key(key)) => table.get(key)?.as_value()?,
+            (Self::Inline(table), Step::Key(key)) => table.get(key)?,
+            (Self::Value(value), Step::Index(index)) => value.as_array()?.get(*index)?,
+            _ => return None,
+        };
+        Some(value.clone().decorated("", "").to_string())
+    }
+
+    /// Puts a value at the last step, or removes what is there.
+    fn set(self, step: &Step<'_>, new: Option<Value>) -> Option<()> {
+        match (self, step, new) {
+            (Self::Table(table), Step::Key(key), Some(new)) => {
+                match table.get_mut(key) {
+                    Some(item) => replace(item.as_value_mut()?, new),
+                    None => _ = table.insert(key, Item::Value(new)),
+                }
+                Some(())
+            }
+            (Self::Table(table), Step::Key(key), None) => table.remove(key).map(drop),
+            (Self::Inline(table), Step::Key(key), Some(new)) => {
+                match table.get_mut(key) {
+                    Some(value) => replace(value, new),
+                    None => _ = table.insert(*key, new),
+                }
+                Some(())
+            }
+            (Self::Inline(table), Step::Key(key), None) => table.remove(key).map(drop),
+            (Self::Value(value), Step::Index(index), Some(new)) => {
+                replace(value.as_array_mut()?.get_mut(*index)?, new);
+                Some(())
+            }
+            (Self::Value(value), Step::Index(index), None) => {
+                let list = value.as_array_mut()?;
+                (*index < list.len()).then(|| _ = list.remove(*index))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Puts a value in the place of another, whose spaces and comments stay.
+fn replace(value: &mut Value, mut new: Value) {
+    new.decor_mut().clone_from(value.decor());
+    *value = new;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = r#"# A garment.
+spacing = 0.02   # coarse
+[[garment]]
+pattern = "tube.toml"
+panel.back.turn = [0, 180, 0]
+[[panel]]
+name = "mat"
+motion = { times = [0, 1], shift = [[0, 0, 0], [0, 0, 8]] }
+"#;
+
+    fn edit(key: &str, old: Option<&str>, new: Option<&str>) -> Edit {
+        let text = |value: Option<&str>| value.map(str::to_owned);
+        Edit { file: "a.toml".into(), key: key.into(), old: text(old), new: text(new) }
+    }
+
+    /// Makes an edit and returns the lines that are new.
+    fn made(key: &str, old: Option<&str>, new: Option<&str>) -> Vec<String> {
+        let text = edited(TEXT, &[edit(key, old, new)]).expect("it fits");
+        let is_new = |line: &&str| !line.is_empty() && !TEXT.lines().any(|own| own == *line);
+        text.lines().filter(is_new).map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn an_edit_changes_one_value_and_leaves_the_rest() {
+        assert_eq!(made("spacing", Some("0.02"), Some("0.01")), ["spacing = 0.01   # coarse"]);
+        let to = ["motion = { times = [0, 1], shift = [[0, 0, 0], [0, 0, 4]] }"];
+        assert_eq!(made("panel[0].motion.shift[1][2]", Some("8"), Some("4")), to);
+        assert_eq!(
+            made("garment[0].panel.back.center", None, Some("[0, 0.5, 0]")),
+            ["panel.back.center = [0, 0.5, 0]"]
+        );
+        assert_eq!(
+            made("contact.surfaces", None, Some("false")),
+            ["[contact]", "surfaces = false"]
+        );
+        let to = ["motion = { shift = [[0, 0, 0], [0, 0, 8]] }"];
+        assert_eq!(made("panel[0].motion.times", Some("[0, 1]"), None), to);
+    }
+
+    #[test]
+    fn an_edit_is_refused_where_it_does_not_fit() {
+        let refused = |text: &str, edit: Edit| edited(text, &[edit]).expect_err("it does not fit");
+        let key = || "spacing".to_owned();
+        let stale = refused(TEXT, edit("spacing", Some("0.03"), Some("0.01")));
+        assert_eq!(stale, EditError::Changed { key: key() });
+        let added = refused(TEXT, edit("spacing", None, Some("0.01")));
+        assert_eq!(added, EditError::Changed { key: key() });
+        let wrong = refused(TEXT, edit("spacing", Some("0.02"), Some("0,01")));
+        assert_eq!(wrong, EditError::Value { key: key() });
+        let nowhere = refused(TEXT, edit("spacing.x", None, Some("1")));
+        assert_eq!(nowhere, EditError::Place { key: "spacing.x".into() });
+        assert_eq!(refused("a = = 1", edit("a", None, Some("1"))), EditError::Grammar);
+    }
+}
