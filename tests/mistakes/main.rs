@@ -30,15 +30,28 @@ fn read(path: &Path) -> Result<(), Diagnostics> {
     }
 }
 
-/// Reads a file among others in a folder, and returns its mistakes as they are told.
-fn answer(files: &Files, checked: &str) -> Option<String> {
+/// Reads a file among others in a folder, and returns its mistakes, with paths seen from there.
+fn mistakes(files: &Files, checked: &str) -> Option<Diagnostics> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, text) in files.iter() {
         std::fs::write(folder.path().join(name), text).expect("writes");
     }
-    let mistakes = read(&folder.path().join(checked)).err()?;
+    let mut mistakes = read(&folder.path().join(checked)).err()?;
     let prefix = format!("{}/", folder.path().display());
-    Some(mistakes.to_string().replace(&prefix, ""))
+    for mistake in &mut mistakes.0 {
+        mistake.message = mistake.message.replace(&prefix, "");
+        mistake.help = mistake.help.take().map(|help| help.replace(&prefix, ""));
+        let edited = mistake.edits.iter_mut().map(|edit| &mut edit.file);
+        for file in edited.chain([&mut mistake.file]) {
+            *file = file.strip_prefix(folder.path()).expect("it is in the folder").into();
+        }
+    }
+    Some(mistakes)
+}
+
+/// Reads a file among others in a folder, and returns its mistakes as they are told.
+fn answer(files: &Files, checked: &str) -> Option<String> {
+    mistakes(files, checked).map(|mistakes| mistakes.to_string())
 }
 
 #[test]
@@ -63,4 +76,28 @@ fn every_mistake_has_its_answer_and_every_remedy_works() {
     }
     println!("{} mistakes, the longest answer took {longest:?}", page.mistakes.len());
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn every_edit_takes_its_mistake_away() {
+    let page = Page::parse(include_str!("page.md"));
+    let (mut count, mut wrong) = (0, Vec::new());
+    for mistake in &page.mistakes {
+        let files = page.files.with(&mistake.change);
+        let told = mistakes(&files, &mistake.checked).expect("it is a mistake").0;
+        for one in told.iter().filter(|one| !one.edits.is_empty()) {
+            count += 1;
+            let mended = files.edited(&one.edits);
+            let after = mended.map(|files| mistakes(&files, &mistake.checked));
+            let gone = after.as_ref().is_ok_and(|after| {
+                after.iter().flat_map(|after| &after.0).all(|left| left.message != one.message)
+            });
+            if !gone || told.len() == 1 && !matches!(after, Ok(None)) {
+                wrong.push(format!("{}: {:?}\nlead to\n{after:?}", mistake.title, one.edits));
+            }
+        }
+    }
+    println!("{count} remedies of {} mistakes are edits", page.mistakes.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(count >= 19, "{count} remedies are edits");
 }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use drape::input::{Edit, EditError, edited};
+
 /// Files by their names.
 #[derive(Debug, Clone, Default)]
 pub struct Files(BTreeMap<String, String>);
@@ -47,6 +49,19 @@ impl Files {
         let at = text.rfind(&change.old).expect(&change.old);
         text.replace_range(at..at + change.old.len(), &change.new);
         files
+    }
+}
+
+impl Files {
+    /// Returns the files with edits, or why they do not fit.
+    pub fn edited(&self, edits: &[Edit]) -> Result<Self, EditError> {
+        let mut files = self.clone();
+        for edit in edits {
+            let name = edit.file.to_str().expect("it is text");
+            let text = files.0.get_mut(name).expect("the page has the file");
+            *text = edited(text, std::slice::from_ref(edit))?;
+        }
+        Ok(files)
     }
 }
 

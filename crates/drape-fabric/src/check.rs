@@ -26,12 +26,13 @@ pub struct Problem {
     pub message: String,
     /// Remedy.
     pub help: String,
+    /// Number with its unit that was probably meant, if one is likely.
+    pub meant: Option<String>,
 }
 
-/// Asks for a unit of a thousandth in which a number would be within its range.
-fn asked(value: f64, range: &RangeInclusive<f64>, unit: &str) -> Option<String> {
-    let meant = range.contains(&(1e-3 * value));
-    meant.then(|| format!("did you mean \"{} {unit}\"?", figure(value)))
+/// Returns a number with a unit of a thousandth in which it would be within its range.
+fn meant(value: f64, range: &RangeInclusive<f64>, unit: &str) -> Option<String> {
+    range.contains(&(1e-3 * value)).then(|| format!("{} {unit}", figure(value)))
 }
 
 impl Fabric {
@@ -41,11 +42,11 @@ impl Fabric {
         let mut check = Check(Vec::new());
         let (range, help) =
             (0.005..=5.0, "mass per area in kg/m²: 0.12, or \"120 g/m2\" with its unit");
-        let help = asked(self.density, &range, "g/m2").unwrap_or_else(|| help.to_owned());
-        check.within("density", self.density, range, &help);
+        let meant_density = meant(self.density, &range, "g/m2");
+        check.within_or("density", self.density, (range, help), meant_density);
         let (range, help) = (1e-6..=0.02, "in m: 0.0003, or \"0.3 mm\" with its unit");
-        let help = asked(self.thickness, &range, "mm").unwrap_or_else(|| help.to_owned());
-        check.within("thickness", self.thickness, range, &help);
+        let meant_thickness = meant(self.thickness, &range, "mm");
+        check.within_or("thickness", self.thickness, (range, help), meant_thickness);
         if let Some(pressed) = self.pressed_thickness {
             let help = "in m, under 4.9 kPa: no more than the thickness";
             check.within("pressed_thickness", pressed, 1e-6..=self.thickness, help);
@@ -68,7 +69,21 @@ struct Check(Vec<Problem>);
 
 impl Check {
     fn fail(&mut self, key: &str, message: String, help: &str) {
-        self.0.push(Problem { key: key.into(), message, help: help.into() });
+        self.0.push(Problem { key: key.into(), message, help: help.into(), meant: None });
+    }
+
+    /// Fails a number outside a range, and asks for another unit where one is likely.
+    fn within_or(
+        &mut self,
+        key: &str,
+        value: f64,
+        (range, help): (RangeInclusive<f64>, &str),
+        meant: Option<String>,
+    ) {
+        let asked = meant.as_ref().map(|meant| format!("did you mean \"{meant}\"?"));
+        let before = self.0.len();
+        self.within(key, value, range, asked.as_deref().unwrap_or(help));
+        self.0[before..].iter_mut().for_each(|problem| problem.meant.clone_from(&meant));
     }
 
     /// Fails a number outside a range, and NaN.

@@ -12,7 +12,9 @@ mod varying;
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, Document, Given, Length, MassPerArea};
+use drape_input::{
+    Diagnostic, Diagnostics, Document, Given, Length, MassPerArea, toml_string,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::assumed;
@@ -108,7 +110,11 @@ impl Fabric {
         });
         let problems = fabric.problems();
         let problems = problems.iter().filter(|problem| !faults.cover(&problem.key));
-        let located = |p: &Problem| document.at(&p.key, p.message.clone()).help(&p.help);
+        let located = |p: &Problem| {
+            let edit = |meant: &String| document.edit(&p.key, Some(&toml_string(meant)));
+            let mistake = document.at(&p.key, p.message.clone()).help(&p.help);
+            mistake.with_edits(p.meant.as_ref().and_then(edit))
+        };
         mistakes.extend(problems.map(located).collect::<Vec<Diagnostic>>());
         mistakes.extend(faults.into_mistakes());
         Diagnostics::check(mistakes)?;

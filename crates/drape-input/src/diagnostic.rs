@@ -3,13 +3,16 @@
 //! `document` makes them; the crates that own a structure add their own, and the command line
 //! prints them.
 
+pub(crate) mod edit;
+pub(crate) mod subject;
+
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use crate::edit::Edit;
+use self::edit::Edit;
+use self::subject::Subject;
 use crate::figure::cut;
-use crate::subject::Subject;
 
 /// Largest number of letters of a message or a remedy.
 const LETTERS_MAX: usize = 1000;

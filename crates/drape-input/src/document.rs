@@ -12,16 +12,16 @@ use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
 use crate::decode::{Change, Decoded, Fault, Faults, decode};
+use crate::diagnostic::edit::Edit;
+use crate::diagnostic::subject::Subject;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::edit::Edit;
 use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
-use crate::key_path::{Part, parts};
+use crate::node::key_path::{Part, parts};
 use crate::node::{Node, Value};
 use crate::places::{Misplaced, Places};
 use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
-use crate::subject::Subject;
 use size_limit::SizeLimit;
 
 /// Limit of TOML files: sheets, fabrics and scenes have a few kilobytes.
@@ -203,16 +203,15 @@ impl Document {
 
     /// Returns the mistake of a fault.
     fn told(&self, fault: Fault) -> Diagnostic {
-        let Fault { span, key, message, help, changes } = fault;
+        let Fault { span, key, message, help, change } = fault;
         let mut mistake = self.locate(span, message);
         mistake.help = (!help.is_empty()).then_some(help);
         mistake.subject = Subject::of_key(&self.content().root, &key);
-        let edits = changes.iter().map(|(key, change)| match change {
-            Change::Value(value) => self.edit(key, Some(value)),
-            Change::Moved(span) => self.edit(key, Some(self.text.get(span.clone())?)),
-            Change::Removal => self.edit(key, None),
-        });
-        mistake.edits = edits.collect::<Option<_>>().unwrap_or_default();
+        mistake.edits = match change {
+            Some(Change::Value(value)) => self.edit(&key, Some(&value)).into_iter().collect(),
+            Some(Change::Renamed(new)) => self.renamed(&key, &new),
+            None => Vec::new(),
+        };
         mistake
     }
 
@@ -224,17 +223,39 @@ impl Document {
     pub fn edit(&self, key: &str, new: Option<&str>) -> Option<Edit> {
         let old = match self.find(key) {
             Some(place) if place.is_whole => {
-                let text = place.value.filter(|_| place.set.is_none());
+                let text = place.node.text.clone().filter(|_| place.set.is_none());
                 Some(text.and_then(|span| self.text.get(span))?.to_owned())
             }
             _ => None,
         };
+        let (file, key) = (self.path.clone(), key.to_owned());
         (old.is_some() || new.is_some()).then(|| Edit {
-            file: self.path.clone(),
-            key: key.to_owned(),
+            file,
+            key,
             old,
             new: new.map(str::to_owned),
         })
+    }
+
+    /// Returns the changes that move a value to another key path; none where the file cannot be
+    /// changed so.
+    #[must_use]
+    pub fn renamed(&self, key: &str, new: &str) -> Vec<Edit> {
+        let file = || self.path.clone();
+        let Some(place) = self.find(key).filter(|place| place.is_whole) else { return Vec::new() };
+        let values = match &place.node.text {
+            Some(value) => Some(vec![(String::new(), value.clone())]),
+            None => place.node.values(),
+        };
+        let add = |(path, span): (String, Range<usize>)| {
+            let value = self.text.get(span)?.to_owned();
+            Some(Edit { file: file(), key: format!("{new}{path}"), old: None, new: Some(value) })
+        };
+        let added: Option<Vec<Edit>> =
+            values.and_then(|values| values.into_iter().map(add).collect());
+        let old = self.edit(key, None).and_then(|edit| edit.old);
+        let removed = Edit { file: file(), key: key.to_owned(), old, new: None };
+        added.map_or_else(Vec::new, |added| [vec![removed], added].concat())
     }
 
     /// Returns whether the text has a value at a key path.
@@ -255,7 +276,8 @@ impl Document {
         let Some(place) = self.find(key) else {
             return Diagnostic { subject, ..self.locate(None, message) };
         };
-        let mut mistake = Diagnostic { subject, ..self.locate(Some(place.span), message) };
+        let mut mistake =
+            Diagnostic { subject, ..self.locate(Some(place.node.span.clone()), message) };
         // Of a list of the text, elements may have been set.
         let set = place.set.filter(|_| mistake.span.is_some());
         if let Some(setting) = set.and_then(|index| self.settings.get(index)) {
@@ -298,31 +320,29 @@ impl Document {
     }
 
     /// Returns the place of the value at a key path, or of the innermost table on the way to it.
-    fn find(&self, key: &str) -> Option<Place> {
-        let whole = |node: &Node| Place {
-            span: node.span.clone(),
-            value: node.text.clone(),
-            is_whole: true,
-            set: node
-                .first_element_behind(self.text.len())
-                .map(|place| place - 1 - self.text.len()),
-        };
-        let mut place: Option<Place> = None;
+    fn find(&self, key: &str) -> Option<Place<'_>> {
         let mut node = &self.content().root;
-        let innermost =
-            |place: Option<Place>| place.map(|place| Place { is_whole: false, ..place });
+        let mut found = None;
         for Part { name, indices } in parts(key) {
-            let Some(entry) = node.entry(name) else { return innermost(place) };
+            let Some(entry) = node.entry(name) else { return self.place(found, false) };
             node = &entry.node;
-            place = Some(whole(node));
             for index in indices {
-                let Value::List(elements) = &node.value else { return innermost(place) };
-                let Some(element) = elements.get(index) else { return innermost(place) };
+                found = Some(node);
+                let Value::List(elements) = &node.value else { return self.place(found, false) };
+                let Some(element) = elements.get(index) else { return self.place(found, false) };
                 node = element;
-                place = Some(whole(node));
             }
+            found = Some(node);
         }
-        place
+        self.place(found, true)
+    }
+
+    /// Returns the place of a value that was found, if one was.
+    fn place<'a>(&self, found: Option<&'a Node>, is_whole: bool) -> Option<Place<'a>> {
+        let node = found?;
+        let set = node.first_element_behind(self.text.len());
+        let set = set.map(|place| place - 1 - self.text.len());
+        Some(Place { node, is_whole, set })
     }
 }
 
@@ -350,10 +370,8 @@ impl Lines {
 }
 
 /// Place of a value, or of a table that it should be in.
-struct Place {
-    span: Range<usize>,
-    /// Bytes of the value, if it stands in one piece.
-    value: Option<Range<usize>>,
+struct Place<'a> {
+    node: &'a Node,
     /// Whether it is the value itself.
     is_whole: bool,
     /// Number of the setting of an element, if the value is a list.
@@ -371,18 +389,28 @@ fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
 /// Returns advice on a path that does not exist: the file beside it that was probably meant.
 #[must_use]
 pub fn nearest_file(path: &Path) -> String {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return format!("there is no folder {}", folder.display());
-    };
+    let folder = folder_of(path);
+    match near_file(path) {
+        Some(name) => format!("did you mean {}?", folder.join(name).display()),
+        None if !folder.is_dir() => format!("there is no folder {}", folder.display()),
+        None => format!("looked in {}", folder.display()),
+    }
+}
+
+/// Returns the name of the file beside a path that does not exist that was probably meant.
+#[must_use]
+pub fn near_file(path: &Path) -> Option<String> {
+    let entries = std::fs::read_dir(folder_of(path)).ok()?;
     let mut names: Vec<String> =
         entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    let wanted = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    match closest(&wanted, names.iter().map(String::as_str)) {
-        Some(name) => format!("did you mean {}?", folder.join(name).display()),
-        None => format!("looked in {}", folder.display()),
-    }
+    let wanted = path.file_name()?.to_string_lossy().into_owned();
+    closest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// Returns the folder of a path.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 #[cfg(test)]
@@ -485,6 +513,14 @@ mod tests {
             [("curve[0].fil", Some("\"x\""), None), ("curve[0].file", None, Some("\"x\""))];
         assert_eq!(edits(0), of_first, "{:?}", mistakes[0]);
         assert_eq!(edits(1), [], "there is a file already: {:?}", mistakes[1]);
+
+        // A table takes all of its values along.
+        let text = "[solvr]\nmethod = \"newton\"\nlinear.size = [1, 2] # two\n";
+        let edits = Document::new("a.toml", text).renamed("solvr", "solver");
+        let changed = crate::edited(text, &edits).expect("they fit");
+        let expected = "[solver]\nlinear.size = [1, 2]\nmethod = \"newton\"\n";
+        let table = |text: &str| Document::new("a.toml", text).decode::<toml::Table>();
+        assert_eq!(table(&changed), table(expected), "{changed}");
     }
 
     #[test]

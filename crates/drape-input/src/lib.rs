@@ -9,9 +9,8 @@
 //! * `given`: [`Given`], a number of a structure that may stand with a unit; `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input.
-//! * `subject`: [`Subject`], the part of an input that a mistake speaks of; `edit`: [`Edit`], a
-//!   change of a file that remedies one, made by [`edited`].
-//! * `key_path`: paths of keys, such as `panel[1].rectangle`, which both follow.
+//!   [`Subject`] is the part of an input that a mistake speaks of, [`Edit`] a change of a file that
+//!   remedies one, made by [`edited`].
 //! * `spelling`: [`closest`], the known word nearest to a misspelt one.
 //! * `setting`: [`Setting`], a value given beside a text, such as on a command line.
 //! * `places`: [`Places`], the folders below which the files lie that a document may name.
@@ -22,11 +21,9 @@
 mod decode;
 mod diagnostic;
 mod document;
-mod edit;
 mod figure;
 mod given;
 mod grammar;
-mod key_path;
 mod node;
 mod places;
 mod quoting;
@@ -34,14 +31,14 @@ mod quoting;
 mod schema;
 mod setting;
 mod spelling;
-mod subject;
 mod unit;
 
 pub use decode::Faults;
+pub use diagnostic::edit::{Edit, EditError, edited};
+pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
-pub use document::{Document, nearest_file};
-pub use edit::{Edit, EditError, edited};
+pub use document::{Document, near_file, nearest_file};
 pub use figure::{excerpt, figure, figure_above, figure_below, figures, tidy};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
@@ -54,5 +51,4 @@ pub use quoting::{toml_key, toml_string};
 pub use schema::{at_least, laboratory_schema, one_of, positive, schema_of, unit_schema, within};
 pub use setting::{Setting, SettingError};
 pub use spelling::closest;
-pub use subject::Subject;
 pub use unit::{Quantity, Unit, UnitError, Written, is_unit, parse_quantity, parse_unit};

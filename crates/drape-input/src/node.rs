@@ -1,9 +1,13 @@
 //! Values of a TOML text with their places: what `document` searches and `decode` reads.
 
+pub(crate) mod key_path;
+
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+use crate::quoting::toml_key;
 
 /// Value with its place in the text.
 #[derive(Debug, Clone)]
@@ -106,6 +110,24 @@ impl Node {
             Value::Table(entries) => entries.iter().flat_map(|entry| entry.node.texts()).collect(),
             _ => Vec::new(),
         }
+    }
+
+    /// Returns the values of a table and of the tables in it, each with its key path behind the
+    /// table's, and its bytes; `None` if some do not stand in one piece.
+    pub(crate) fn values(&self) -> Option<Vec<(String, Range<usize>)>> {
+        let Value::Table(entries) = &self.value else { return None };
+        let mut values = Vec::new();
+        for Entry { key, node, .. } in entries {
+            let key = toml_key(key);
+            match &node.text {
+                Some(text) => values.push((format!(".{key}"), text.clone())),
+                None => {
+                    let inner = node.values()?.into_iter();
+                    values.extend(inner.map(|(path, text)| (format!(".{key}{path}"), text)));
+                }
+            }
+        }
+        Some(values)
     }
 
     /// Returns the kind of the value, in words.

@@ -1,8 +1,9 @@
 //! Mistakes and failures as the exceptions of `drape._errors`.
 
+use std::collections::BTreeMap;
 use std::ffi::CString;
 
-use drape::input::{Diagnostic, Diagnostics};
+use drape::input::{Diagnostic, Diagnostics, Edit, Subject};
 use pyo3::prelude::*;
 
 /// Kind of a failure: the name of its exception.
@@ -27,10 +28,19 @@ pub(crate) fn failure(kind: Kind, message: impl ToString) -> PyErr {
 /// Returns the exception of mistakes of an input, which lists them.
 pub(crate) fn input(mistakes: &Diagnostics) -> PyErr {
     raised(|module| {
+        let edit = |one: &Edit| {
+            let file = one.file.display().to_string();
+            module.getattr("Edit")?.call1((file, &one.key, &one.old, &one.new))
+        };
         let mistake = |one: &Diagnostic| {
             let file = one.file.display().to_string();
-            let fields = (file, one.line, one.column, one.message.clone(), one.help.clone());
-            module.getattr("Mistake")?.call1(fields)
+            let subject: BTreeMap<&str, &str> =
+                one.subject.iter().flat_map(Subject::names).collect();
+            let edits: PyResult<Vec<_>> = one.edits.iter().map(edit).collect();
+            let (message, help) = (&one.message, &one.help);
+            module
+                .getattr("Mistake")?
+                .call1((file, one.line, one.column, message, help, subject, edits?))
         };
         let list: PyResult<Vec<_>> = mistakes.0.iter().map(mistake).collect();
         module.getattr("InputError")?.call1((mistakes.to_string(), list?))

@@ -38,3 +38,19 @@ def test_a_text_is_checked_from_a_folder(towel):
     with pytest.raises(drape.InputError) as caught:
         drape.Scene.from_toml(SCENE + "gravvity = 1\n", folder=towel.parent)
     assert "gravvity" in caught.value.message and caught.value.file.endswith("<text>")
+
+
+def test_a_mistake_says_what_it_speaks_of_and_how_to_change_the_file(towel):
+    right = towel.read_text()
+    towel.write_text(right.replace('fabric = "cupro"', 'fabric = "cupo"'))
+    with pytest.raises(drape.InputError) as caught:
+        drape.Scene.read(towel)
+    [mistake] = caught.value.mistakes
+    assert mistake.subject == {"panel": "towel"}
+    assert mistake.edits == [
+        drape.Edit(file=str(towel), key="panel[0].fabric", old='"cupo"', new='"cupro"')
+    ]
+    # Any program can make the edit.
+    [edit] = mistake.edits
+    towel.write_text(towel.read_text().replace(edit.old, edit.new))
+    assert towel.read_text() == right

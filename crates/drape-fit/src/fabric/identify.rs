@@ -145,7 +145,7 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
         }),
     };
     if let Some(problem) = fabric.problems().into_iter().next() {
-        let fabric::Problem { key, message, help } = problem;
+        let fabric::Problem { key, message, help, .. } = problem;
         return Err(Error::InvalidFabric { key, message, help });
     }
     Ok(Fit { fabric, curves: fits, assumed: notes })

@@ -80,6 +80,15 @@ pub(super) struct Reader<'a> {
     pub(super) state: &'a RefCell<State>,
 }
 
+/// Returns whether a word says that a switch is on; `None` if it says neither.
+fn switch(word: &str) -> Option<bool> {
+    match word.trim().to_ascii_lowercase().as_str() {
+        "true" | "yes" | "on" => Some(true),
+        "false" | "no" | "off" => Some(false),
+        _ => None,
+    }
+}
+
 impl<'a> Reader<'a> {
     /// Writes down that the value is not of the kind that is asked for.
     fn wrong(&self, kind: Kind) {
@@ -92,7 +101,11 @@ impl<'a> Reader<'a> {
             }
             _ => format!("write {wanted}"),
         };
-        self.fault(message, help);
+        let meant = match &self.node.value {
+            Value::Text(text) if kind == Kind::Flag => switch(text).map(|on| on.to_string()),
+            _ => None,
+        };
+        self.fault_of(message, help, meant);
     }
 
     /// Writes down a mistake in the value.
@@ -113,9 +126,8 @@ impl<'a> Reader<'a> {
         let place = self.path.text();
         let message = if place.is_empty() { message } else { format!("{place}: {message}") };
         let span = Some(self.node.span.clone());
-        let changes = meant.map(|value| (place.clone(), Change::Value(value)));
-        let changes = changes.into_iter().collect();
-        state.faults.push(Fault { span, key: place, message, help, changes });
+        let change = meant.map(Change::Value);
+        state.faults.push(Fault { span, key: place, message, help, change });
     }
 
     fn stand_in<V>(&self, kind: Kind, visit: impl FnOnce(StandIn<'_>) -> V) -> V {
@@ -381,8 +393,9 @@ impl<'a> Reader<'a> {
                 let key = self.path.key(&entry.key);
                 let message = format!("{key}: there is no such key");
                 let span = Some(entry.span.clone());
-                let changes = near.map(|near| self.renamed(entry, near)).unwrap_or_default();
-                state.faults.push(Fault { span, key, message, help, changes });
+                let free = near.filter(|near| self.node.entry(near).is_none());
+                let change = free.map(|near| Change::Renamed(self.path.key(near)));
+                state.faults.push(Fault { span, key, message, help, change });
             }
             if let Some(near) = near.filter(|near| found.iter().all(|(key, _)| key != near)) {
                 found.push((near, Some(entry)));
@@ -396,15 +409,6 @@ impl<'a> Reader<'a> {
             }
         }
         found
-    }
-
-    /// Returns the changes that give an entry another key, where its value stands in one piece.
-    fn renamed(&self, entry: &Entry, key: &str) -> Vec<(String, Change)> {
-        let (Some(value), None) = (entry.node.text.clone(), self.node.entry(key)) else {
-            return Vec::new();
-        };
-        let [old, new] = [&entry.key, key].map(|key| self.path.key(key));
-        vec![(old, Change::Removal), (new, Change::Moved(value))]
     }
 
     /// Returns whether the last reading leaves an entry out, since its value is wrong.

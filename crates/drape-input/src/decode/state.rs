@@ -11,18 +11,16 @@ pub(crate) struct Fault {
     pub(crate) key: String,
     pub(crate) message: String,
     pub(crate) help: String,
-    /// Changes at key paths that remedy it, together.
-    pub(crate) changes: Vec<(String, Change)>,
+    /// Change at the key path that remedies it.
+    pub(crate) change: Option<Change>,
 }
 
-/// Change of the value at a key path.
+/// Change at a key path.
 pub(crate) enum Change {
-    /// A value, in TOML.
+    /// Another value, in TOML.
     Value(String),
-    /// The value at some bytes of the text.
-    Moved(Range<usize>),
-    /// No value.
-    Removal,
+    /// Another key path.
+    Renamed(String),
 }
 
 /// State of a reading.

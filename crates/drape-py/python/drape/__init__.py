@@ -11,6 +11,7 @@ from importlib.metadata import version as _version
 from ._builder import SceneBuilder
 from ._convert import Converted, convert
 from ._errors import (
+    Edit,
     Error,
     InputError,
     Mistake,
@@ -38,6 +39,7 @@ from ._scene import Frame, Progress, Scene, Simulation, Step, resume
 __all__ = [
     "Converted",
     "Curve",
+    "Edit",
     "Error",
     "Fabric",
     "Fit",

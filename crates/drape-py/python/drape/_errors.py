@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Edit:
+    """Change of one value of a TOML file."""
+
+    file: str
+    key: str
+    """Key path of the value, such as `seam.side.sides[1][0]`."""
+    old: str | None
+    """Value that stands there, in TOML; none if the key is to be added, or is a table."""
+    new: str | None
+    """Value that is to stand there, in TOML; none if the key is to be removed."""
 
 
 @dataclass(frozen=True)
@@ -18,6 +31,10 @@ class Mistake:
     """What is wrong, with the value."""
     remedy: str | None
     """What to do about it."""
+    subject: dict[str, str] = field(default_factory=dict)
+    """Names of what it speaks of by their kinds: `{"panel": "front", "edge": "hem"}`."""
+    edits: list[Edit] = field(default_factory=list)
+    """Changes that make the remedy, all of them together; none where it is no such change."""
 
 
 class Error(Exception):

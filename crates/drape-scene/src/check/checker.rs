@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use drape_collide::{MESH_BYTES_MAX, Triangulation, parse_mesh, read_mesh_within};
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Faults, SizeLimit, closest, excerpt, figure, tidy,
+    Diagnostic, Diagnostics, Document, Faults, SizeLimit, Subject, closest, excerpt, figure,
+    near_file, nearest_file, tidy, toml_key, toml_string,
 };
 
 use crate::check::documents::Documents;
@@ -32,6 +33,8 @@ pub(crate) struct Checker<'a> {
     /// Mistakes of spelling and type, and what they leave unknown.
     faults: Faults,
     mistakes: Vec<Diagnostic>,
+    /// Mistakes in spite of which the scene can be made.
+    late: Vec<Diagnostic>,
     /// Keys of the mistakes.
     keys: BTreeSet<String>,
 }
@@ -58,6 +61,7 @@ impl<'a> Checker<'a> {
             document,
             faults,
             mistakes: Vec::new(),
+            late: Vec::new(),
             keys: BTreeSet::new(),
         };
         checker.unit = checker.choice("length", file.length.as_deref(), &UNITS);
@@ -101,6 +105,32 @@ impl<'a> Checker<'a> {
         index
     }
 
+    /// Gives a mistake, by its index, the part of the input that it speaks of.
+    pub(crate) fn about(&mut self, index: usize, subject: Subject) {
+        if let Some(mistake) = self.mistakes.get_mut(index) {
+            mistake.subject = Some(subject);
+        }
+    }
+
+    /// Gives a mistake, by its index, a value of a key, in TOML, that remedies it; `None` to remove
+    /// the key.
+    pub(crate) fn remedy(&mut self, index: usize, key: &str, new: Option<&str>) {
+        let edit = self.document.edit(key, new);
+        if let Some(mistake) = self.mistakes.get_mut(index) {
+            mistake.edits.extend(edit);
+        }
+    }
+
+    /// Adds the mistake that there is no file of a path, which the value of a key names.
+    pub(crate) fn no_file(&mut self, key: &str, name: &str, path: &Path) {
+        let message = format!("there is no file {}", path.display());
+        let index = self.fail(key, message, &nearest_file(path));
+        if let Some(near) = near_file(path) {
+            let near = Path::new(name).with_file_name(near);
+            self.remedy(index, key, Some(&toml_string(&near.to_string_lossy())));
+        }
+    }
+
     /// Adds a mistake at a key whose message says the remedy.
     pub(crate) fn fail_with(&mut self, key: &str, error: &impl ToString) {
         self.add(key, tidy(&error.to_string()), |mistake| mistake);
@@ -129,11 +159,23 @@ impl<'a> Checker<'a> {
         self.mistakes.extend(mistakes.0);
     }
 
+    /// Adds mistakes in spite of which the scene can be made, to be shown.
+    pub(crate) fn extend_late(&mut self, mistakes: Vec<Diagnostic>) {
+        self.late.extend(mistakes);
+    }
+
     /// Returns the mistakes that have been found, if there are some.
     pub(crate) fn finish(&mut self) -> Result<(), Diagnostics> {
         let faults = std::mem::take(&mut self.faults).into_mistakes();
         self.mistakes.extend(faults);
+        self.mistakes.append(&mut self.late);
         Diagnostics::check(std::mem::take(&mut self.mistakes))
+    }
+
+    /// Returns all mistakes, if there are some in spite of which the scene cannot be made.
+    pub(crate) fn finish_parts(&mut self) -> Result<(), Diagnostics> {
+        let can_be_made = self.mistakes.is_empty() && self.faults.is_empty();
+        if can_be_made { Ok(()) } else { self.finish() }
     }
 
     /// Adds a mistake about an unknown name, with the nearest of those that there are or else all.
@@ -144,11 +186,24 @@ impl<'a> Checker<'a> {
         unknown: UnknownName<'_>,
     ) {
         let UnknownName { name, known, kind } = unknown;
-        let help = match closest(name, known.iter().copied()) {
+        let near = closest(name, known.iter().copied());
+        let help = match near {
             Some(near) => format!("did you mean \"{near}\"?"),
             None => format!("the {kind} are: {}", known.join(", ")),
         };
-        self.fail(key, message, &help);
+        let index = self.fail(key, message, &help);
+        let Some(near) = near else { return };
+        // The name is the value of the key, or the key itself.
+        match key.strip_suffix(&format!(".{}", toml_key(name))) {
+            Some(table) => {
+                let edits = self.document.renamed(key, &format!("{table}.{}", toml_key(near)));
+                self.mistakes
+                    .get_mut(index)
+                    .into_iter()
+                    .for_each(|own| own.edits.clone_from(&edits));
+            }
+            None => self.remedy(index, key, Some(&toml_string(near))),
+        }
     }
 
     /// Returns whether a number is within a range; if not, adds a mistake.
@@ -182,11 +237,15 @@ impl<'a> Checker<'a> {
         if let (None, Some(word)) = (found, word) {
             let names: Vec<&str> = choices.iter().map(|c| c.0).collect();
             let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
-            let help = match closest(word, names.iter().copied()) {
+            let near = closest(word, names.iter().copied());
+            let help = match near {
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => format!("one of {}", quoted.join(", ")),
             };
-            self.fail(key, format!("there is no \"{}\"", excerpt(word)), &help);
+            let index = self.fail(key, format!("there is no \"{}\"", excerpt(word)), &help);
+            if let Some(near) = near {
+                self.remedy(index, key, Some(&toml_string(near)));
+            }
         }
         found.unwrap_or(&choices[0]).1
     }

@@ -92,8 +92,10 @@ fn check_stiffness(checker: &mut Checker<'_>, settings: &ParticleSettings, bound
             "{} N/m³ does not carry the cloth, which weighs {weight:.2} Pa",
             figure(stiffness)
         );
-        let help = format!("write {least:.0e} or more, or leave it out", least = 1.6 * least);
-        checker.fail("contact.stiffness", message, &help);
+        let enough = format!("{:.0e}", 1.6 * least);
+        let help = format!("write {enough} or more, or leave it out");
+        let mistake = checker.fail("contact.stiffness", message, &help);
+        checker.remedy(mistake, "contact.stiffness", Some(&enough));
     }
 }
 

@@ -3,8 +3,7 @@
 use drape_cloth::Lattice;
 use drape_fabric::Fabric;
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Setting, SettingError, excerpt, figure, nearest_file,
-    toml_key,
+    Diagnostic, Diagnostics, Document, Setting, SettingError, excerpt, figure, toml_key,
 };
 
 use crate::check::checker::{Checker, UnknownName};
@@ -36,9 +35,7 @@ pub(crate) fn materials(
             let fabric = reader(FabricRequest { file: &file, model, allowed });
             (file, fabric)
         } else {
-            let message = format!("there is no file {}", path.display());
-            let help = nearest_file(&path);
-            checker.fail(&key, message, &help);
+            checker.no_file(&key, &entry.file, &path);
             return None;
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;

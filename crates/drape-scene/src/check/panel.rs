@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use drape_cloth::{Grain, Lattice};
-use drape_input::{Given, Length, excerpt, figure, figure_below, tidy};
+use drape_input::{Given, Length, Subject, excerpt, figure, figure_below, tidy};
 
 use crate::check::checker::Checker;
 use crate::check::fabrics::{check_thickness, material_index};
@@ -219,13 +219,13 @@ fn lattice(
             if limit < PARTICLES_MAX as f64 { ", for which there is memory" } else { "" }
         );
         let least = (sides[0] * sides[1] / (0.9 * (limit - before as f64))).sqrt();
-        let help = match least.is_finite() {
-            true => {
-                format!("write spacing = \"{:.2} mm\" or more; is the unit right?", 1e3 * least)
-            }
-            false => "give the panels before it a larger spacing".into(),
+        let help = if least.is_finite() {
+            format!("write spacing = \"{:.2} mm\" or more; is the unit right?", 1e3 * least)
+        } else {
+            "give the panels before it a larger spacing".into()
         };
-        checker.fail(&spacing_key, message, &help);
+        let mistake = checker.fail(&spacing_key, message, &help);
+        checker.about(mistake, Subject::Panel(entry.name.clone()));
         return None;
     }
     let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
@@ -265,7 +265,7 @@ fn lattice(
     };
     let report = |error: drape_cloth::Error| {
         let unit = "lengths are in the file's unit, set by length = \"m\", \"cm\" or \"mm\"";
-        let (error, help) = match error {
+        let (error, help, meant) = match error {
             drape_cloth::Error::Spacing { spacing, size } => (
                 format!(
                     "a spacing of {} m leaves fewer than 3 particles across {} m",
@@ -273,10 +273,16 @@ fn lattice(
                     figure(size)
                 ),
                 format!("{}{unit}", spacing_help(spacing, size)),
+                Some(format!("\"{} mm\"", figure_below(500.0 * size))),
             ),
-            error => (tidy(&error.to_string()), unit.to_owned()),
+            error => (tidy(&error.to_string()), unit.to_owned(), None),
         };
-        checker.fail(&place, format!("panel \"{}\": {error}", excerpt(&entry.name)), &help);
+        let message = format!("panel \"{}\": {error}", excerpt(&entry.name));
+        let mistake = checker.fail(&place, message, &help);
+        checker.about(mistake, Subject::Panel(entry.name.clone()));
+        if let Some(spacing) = meant {
+            checker.remedy(mistake, &place, Some(&spacing));
+        }
     };
     lattice.map_err(report).ok()
 }

@@ -52,18 +52,22 @@ pub(crate) fn solver(checker: &mut Checker<'_>) -> SolverSettings {
     let varies = file.settle.is_some() || file.time.error.is_some();
     if integrator == Integrator::Explicit && varies {
         let help = "leave out [settle] and time.error, or take \"bdf2\"";
-        checker.fail("solver.integrator", "explicit steps are of one length", help);
+        let mistake = checker.fail("solver.integrator", "explicit steps are of one length", help);
+        checker.remedy(mistake, "solver.integrator", Some("\"bdf2\""));
     }
     if file.keeps_surfaces_apart() {
         let textbook = matches!(method, Method::TextbookMass | Method::TextbookDiagonal);
         let whole = "its steps cannot be limited so that surfaces stay apart";
         if integrator == Integrator::Explicit {
             let help = "leave contact.surfaces out, or take integrator = \"bdf2\"";
-            checker.fail("contact.surfaces", format!("with explicit steps: {whole}"), help);
+            let message = format!("with explicit steps: {whole}");
+            let mistake = checker.fail("contact.surfaces", message, help);
+            checker.remedy(mistake, "contact.surfaces", None);
         } else if textbook {
             let help = "add surfaces = false to [contact], or take method = \"broyden\"";
             let word = solver.method.as_deref().unwrap_or_default();
-            checker.fail("solver.method", format!("\"{word}\": {whole}"), help);
+            let mistake = checker.fail("solver.method", format!("\"{word}\": {whole}"), help);
+            checker.remedy(mistake, "contact.surfaces", Some("false"));
         }
     }
     let energy_balance = file.output.energy.unwrap_or(true);

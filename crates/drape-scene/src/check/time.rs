@@ -66,7 +66,8 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
             let message = "steps on the way to rest have no error in time";
             let help =
                 "leave it out: settle.stride sets their length; or add inertia = true to [settle]";
-            checker.fail("time.error", message, help);
+            let mistake = checker.fail("time.error", message, help);
+            checker.remedy(mistake, "time.error", None);
         }
     }
     let varies = error.is_some() || file.settle.is_some();

@@ -5,7 +5,7 @@ use drape_collide::Shape;
 use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
-use crate::check::start::placing::{Solids, remedy};
+use crate::check::start::placing::{PlaceRemedy, Solids};
 use crate::file::body::MeshBodyFile;
 
 /// Largest distance of a garment from every body at the start, in m: a pattern that was made for
@@ -80,8 +80,10 @@ pub(crate) fn check_distance(
         let places: Vec<[f64; 3]> = places.copied().collect();
         // Its girths are measured with its seams, which need sound panels.
         let shift = solids.and_then(|solids| solids.shift(&places, None));
-        let help = format!("was the pattern made for another body? {}", remedy(checker, 0, shift));
-        checker.fail("garment[0]", message, &help);
+        let remedy = PlaceRemedy::new(checker, 0, shift);
+        let help = format!("was the pattern made for another body? {}", remedy.help);
+        let mistake = checker.fail("garment[0]", message, &help);
+        remedy.attach(checker, mistake, 0);
     }
 }
 

@@ -380,11 +380,13 @@ pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Places {
         let fault = describe(&garment.name, place, &points, &solids);
         let girths = Girths::new(scene, number);
         let shift = solids.shift(&points, Some(&girths)).map(|shift| apart(scene, garment, shift));
-        let help = remedy(checker, number, shift);
+        let remedy = PlaceRemedy::new(checker, number, shift);
         match place {
-            Place::Feet => places.notes.push(format!("{fault}; {help}")),
+            Place::Feet => places.notes.push(format!("{fault}; {}", remedy.help)),
             _ => {
-                checker.fail(&format!("garment[{number}].pattern"), fault, &help);
+                let key = format!("garment[{number}].pattern");
+                let mistake = checker.fail(&key, fault, &remedy.help);
+                remedy.attach(checker, mistake, number);
                 places.advised |= shift.is_some();
             }
         }
@@ -461,16 +463,34 @@ fn describe(garment: &str, place: Place, points: &[[f64; 3]], solids: &Solids<'_
     }
 }
 
-/// Returns the remedy: the centre that a garment with a number is to have, if one was found.
-pub(crate) fn remedy(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 3]>) -> String {
-    let (Some(shift), Some(entry)) = (shift, checker.file.garment.get(garment)) else {
-        return "no place about the body was found: does the pattern fit it? turn or move its panels".into();
-    };
-    let [x, y, z] = [0, 1, 2].map(|k| (entry.center[k] * checker.unit + shift[k]) / checker.unit);
-    let digits = if checker.unit == 1.0 { 3 } else { 0 };
-    format!(
-        "write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body"
-    )
+/// Remedy of a place: in words, and as the centre of the garment in TOML, if one was found.
+pub(crate) struct PlaceRemedy {
+    pub(crate) help: String,
+    center: Option<String>,
+}
+
+impl PlaceRemedy {
+    /// Returns the remedy for a garment with a number, by the shift to a place that was found, in m.
+    pub(crate) fn new(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 3]>) -> Self {
+        let (Some(shift), Some(entry)) = (shift, checker.file.garment.get(garment)) else {
+            let help = "no place about the body was found: does the pattern fit it? turn or move its panels";
+            return Self { help: help.into(), center: None };
+        };
+        let [x, y, z] =
+            [0, 1, 2].map(|k| (entry.center[k] * checker.unit + shift[k]) / checker.unit);
+        let digits = if checker.unit == 1.0 { 3 } else { 0 };
+        let center = format!("[{x:.digits$}, {y:.digits$}, {z:.digits$}]");
+        let help =
+            format!("write center = {center} in its [[garment]]; there it is about the body");
+        Self { help, center: Some(center) }
+    }
+
+    /// Gives a mistake, by its index, the change that makes the remedy.
+    pub(crate) fn attach(&self, checker: &mut Checker<'_>, mistake: usize, garment: usize) {
+        if let Some(center) = &self.center {
+            checker.remedy(mistake, &format!("garment[{garment}].center"), Some(center));
+        }
+    }
 }
 
 /// Returns about so many of many points, evenly.

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_collide::{PairDistance, Surface, SurfaceContact};
+use drape_input::Subject;
 
 use crate::check::checker::Checker;
 use crate::check::start::place_key::place_key;
@@ -87,6 +88,9 @@ pub(crate) fn check_tangle(
     let panel = parts.filter_map(panel).next();
     let key = panel.map_or("panel".into(), |panel| place_key(checker, scene, panel));
     let mistake = checker.fail(&key, fault, help);
+    if let Some(panel) = panel {
+        checker.about(mistake, Subject::Panel(panel.name.clone()));
+    }
     Some(Tangled { overlaps, mistake })
 }
 

@@ -1,6 +1,6 @@
 //! Parts of an input that a mistake speaks of, as data for programs that show them.
 
-use crate::key_path::{Part, parts};
+use crate::node::key_path::{Part, parts};
 use crate::node::{Node, Value};
 
 /// Part of an input, by the name that the input gives it.
@@ -34,6 +34,19 @@ pub enum Subject {
 }
 
 impl Subject {
+    /// Returns its names, each with its kind, as in `panel`, `front` and `edge`, `left`.
+    #[must_use]
+    pub fn names(&self) -> Vec<(&'static str, &str)> {
+        match self {
+            Self::Panel(panel) => vec![("panel", panel)],
+            Self::Edge { panel, edge } => vec![("panel", panel), ("edge", edge)],
+            Self::Seam(seam) => vec![("seam", seam)],
+            Self::Curve(curve) => vec![("curve", curve)],
+            Self::Body(body) => vec![("body", body)],
+            Self::Fabric(fabric) => vec![("fabric", fabric)],
+        }
+    }
+
     /// Returns the part that a key path leads to, or through, if it is a known one.
     pub(crate) fn of_key(root: &Node, key: &str) -> Option<Self> {
         let path: Vec<Part<'_>> = parts(key).collect();

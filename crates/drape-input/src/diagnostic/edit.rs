@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
 
-use crate::key_path::{Part, parts};
+use crate::node::key_path::{Part, parts};
 
 /// Change of one value of a TOML file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,7 +17,8 @@ pub struct Edit {
     pub file: PathBuf,
     /// Key path of the value, such as `seam.side.sides[1][0]`.
     pub key: String,
-    /// Value that stands there, in TOML; `None` if the key is to be added.
+    /// Value that stands there, in TOML; `None` if the key is to be added, or is a table with a
+    /// heading of its own.
     pub old: Option<String>,
     /// Value that is to stand there, in TOML; `None` if the key is to be removed.
     pub new: Option<String>,
