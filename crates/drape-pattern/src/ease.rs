@@ -7,4 +7,4 @@
 pub const MAX_EASE: f64 = 5.0;
 
 /// Ratio of the lengths of a seam's sides that is allowed where a file gives none.
-pub(crate) const DEFAULT_EASE: f64 = 1.1;
+pub const DEFAULT_EASE: f64 = 1.1;

@@ -1,40 +1,17 @@
 //! Patterns: checked panels and the seams that sew them together.
 
+mod chain;
+pub(crate) mod partition;
+pub(crate) mod seam;
+
 use crate::ease::MAX_EASE;
 use crate::edge::{Edge, distance};
 use crate::mistake::Mistake;
 use crate::note::Note;
 use crate::panel::Panel;
-
-/// Edge of a pattern, by the numbers of its panel and edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct EdgeId {
-    /// Number of the panel, from 0.
-    pub panel: usize,
-    /// Number of the edge in its outline, from 0.
-    pub edge: usize,
-}
-
-/// Seam: two chains of edges that are sewn together.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Seam {
-    /// Name, or number where the file gives no name.
-    pub name: String,
-    /// Edges of both sides, each in the order in which the seam runs. The seam runs along the
-    /// outlines of the first side's panels and against those of the second side's: right side on
-    /// right side.
-    pub sides: [Vec<EdgeId>; 2],
-    /// Whether it runs along the outlines of the second side's panels too: right side on wrong
-    /// side.
-    pub reversed: bool,
-    /// Largest ratio of the lengths of the sides that is intended, from 1 to [`MAX_EASE`].
-    pub max_ease: f64,
-    /// Angle between the sides of the sewn seam, towards their right sides, in rad: 0 if it is
-    /// pressed open.
-    pub angle: f64,
-    /// Width of the seam allowance: of the cloth beyond the seam on each side, in m.
-    pub allowance: f64,
-}
+use crate::panel::dart::Dart;
+use chain::turn_listings;
+use seam::{EdgeId, Seam};
 
 /// Garment pattern: checked panels and seams.
 ///
@@ -63,7 +40,8 @@ impl Pattern {
     /// # Errors
     /// All mistakes of the seams, and panels of the same name, together.
     pub fn new(panels: Vec<Panel>, seams: Vec<Seam>) -> Result<Self, Vec<Mistake>> {
-        let pattern = Self { panels, seams, notes: Vec::new() };
+        let mut pattern = Self { panels, seams, notes: Vec::new() };
+        pattern.sew_darts();
         let mut mistakes = Vec::new();
         for (index, panel) in pattern.panels.iter().enumerate() {
             if pattern.panels[..index].iter().any(|p| p.name() == panel.name()) {
@@ -73,7 +51,11 @@ impl Pattern {
         for index in 0..pattern.seams.len() {
             mistakes.extend(pattern.mistakes(index));
         }
-        if mistakes.is_empty() { Ok(pattern) } else { Err(mistakes) }
+        if !mistakes.is_empty() {
+            return Err(mistakes);
+        }
+        turn_listings(&pattern.panels, &mut pattern.seams);
+        Ok(pattern)
     }
 
     /// Returns the notes of its reader.
@@ -127,12 +109,44 @@ impl Pattern {
 
     /// Returns the edge with a number that exists.
     pub(crate) fn edge(&self, id: EdgeId) -> &Edge {
-        &self.panels[id.panel].outline()[id.edge]
+        self.panels[id.panel].edges().nth(id.edge).expect("its seam has been checked")
     }
 
     /// Returns the length of a side of a seam, in m.
     pub(crate) fn side_length(&self, side: &[EdgeId]) -> f64 {
         side.iter().map(|&id| self.edge(id).length()).sum()
+    }
+
+    /// Adds the seams of darts whose legs no seam names.
+    fn sew_darts(&mut self) {
+        for (number, panel) in self.panels.iter().enumerate() {
+            for dart in panel.darts() {
+                let ids = |leg: &Vec<String>| -> Option<Vec<EdgeId>> {
+                    let edge = |name: &String| panel.edges().position(|edge| edge.name == *name);
+                    leg.iter()
+                        .map(|name| Some(EdgeId { panel: number, edge: edge(name)? }))
+                        .collect()
+                };
+                let [Some(left), Some(right)] = dart.legs.each_ref().map(ids) else { continue };
+                let all = self.seams.iter().flat_map(|seam| seam.sides.iter().flatten());
+                if all.clone().any(|id| left.contains(id) || right.contains(id)) {
+                    continue;
+                }
+                let name = format!("{}.{}", panel.name(), dart.name);
+                self.seams.push(Seam::of_dart(name, [left, right]));
+            }
+        }
+    }
+
+    /// Returns whether a seam is that of a closed dart, which the dart says itself.
+    pub(crate) fn is_dart(&self, seam: &Seam) -> bool {
+        let mut ids = seam.sides.iter().flatten();
+        let Some(panel) = ids.next().and_then(|id| self.panels.get(id.panel)) else { return false };
+        let names = |dart: &Dart| {
+            !dart.hole().is_empty() && format!("{}.{}", panel.name(), dart.name) == seam.name
+        };
+        *seam == Seam::of_dart(seam.name.clone(), seam.sides.clone())
+            && panel.darts().iter().any(names)
     }
 
     /// Returns the mistakes of a seam.
@@ -144,7 +158,7 @@ impl Pattern {
             mistakes.push(Mistake::MaxEase { seam: name(), max_ease: seam.max_ease });
         }
         for id in seam.sides.iter().flatten() {
-            if self.panels.get(id.panel).is_none_or(|p| id.edge >= p.outline().len()) {
+            if self.panels.get(id.panel).is_none_or(|p| id.edge >= p.edges().count()) {
                 let EdgeId { panel, edge } = *id;
                 mistakes.push(Mistake::NoEdge { seam: name(), panel, edge });
             }

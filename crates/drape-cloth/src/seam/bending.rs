@@ -102,11 +102,11 @@ impl SeamBending {
     /// same numbers.
     ///
     /// Where two neighbours on one side are the same particle, as where a seam runs over the mouth
-    /// of a dart, nothing bends between them.
+    /// of a dart, and at the breaks of a seam, nothing bends between them.
     ///
     /// # Errors
-    /// When a seam has fewer than two pairs, a particle does not exist, neighbours on a side are
-    /// not neighbours on the outline, a particle is tied to others than those of the other side, or
+    /// When a seam has fewer than two pairs, a particle does not exist, other neighbours on a side
+    /// are not neighbours on the outline, a particle is tied to others than those of the other side, or
     /// stiffness or angle are out of range.
     pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, Error> {
         let builder = SeamBuilder::of(panels);

@@ -131,12 +131,13 @@ impl SeamBuilder {
                 sides[side].push(ends[1][side]);
             }
             // Over the mouth of a dart one side has one particle at both pairs, and the other
-            // jumps.
+            // jumps. Where darts meet, and between edges that are apart, both sides jump.
             let stays = [0, 1].iter().any(|&side| ends[0][side] == ends[1][side]);
+            let is_broken = stays || seam.breaks.contains(&pair);
             let triangles = |side: &Vec<u32>| -> Result<Vec<SideTriangle>, SeamProblem> {
                 side.windows(2).map(|two| self.side_triangle(pair, two[0], two[1])).collect()
             };
-            segments.push(if stays {
+            segments.push(if is_broken {
                 None
             } else {
                 Some([triangles(&sides[0])?, triangles(&sides[1])?])

@@ -8,6 +8,9 @@ pub struct Seam {
     pub pairs: Vec<[u32; 2]>,
     /// Particles of the longer side of a gather between the pairs, in the order of the seam.
     pub ties: Vec<Tie>,
+    /// Numbers of the pairs, from 0, after which the seam goes on elsewhere: the next pair is no
+    /// neighbour on the outlines.
+    pub breaks: Vec<usize>,
     /// Stiffness of the strip along the seam that is added to the panels, over that of the fabric.
     pub stiffness: f64,
     /// Angle by which the panels are turned towards their right sides at rest, in rad: 0 if the
@@ -37,6 +40,7 @@ impl Seam {
     /// Returns a seam of the usual stiffness that is pressed open.
     #[must_use]
     pub fn new(pairs: Vec<[u32; 2]>) -> Self {
-        Self { pairs, ties: Vec::new(), stiffness: Self::STIFFNESS, rest_angle: 0.0 }
+        let (ties, breaks) = (Vec::new(), Vec::new());
+        Self { pairs, ties, breaks, stiffness: Self::STIFFNESS, rest_angle: 0.0 }
     }
 }

@@ -3,7 +3,7 @@
 use super::panel_cut::Cut;
 use super::seam_nodes::SeamNodes;
 use crate::note::Note;
-use crate::partition::Partition;
+use crate::pattern::partition::Partition;
 
 /// Pattern cut at one spacing.
 #[derive(Debug, Clone, PartialEq)]

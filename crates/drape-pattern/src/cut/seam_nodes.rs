@@ -17,6 +17,9 @@ pub struct SeamNodes {
     pub pairs: Vec<[NodeId; 2]>,
     /// Nodes of the longer side of a gather between the pairs, in the same order.
     pub ties: Vec<Tie>,
+    /// Numbers of the pairs, from 0, after which the seam goes on elsewhere, as over the mouth of a
+    /// dart or in another panel: the next pair is no neighbour on the outlines.
+    pub breaks: Vec<usize>,
 }
 
 /// Node of the longer side of a gather that is tied to a point between two nodes of the shorter
@@ -51,6 +54,16 @@ impl SeamNodes {
     #[must_use]
     pub fn ends(&self, tie: &Tie) -> [NodeId; 2] {
         [tie.after, tie.after + 1].map(|pair| self.pairs[pair][1 - tie.side])
+    }
+
+    /// Adds the first pair of a piece, which is the last one of the piece before it, or elsewhere.
+    pub(crate) fn go_on_at(&mut self, pair: [NodeId; 2]) {
+        match self.pairs.last() {
+            Some(last) if *last == pair => return,
+            Some(_) => self.breaks.push(self.pairs.len() - 1),
+            None => {}
+        }
+        self.pairs.push(pair);
     }
 
     /// Returns all nodes, to be renumbered.

@@ -4,5 +4,6 @@
 mod darts;
 mod garments;
 mod invariants;
+mod listing;
 mod outlines;
 mod rectangles;

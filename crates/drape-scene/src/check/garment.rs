@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use drape_cloth::Tie;
-use drape_input::{Diagnostic, Diagnostics, Document, excerpt, nearest_file, toml_key};
+use drape_input::{Diagnostic, Diagnostics, Document, excerpt, figure_below, toml_key};
 use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, Place};
 
 use crate::check::checker::{Checker, UnknownName};
@@ -26,7 +26,7 @@ use crate::scene::seam::{Seam, SeamPairs};
 
 use self::layer::layer;
 use self::placed_panel::{Piece, placed_panel};
-use self::seam_order::PlacedSeam;
+use self::seam_order::{PlacedSeam, SeamHome};
 
 /// Garment as its panels and its seams.
 pub(crate) struct CutGarment {
@@ -60,7 +60,7 @@ pub(crate) fn garments(
         let key = format!("garment[{index}]");
         let named = format!("{key}.pattern");
         let Some(path) = checker.locate(&named, &entry.pattern) else { continue };
-        let Some(pattern) = pattern(checker, &named, &path) else { continue };
+        let Some(pattern) = pattern(checker, (&named, &entry.pattern), &path) else { continue };
         let Some(pattern) = changed(checker, &key, entry, pattern) else { continue };
         let uncut = UncutPattern { pattern: &pattern, first, grading };
         let Some(garment) = cut(checker, &key, entry, uncut) else { continue };
@@ -81,20 +81,21 @@ pub(crate) fn garments(
     }
     let seams = garments.iter().flat_map(|garment| &garment.seams);
     let known: Vec<&str> = seams.map(|seam| seam.name.as_str()).collect();
-    for name in file.sew.twisted.iter().filter(|name| !known.contains(&name.as_str())) {
-        let unknown = UnknownName { name, known: &known, kind: "seams" };
-        checker.unknown("sew.twisted", format!("there is no seam \"{name}\""), unknown);
+    for (index, name) in file.sew.twisted.iter().enumerate() {
+        if !known.contains(&name.as_str()) {
+            let unknown = UnknownName { name, known: &known, kind: "seams" };
+            let key = format!("sew.twisted[{index}]");
+            checker.unknown(&key, format!("there is no seam \"{name}\""), unknown);
+        }
     }
     garments
 }
 
 /// Reads the pattern of a garment, which a key names.
-fn pattern(checker: &mut Checker<'_>, key: &str, path: &Path) -> Option<Pattern> {
+fn pattern(checker: &mut Checker<'_>, (key, name): (&str, &str), path: &Path) -> Option<Pattern> {
     let given = checker.given(path);
     if given.is_none() && !path.exists() {
-        let message = format!("there is no file {}", path.display());
-        let help = nearest_file(path);
-        checker.fail(key, message, &help);
+        checker.no_file(key, name, path);
         return None;
     }
     let read = match given {
@@ -176,7 +177,11 @@ fn cut(
         return None;
     }
     let spacing = entry.spacing.or(checker.file.spacing).map_or(SPACING, |s| s * unit);
-    let cut = pieces(checker, key, Cutter::new(spacing).cut(pattern))?;
+    let spacing_key = match entry.spacing {
+        Some(_) => format!("{key}.spacing"),
+        None => "spacing".into(),
+    };
+    let cut = pieces(checker, (key, &spacing_key), Cutter::new(spacing).cut(pattern))?;
     let layer = layer(checker, &format!("{key}.layer"), entry.layer).unwrap_or(0);
     let mut noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
     let (mut pieces, mut next) = (Vec::new(), first);
@@ -189,7 +194,7 @@ fn cut(
     if pieces.len() < known.len() {
         return None;
     }
-    check_seam_order(checker, entry, pattern, |EdgeId { panel, edge }| {
+    check_seam_order(checker, (key, entry), pattern, |EdgeId { panel, edge }| {
         let nodes = cut.panels[panel].edges[edge].iter();
         nodes.map(|&node| pieces[panel].position(node)).collect()
     });
@@ -202,7 +207,8 @@ fn cut(
         };
         let pairs = nodes.pairs.iter().map(|pair| pair.map(node)).collect();
         let pairs = SeamPairs { pairs, ties: nodes.ties.iter().map(tie).collect() };
-        Seam { name: seam.name.clone(), rest_angle: seam.angle, pairs }
+        let (name, breaks) = (seam.name.clone(), nodes.breaks.clone());
+        Seam { name, rest_angle: seam.angle, pairs, breaks }
     });
     let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();
     let name = match &entry.name {
@@ -221,7 +227,7 @@ fn cut(
 /// function.
 fn check_seam_order(
     checker: &mut Checker<'_>,
-    entry: &GarmentFile,
+    (key, entry): (&str, &GarmentFile),
     pattern: &Pattern,
     places: impl Fn(EdgeId) -> Vec<[f64; 3]>,
 ) {
@@ -232,15 +238,22 @@ fn check_seam_order(
         Some(document) => document.clone(),
         None => Document::read(&path).unwrap_or_else(|_| Document::new(&path, "")),
     };
-    let mistakes: Vec<Diagnostic> =
-        twisted.filter_map(|seam| PlacedSeam::new(pattern, seam, &places).mistake(&file)).collect();
-    checker.extend(Diagnostics(mistakes));
+    let of_pattern = SeamHome { document: &file, key: "seam".into() };
+    let of_scene = SeamHome { document: checker.document(), key: format!("{key}.seam") };
+    let is_toml = !Pattern::is_drawing_text(&file);
+    let mistake = |seam: &drape_pattern::Seam| {
+        let is_own = is_toml && !entry.seam.contains_key(&seam.name);
+        let home = if is_own { &of_pattern } else { &of_scene };
+        PlacedSeam::new(pattern, seam, &places).mistake(home)
+    };
+    let mistakes: Vec<Diagnostic> = twisted.filter_map(mistake).collect();
+    checker.extend_late(mistakes);
 }
 
 /// Takes the cut of a pattern, or its mistakes.
 fn pieces(
     checker: &mut Checker<'_>,
-    key: &str,
+    (key, spacing_key): (&str, &str),
     cut: Result<CutPattern, Error>,
 ) -> Option<CutPattern> {
     let key = format!("{key}.pattern");
@@ -248,7 +261,12 @@ fn pieces(
         Ok(cut) => return Some(cut),
         Err(Error::Pattern(mistakes)) => {
             for mistake in mistakes {
-                checker.fail(&key, mistake.to_string(), &mistake.help());
+                let index = checker.fail(&key, mistake.to_string(), &mistake.help());
+                mistake.subject().into_iter().for_each(|own| checker.about(index, own));
+                if let Some(spacing) = mistake.most_spacing() {
+                    let spacing = format!("\"{} mm\"", figure_below(1e3 * spacing));
+                    checker.remedy(index, spacing_key, Some(&spacing));
+                }
             }
         }
         Err(error) => {

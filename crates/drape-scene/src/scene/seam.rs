@@ -10,6 +10,8 @@ pub struct Seam {
     /// Particles of both sides, in the order in which it runs; those of a pair are one at the tip
     /// of a dart.
     pub pairs: SeamPairs,
+    /// Numbers of the pairs, from 0, after which it goes on elsewhere, as over the mouth of a dart.
+    pub breaks: Vec<usize>,
     /// Angle by which its sides are turned towards their right sides at rest, in rad.
     pub rest_angle: f64,
 }

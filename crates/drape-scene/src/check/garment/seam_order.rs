@@ -11,8 +11,8 @@
 //! which is 1 for two parallel sides of which one runs the wrong way, at any distance of theirs.
 //! Called on each garment when its panels are at their places.
 
-use drape_input::{Diagnostic, Document, toml_key, toml_string};
-use drape_pattern::{EdgeId, Pattern, Seam};
+use drape_input::{Diagnostic, Document, Edit, Subject, toml_key, toml_string};
+use drape_pattern::{DEFAULT_EASE, EdgeId, Pattern, Seam};
 
 /// Advantage of another order above which the listed one is a mistake. Sides in the right order
 /// have 0, a reversed one about 1, two equal edges that are swapped three quarters. The shipped
@@ -60,6 +60,14 @@ struct Gaps {
     mean_square: f64,
 }
 
+/// File that states the seams of a garment, or that can: its pattern, or the scene for patterns of
+/// other formats.
+pub(crate) struct SeamHome<'a> {
+    pub(crate) document: &'a Document,
+    /// Key path of its seams.
+    pub(crate) key: String,
+}
+
 /// Seam whose edges are at their places.
 pub(crate) struct PlacedSeam<'a> {
     pub(crate) seam: &'a Seam,
@@ -75,19 +83,19 @@ impl<'a> PlacedSeam<'a> {
     ) -> Self {
         let edge = |&id: &EdgeId| {
             let panel = &pattern.panels()[id.panel];
-            let name = format!("{}.{}", panel.name(), panel.outline()[id.edge].name);
+            let edge = panel.edges().nth(id.edge).map_or("", |edge| &edge.name);
+            let name = format!("{}.{edge}", panel.name());
             SideEdge { name, places: places(id) }
         };
         Self { seam, sides: seam.sides.each_ref().map(|side| side.iter().map(edge).collect()) }
     }
 
-    /// Returns the mistake of a seam that another order fits better, at its place in the file of
-    /// the pattern, if that is TOML.
-    pub(crate) fn mistake(&self, file: &Document) -> Option<Diagnostic> {
+    /// Returns the mistake of a seam that another order fits better, at the place where the seam is
+    /// stated, or can be.
+    pub(crate) fn mistake(&self, home: &SeamHome<'_>) -> Option<Diagnostic> {
         let Better { order, listed_gap, gap } = self.better()?;
         let name = &self.seam.name;
-        let as_listed = self.listed();
-        let (fault, change) = match order.edges == as_listed.edges {
+        let (fault, change) = match order.edges == self.listed().edges {
             true => ("reversed", "if the second side ran the other way"),
             false => ("twisted", "if its edges were in the order that fits"),
         };
@@ -96,12 +104,14 @@ impl<'a> PlacedSeam<'a> {
             1e3 * listed_gap,
             1e3 * gap
         );
+        let key = home.seam(name);
         let help = format!(
-            "write under [seam.{}]: {}; or list \"{name}\" in the scene's sew.twisted if the twist is meant",
-            toml_key(name),
-            self.line(&order)
+            "write under [{}]: {}; or list \"{name}\" in the scene's sew.twisted if the twist is meant",
+            home.heading(name),
+            self.line(home, &order)
         );
-        Some(file.at(&format!("seam.{name}"), message).help(help))
+        let mistake = home.document.at(&key, message).help(help).about(Subject::Seam(name.clone()));
+        Some(mistake.with_edits(self.edits(home, &order)))
     }
 
     /// Returns the order as it is listed.
@@ -161,18 +171,62 @@ impl<'a> PlacedSeam<'a> {
         Gaps { mean, mean_square: squares.iter().sum::<f64>() / count }
     }
 
-    /// Returns the lines of TOML that give a seam an order.
-    fn line(&self, order: &Order) -> String {
+    /// Returns the sides of an order, in TOML.
+    fn sides(&self, order: &Order) -> String {
         let side = |side: usize| {
             let names = order.edges[side].iter().map(|&edge| &self.sides[side][edge].name);
             names.map(|name| toml_string(name)).collect::<Vec<_>>().join(", ")
         };
-        let sides = format!("sides = [[{}], [{}]]", side(0), side(1));
-        match (order.reversed, self.seam.reversed) {
-            (true, _) => format!("{sides} and reversed = true"),
-            (false, true) => format!("{sides}, without reversed = true"),
-            (false, false) => sides,
+        format!("[[{}], [{}]]", side(0), side(1))
+    }
+
+    /// Returns the lines of TOML that give a seam an order.
+    fn line(&self, home: &SeamHome<'_>, order: &Order) -> String {
+        let mut line = format!("sides = {}", self.sides(order));
+        if self.is_fuller_than(home) {
+            line += &format!(", max_ease = {}", self.seam.max_ease);
         }
+        match (order.reversed, self.seam.reversed) {
+            (true, _) => line + " and reversed = true",
+            (false, true) => line + ", without reversed = true",
+            (false, false) => line,
+        }
+    }
+
+    /// Returns the changes that give a seam an order.
+    fn edits(&self, home: &SeamHome<'_>, order: &Order) -> Vec<Edit> {
+        let key = home.seam(&self.seam.name);
+        let set = |own: &str, new: Option<&str>| home.document.edit(&format!("{key}.{own}"), new);
+        let mut edits = Vec::new();
+        if order.edges != self.listed().edges || !home.document.has(&key) {
+            edits.push(set("sides", Some(&self.sides(order))));
+        }
+        if order.reversed != self.seam.reversed || !home.document.has(&key) && order.reversed {
+            edits.push(set("reversed", order.reversed.then_some("true")));
+        }
+        if self.is_fuller_than(home) {
+            edits.push(set("max_ease", Some(&self.seam.max_ease.to_string())));
+        }
+        edits.into_iter().flatten().collect()
+    }
+
+    /// Returns whether a seam of another file, which takes the place of this one, would allow less
+    /// fullness.
+    fn is_fuller_than(&self, home: &SeamHome<'_>) -> bool {
+        !home.document.has(&home.seam(&self.seam.name)) && self.seam.max_ease > DEFAULT_EASE
+    }
+}
+
+impl SeamHome<'_> {
+    /// Returns the key path of a seam.
+    fn seam(&self, name: &str) -> String {
+        format!("{}.{}", self.key, toml_key(name))
+    }
+
+    /// Returns the heading of the table of a seam.
+    fn heading(&self, name: &str) -> String {
+        let table = if self.key == "seam" { "seam" } else { "garment.seam" };
+        format!("{table}.{}", toml_key(name))
     }
 }
 

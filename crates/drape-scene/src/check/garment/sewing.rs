@@ -62,6 +62,7 @@ impl SewingSettings {
             stiffness,
             rest_angle: seam.rest_angle,
             ties: seam.pairs.ties.clone(),
+            breaks: seam.breaks.clone(),
             ..drape_cloth::Seam::new(seam.pairs.pairs.clone())
         };
         // A seam of one pair, of edges that are too short for the spacing, has nothing to bend.
