@@ -105,13 +105,22 @@ fn a_reversed_seam_is_answered_with_the_sense_that_fits() {
 fn a_twisted_seam_is_answered_with_the_order_that_fits() {
     let good =
         "sides = [[\"back.top_right\", \"back.top_left\"], [\"band.bottom\"]]\nreversed = false";
-    let swapped =
+    let unequal = pattern(170.0).replace("[100, 250]", "[0, 250]");
+    // Backwards is no other seam, as long as both sides are.
+    let backwards =
         "sides = [[\"back.top_left\", \"back.top_right\"], [\"band.bottom\"]]\nreversed = false";
-    let wrong = pattern(170.0).replace(good, swapped).replace("[100, 250]", "[0, 250]");
+    assert!(read(&unequal.replace(good, backwards), "").is_ok());
+    // Two parts of the band that contradict the back.
+    let parts =
+        "{ name = \"bottom\", to = [0, 0] },\n    { name = \"bottom_right\", to = [170, 0] },";
+    let whole = "{ name = \"bottom\", to = [170, 0] },";
+    let crossed = "sides = [[\"back.top_right\", \"back.top_left\"], [\"band.bottom\", \"band.bottom_right\"]]";
+    assert!(unequal.contains(whole));
+    let wrong = unequal.replace(whole, parts).replace(good, crossed);
     let said = read(&wrong, "").unwrap_err();
     assert!(said.contains("seam.waist: the seam is twisted: its stitches are"), "{said}");
     let line = between(&said, "[seam.waist]: ", "; or").to_owned();
-    let mended = wrong.replace(swapped, &line);
+    let mended = wrong.replace(crossed, &line);
     assert!(read(&mended, "").is_ok(), "{said}");
 }
 
@@ -197,4 +206,29 @@ fn stitches_through_another_panel_are_told() {
         "{told}"
     );
     assert_eq!(notes("200"), Vec::<String>::new());
+}
+
+#[test]
+fn what_the_scene_does_not_give_of_the_place_of_a_panel_stays_that_of_the_pattern() {
+    let skirt = pattern(170.0);
+    let positions = |skirt: &str, keys: &str| {
+        let keys = if keys.is_empty() { "" } else { &format!("[garment.panel.back]\n{keys}") };
+        let scene = read(
+            skirt,
+            &format!("{keys}\n[sew]\ntwisted = [\"side_left\", \"side_right\", \"waist\"]"),
+        );
+        scene.unwrap().start.positions
+    };
+    // The back of the pattern, and the same with another place or another turn.
+    let own = "origin = [0, 600, -125]\nturn = [0, 180, 0]";
+    assert!(skirt.contains(own));
+    let changed = |to: &str| positions(&skirt.replacen(own, to, 1), "");
+    let moved = changed("origin = [0, 580, -165]\nturn = [0, 180, 0]");
+    let turned = changed("origin = [0, 600, -125]\nturn = [0, 176, 0]");
+    assert!(moved != positions(&skirt, "") && turned != positions(&skirt, ""));
+    // Lengths of the scene are in m.
+    assert_eq!(positions(&skirt, "center = [0, 0.58, -0.165]"), moved);
+    assert_eq!(positions(&skirt, "turn = [0, 176, 0]"), turned);
+    assert_eq!(positions(&skirt, "center = [0, 0.58, -0.165]\nturn = [0, 180, 0]"), moved);
+    assert_eq!(positions(&skirt, "wrap = 0.125\nturn = [0, 176, 0]"), turned);
 }

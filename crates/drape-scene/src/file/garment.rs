@@ -53,7 +53,7 @@ pub(crate) struct GarmentPanelFile {
     /// missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
     pub(crate) grain: Option<Given<Angle>>,
-    /// Origin of the panel's frame; that of the pattern if `center` and `turn` are missing.
+    /// Origin of the panel's frame; that of the pattern if missing.
     pub(crate) center: Option<[Given<Length>; 3]>,
     /// Rotations about x, y and z, one after the other, in degrees; those of the pattern if
     /// missing.

@@ -1,7 +1,7 @@
 //! Panels of a cut pattern at their places.
 
 use drape_cloth::{Grain, Lattice};
-use drape_input::toml_key;
+use drape_input::{Subject, toml_key};
 use drape_pattern::{CutPattern, Pattern, Placement};
 
 use crate::check::checker::Checker;
@@ -118,7 +118,7 @@ pub(crate) fn placed_panel(
                 point[axis] + height * placement.rotation[axis][2];
         }
     }
-    let edges = panel.outline().iter().zip(&cut.edges).map(|(edge, nodes)| PanelEdge {
+    let edges = panel.edges().zip(&cut.edges).map(|(edge, nodes)| PanelEdge {
         name: edge.name.clone(),
         nodes: nodes.iter().filter_map(|&node| numbers[node as usize]).collect(),
     });
@@ -170,23 +170,29 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
 fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> {
     let &Piece { key, entry, .. } = piece;
     let (unit, own) = (checker.unit, piece.own());
-    let written = own.filter(|own| own.center.is_some() || own.turn.is_some());
-    let mut placement = match (written, piece.panel().placement()) {
-        (Some(own), _) => {
-            let center = own.center.unwrap_or_default().map(|x| x * unit);
-            Placement::new(
-                own.turn.unwrap_or_default().map(|angle| angle.value().to_radians()),
-                center,
-            )
+    let center = own.and_then(|own| own.center).map(|center| center.map(|x| x * unit));
+    let turn = own.and_then(|own| own.turn);
+    let turn = turn.map(|turn| turn.map(|angle| angle.value().to_radians()));
+    let mut placement = match (center, turn, piece.panel().placement()) {
+        // Of a place in the pattern each of both stays that the scene does not give.
+        (center, None, Some(given)) => {
+            Placement { translation: center.unwrap_or(given.translation), ..*given }
         }
-        (None, Some(given)) => *given,
-        (None, None) => {
+        (center, Some(turn), Some(given)) => {
+            Placement::new(turn, center.unwrap_or(given.translation)).with_wrap(given.wrap)
+        }
+        (Some(_), _, None) | (_, Some(_), None) => {
+            Placement::new(turn.unwrap_or_default(), center.unwrap_or_default())
+        }
+        (None, None, None) => {
             let name = piece.panel().name();
             let help = format!(
                 "add center = [x, y, z] and turn = [x, y, z] to [garment.panel.{}], or origin and turn to the pattern",
                 toml_key(name)
             );
-            checker.fail(key, format!("panel \"{name}\" has no place in space"), &help);
+            let mistake =
+                checker.fail(key, format!("panel \"{name}\" has no place in space"), &help);
+            checker.about(mistake, Subject::Panel(name.into()));
             return None;
         }
     };
