@@ -5,8 +5,7 @@
 //!    spacing, or makes one of both (`collapse`).
 //! 2. `sampling` divides each piece of outline into equal arcs: `$n = \mathrm{round}(L/h)$` of them
 //!    for a length `$L$` and a spacing `$h$`, the same number on both sides of a seam, in a gather
-//!    a multiple. It places the nodes and pairs them (`seam_nodes`, with `partition` for nodes that
-//!    count as one).
+//!    a multiple. It places the nodes and pairs them (`seam_nodes`).
 //! 3. `cutter` cuts each panel: `rectangle` where the outline is the border of a grid along the
 //!    grain, else a `lattice` inside the outline and a `rim` of triangles between them; both give a
 //!    `panel_cut`.
@@ -24,6 +23,7 @@ mod merge;
 mod panel_cut;
 mod quality;
 mod rectangle;
+mod region;
 mod rim;
 mod sampling;
 mod seam_nodes;

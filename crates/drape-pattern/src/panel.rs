@@ -1,11 +1,16 @@
 //! Panels: checked outlines with grain, folds and a place in space.
 
+pub(crate) mod dart;
+pub(crate) mod placement;
+pub(crate) mod ring;
+
 use std::collections::BTreeSet;
 
 use crate::edge::{Edge, difference, distance};
 use crate::mistake::Mistake;
-use crate::placement::Placement;
-use crate::polygon::self_intersection;
+use dart::{Dart, OpenDart};
+use placement::Placement;
+use ring::{Meeting, Ring};
 
 /// Largest coordinate of a point, in m.
 ///
@@ -43,6 +48,9 @@ pub struct Panel {
     placement: Option<Placement>,
     clockwise: bool,
     folds: Vec<Fold>,
+    darts: Vec<Dart>,
+    /// Names of edges that open darts divide: their parts have a number behind the name.
+    divided: BTreeSet<String>,
     fabric: Option<String>,
 }
 
@@ -84,8 +92,17 @@ impl Panel {
         if clockwise {
             outline = outline.iter().rev().map(Edge::reversed).collect();
         }
-        let (grain, placement, folds, fabric) = (0.0, None, Vec::new(), None);
-        Ok(Self { name, outline, grain, placement, clockwise, folds, fabric })
+        Ok(Self {
+            name,
+            outline,
+            grain: 0.0,
+            placement: None,
+            clockwise,
+            folds: Vec::new(),
+            darts: Vec::new(),
+            divided: BTreeSet::new(),
+            fabric: None,
+        })
     }
 
     /// Returns the panel with its warp at an angle to its y axis, anticlockwise, in rad.
@@ -123,6 +140,113 @@ impl Panel {
         Ok(self)
     }
 
+    /// Returns the panel with closed darts, beside those that it has.
+    ///
+    /// # Errors
+    /// A dart meets itself, the outline or another dart, is outside of the outline, or has no area;
+    /// or two edges have one name. All mistakes are listed.
+    pub fn with_darts(mut self, darts: Vec<Dart>) -> Result<Self, Vec<Mistake>> {
+        let mut mistakes = Vec::new();
+        for dart in darts {
+            let hole = dart.hole();
+            let own: Vec<Edge> = self.edges().chain(hole).cloned().collect();
+            let before = mistakes.len();
+            mistakes.extend(coordinates(&self.name, &own));
+            if mistakes.len() == before {
+                mistakes.extend(cross(&self.name, hole));
+                mistakes.extend(self.dart_mistake(&dart));
+            }
+            self.darts.push(dart);
+        }
+        if mistakes.is_empty() { Ok(self) } else { Err(mistakes) }
+    }
+
+    /// Returns the mistake of the place of a dart among the lines of the panel.
+    fn dart_mistake(&self, dart: &Dart) -> Option<Mistake> {
+        let (panel, name) = (self.name.clone(), dart.name.clone());
+        let area: f64 = dart.hole().iter().map(Edge::area).sum();
+        if area.abs() < SHORTEST * SHORTEST {
+            return Some(Mistake::NoArea { panel: format!("{panel}, dart {name}"), area });
+        }
+        let ring = Ring::new(dart.hole());
+        for edges in self.loops() {
+            let other = Ring::new(edges);
+            if let Some(Meeting { edges: [_, edge], at }) = ring.meeting(&other) {
+                let edge = edges[edge].name.clone();
+                return Some(Mistake::DartMeets { panel, dart: name, edge, at });
+            }
+            let is_outline = std::ptr::eq(edges, self.outline.as_slice());
+            if other.contains(&ring) != is_outline || !is_outline && ring.contains(&other) {
+                return Some(Mistake::DartOutside { panel, dart: name });
+            }
+        }
+        None
+    }
+
+    /// Returns the panel with open darts cut into one of its edges, in the order of their mouths. The
+    /// parts of the edge are numbered after its name.
+    ///
+    /// # Errors
+    /// The edge has no such name, mouths overlap or lie beyond its ends, or the outline then meets
+    /// itself.
+    pub fn with_open_darts(self, edge: &str, darts: &[OpenDart]) -> Result<Self, Vec<Mistake>> {
+        let fail = |dart: &OpenDart, length: f64| Mistake::Mouth {
+            panel: self.name.clone(),
+            dart: dart.name.clone(),
+            edge: edge.to_owned(),
+            mouth: dart.mouth,
+            length,
+        };
+        let Some(own) = self.outline.iter().position(|own| own.name == edge) else {
+            return Err(darts.iter().map(|dart| fail(dart, 0.0)).collect());
+        };
+        // Ascending places on the edge, at which it is split.
+        let length = self.outline[own].length();
+        let places: Vec<f64> = darts.iter().flat_map(|dart| dart.mouth).collect();
+        let wrong = |dart: &&OpenDart| {
+            let [from, to] = dart.mouth;
+            !(SHORTEST < from && from + SHORTEST < to && to < length - SHORTEST)
+        };
+        let mut mistakes: Vec<Mistake> =
+            darts.iter().filter(wrong).map(|dart| fail(dart, length)).collect();
+        if mistakes.is_empty() {
+            let overlaps =
+                darts.windows(2).filter(|two| two[0].mouth[1] + SHORTEST > two[1].mouth[0]);
+            mistakes.extend(overlaps.map(|two| fail(&two[1], length)));
+        }
+        if !mistakes.is_empty() {
+            return Err(mistakes);
+        }
+        // Every second part lies over a mouth: the legs take its place.
+        let mut parts = Vec::new();
+        let mut sewn = Vec::new();
+        for (number, part) in self.outline[own].split(&places).into_iter().enumerate() {
+            if number % 2 == 0 {
+                parts.push(Edge { name: format!("{edge} {}", number / 2 + 1), ..part });
+                continue;
+            }
+            let dart = &darts[number / 2];
+            let legs = dart.legs([part.start, part.end]);
+            sewn.push(Dart::open(dart.name.clone(), legs.each_ref().map(|leg| leg.name.clone())));
+            parts.extend(legs);
+        }
+        let mut panel = self;
+        panel.outline.splice(own..=own, parts);
+        panel.divided.insert(edge.to_owned());
+        mistakes.extend(coordinates(&panel.name, &panel.outline));
+        if mistakes.is_empty() {
+            mistakes.extend(cross(&panel.name, &panel.outline));
+        }
+        let closed: Vec<Dart> =
+            panel.darts.iter().filter(|dart| !dart.hole().is_empty()).cloned().collect();
+        panel.darts.extend(sewn);
+        if mistakes.is_empty() {
+            let others = Self { darts: Vec::new(), ..panel.clone() };
+            mistakes.extend(closed.iter().filter_map(|dart| others.dart_mistake(dart)));
+        }
+        if mistakes.is_empty() { Ok(panel) } else { Err(mistakes) }
+    }
+
     /// Returns the panel at a place in space.
     ///
     /// # Errors
@@ -149,6 +273,7 @@ impl Panel {
         self.outline = self.outline.iter().rev().map(mirror).collect();
         self.grain = 0.0 - self.grain;
         self.placement = self.placement.map(Placement::turned_over);
+        self.darts.iter_mut().for_each(|dart| *dart = dart.mapped(true, |[x, y]| [-x, y]));
         for Fold { ends, angle } in &mut self.folds {
             *ends = ends.map(|[x, y]| [-x, y]);
             *angle = -*angle;
@@ -173,6 +298,7 @@ impl Panel {
             self.outline.iter().rev().map(|edge| edge.reversed().mapped(true, mirror)).collect();
         self.grain = 0.0 - self.grain;
         self.placement = self.placement.map(Placement::mirrored);
+        self.darts.iter_mut().for_each(|dart| *dart = dart.mapped(true, mirror));
         self.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(mirror));
         self
     }
@@ -185,6 +311,7 @@ impl Panel {
         let moved = |p: [f64; 2]| [p[0] + by[0], p[1] + by[1]];
         let mut panel = self.clone();
         panel.outline = self.outline.iter().map(|edge| edge.mapped(false, moved)).collect();
+        panel.darts = self.darts.iter().map(|dart| dart.mapped(false, moved)).collect();
         panel.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(moved));
         panel.outline.iter().all(|edge| near(edge.start)).then_some(panel)
     }
@@ -206,6 +333,51 @@ impl Panel {
     #[must_use]
     pub fn outline(&self) -> &[Edge] {
         &self.outline
+    }
+
+    /// Darts of the panel.
+    #[must_use]
+    pub fn darts(&self) -> &[Dart] {
+        &self.darts
+    }
+
+    /// All edges: those of the outline, then those of the holes of closed darts. Numbers of edges
+    /// count them.
+    pub fn edges(&self) -> impl Iterator<Item = &Edge> {
+        self.outline.iter().chain(self.darts.iter().flat_map(Dart::hole))
+    }
+
+    /// Returns the closed lines of the panel, whose edges are in a row with the cloth on their left:
+    /// its outline, then the holes of closed darts.
+    pub fn loops(&self) -> impl Iterator<Item = &[Edge]> {
+        let holes = self.darts.iter().map(Dart::hole).filter(|hole| !hole.is_empty());
+        std::iter::once(self.outline.as_slice()).chain(holes)
+    }
+
+    /// Returns the number of the edge that follows an edge of a number in its closed line.
+    pub(crate) fn next_edge(&self, edge: usize) -> usize {
+        let mut first = 0;
+        for edges in self.loops() {
+            if edge < first + edges.len() {
+                return first + (edge - first + 1) % edges.len();
+            }
+            first += edges.len();
+        }
+        edge
+    }
+
+    /// Returns the numbers of the edges of a name: of one that open darts divide, those of its parts
+    /// along the outline.
+    #[must_use]
+    pub fn edges_named(&self, name: &str) -> Vec<usize> {
+        let numbers = |name: &str| self.edges().position(|edge| edge.name == name);
+        match numbers(name) {
+            Some(number) => vec![number],
+            None if self.divided.contains(name) => {
+                (1..).map_while(|part| numbers(&format!("{name} {part}"))).collect()
+            }
+            None => Vec::new(),
+        }
     }
 
     /// Angle from the y axis to the warp, anticlockwise, in rad.
@@ -239,17 +411,17 @@ impl Panel {
         self.clockwise
     }
 
-    /// Area of the panel, in m².
+    /// Area of the panel without its darts, in m².
     #[must_use]
     pub fn area(&self) -> f64 {
         // Relative to a corner, so that a panel far from the origin loses no digits.
         let [x, y] = self.outline[0].start;
-        self.outline.iter().map(|e| e.mapped(false, |p| difference(p, [x, y])).area()).sum()
+        self.edges().map(|e| e.mapped(false, |p| difference(p, [x, y])).area()).sum()
     }
 
-    /// Larger side of the bounding box of the outline, in m.
-    pub(crate) fn size(&self) -> f64 {
-        self.extent(0).max(self.extent(1))
+    /// Width and height of the bounding box of the outline, in m.
+    pub(crate) fn extents(&self) -> [f64; 2] {
+        [self.extent(0), self.extent(1)]
     }
 
     /// Extent of the outline along x (0) or y (1), in m.
@@ -304,28 +476,11 @@ fn close(panel: &str, outline: &mut [Edge]) -> Vec<Mistake> {
 
 /// Returns the mistake of an outline that intersects itself.
 fn cross(panel: &str, outline: &[Edge]) -> Option<Mistake> {
-    let mut owner = Vec::new();
-    let mut polygon = Vec::new();
-    for (index, edge) in outline.iter().enumerate() {
-        let points = edge.polyline();
-        owner.extend(std::iter::repeat_n(index, points.len()));
-        polygon.extend(points);
-    }
-    let [first, second] = self_intersection(&polygon)?;
+    let Meeting { edges: [first, second], at } = Ring::new(outline).crossing()?;
     Some(Mistake::Crossing {
         panel: panel.into(),
-        first: outline[owner[first]].name.clone(),
-        second: outline[owner[second]].name.clone(),
-        at: meeting_point(&polygon, first, second),
+        first: outline[first].name.clone(),
+        second: outline[second].name.clone(),
+        at,
     })
-}
-
-/// Returns the approximate point where two sides of a polygon meet.
-fn meeting_point(polygon: &[[f64; 2]], first: usize, second: usize) -> [f64; 2] {
-    let corner = |k: usize| polygon[k % polygon.len()];
-    let (a, b) = (corner(first), corner(second));
-    let (u, v) = (difference(corner(first + 1), a), difference(corner(second + 1), b));
-    let w = difference(b, a);
-    let t = (w[0] * v[1] - w[1] * v[0]) / (u[0] * v[1] - u[1] * v[0]);
-    if (0.0..=1.0).contains(&t) { [a[0] + t * u[0], a[1] + t * u[1]] } else { b }
 }

@@ -27,6 +27,39 @@ fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> bool {
         || (b1 == 0.0 && within(a[0], a[1], b[1]))
 }
 
+/// Returns a side of one closed polygon and a side of another that have a point in common, by the
+/// numbers of their first corners; `None` if the polygons are apart.
+pub(crate) fn meeting(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[usize; 2]> {
+    let side = |polygon: &[[f64; 2]], k: usize| [polygon[k], polygon[(k + 1) % polygon.len()]];
+    let all = (0..other.len()).flat_map(|b| (0..one.len()).map(move |a| [a, b]));
+    let mut all = all.filter(|&[a, b]| {
+        let (p, q) = (side(one, a), side(other, b));
+        (0..2).all(|k| {
+            p[0][k].min(p[1][k]) <= q[0][k].max(q[1][k])
+                && q[0][k].min(q[1][k]) <= p[0][k].max(p[1][k])
+        })
+    });
+    all.find(|&[a, b]| meet(side(one, a), side(other, b)))
+}
+
+/// Returns the approximate point where two segments meet.
+pub(crate) fn meeting_point(one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> [f64; 2] {
+    let direction = |[from, to]: [[f64; 2]; 2]| [to[0] - from[0], to[1] - from[1]];
+    let (u, v, w) = (direction(one), direction(other), direction([one[0], other[0]]));
+    let t = (w[0] * v[1] - w[1] * v[0]) / (u[0] * v[1] - u[1] * v[0]);
+    if (0.0..=1.0).contains(&t) { [0, 1].map(|k| one[0][k] + t * u[k]) } else { other[0] }
+}
+
+/// Returns whether a point lies in a closed polygon.
+pub(crate) fn contains(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let crosses = |(a, b): &(&[f64; 2], &[f64; 2])| {
+        (a[1] > p[1]) != (b[1] > p[1])
+            && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    };
+    sides.filter(crosses).count() % 2 == 1
+}
+
 /// Returns two sides of a closed polygon that intersect, by the numbers of their first corners;
 /// `None` if the polygon is simple.
 ///

@@ -224,3 +224,51 @@ fn names_of_edges_stand_beside_the_middle_of_their_edges_inside() {
         assert!(along < 10.2, "{name} is {along} mm from the middle");
     }
 }
+
+#[test]
+fn darts_are_holes_in_the_cloth_with_legs_in_the_colour_of_their_seam() {
+    let svg = picture(
+        "length = \"mm\"\n[panel.a]\ngrain = 0\nrectangle = [300, 400]\n\
+         [[panel.a.dart]]\nname = \"eye\"\nfrom = [100, 340]\nto = [100, 120]\nwidth = 30\n\
+         [[panel.a.dart]]\nname = \"bust\"\nedge = \"right\"\nat = 200\nwidth = 40\ndepth = 120\n",
+    );
+    let document = roxmltree::Document::parse(&svg).expect("it is XML");
+    let texts: Vec<&str> = document.descendants().filter_map(|n| n.text()).collect();
+    for name in ["eye left", "eye right", "bust left", "bust right", "right 1", "right 2"] {
+        let name = [name, &format!("{name} 1")].map(|name| texts.contains(&name));
+        assert!(name[0] || name[1], "{texts:?}");
+    }
+    // The fill leaves the hole out: the path runs round both, and by the rule of even and odd.
+    let [fill] = paths(&document, "fill", "#faf7f2")[..] else { panic!("one panel") };
+    assert_eq!(fill.matches('M').count(), 2);
+    let [left, top, ..] = boxes(&document)[0];
+    let rings: Vec<Vec<f64>> = fill.split('M').skip(1).map(numbers).collect();
+    let area = |ring: &[f64]| {
+        let p = |k: usize| [ring[2 * k % ring.len()], ring[(2 * k + 1) % ring.len()]];
+        let cross = |k: usize| p(k)[0] * p(k + 1)[1] - p(k)[1] * p(k + 1)[0];
+        (0..ring.len() / 2).map(cross).sum::<f64>().abs() / 2.0
+    };
+    assert!((area(&rings[0]) - (300.0 * 400.0 - 0.5 * 40.0 * 120.0)).abs() < 60.0);
+    assert!((area(&rings[1]) - 0.5 * 220.0 * 30.0).abs() < 30.0, "{}", area(&rings[1]));
+    let inside = rings[1]
+        .chunks(2)
+        .all(|p| (84.0..116.0).contains(&(p[0] - left)) && (59.0..281.0).contains(&(p[1] - top)));
+    assert!(inside, "{:?}", rings[1]);
+    // No line of the mesh crosses the middle of the hole.
+    let mesh = ["#9aa5b1", "#c9a27a"].map(|colour| paths(&document, "stroke", colour));
+    for line in mesh.into_iter().flatten().flat_map(lines) {
+        for k in 0..=20 {
+            let t = f64::from(k) / 20.0;
+            let p = [0, 1].map(|k| line[k] + t * (line[k + 2] - line[k]));
+            let off = (p[0] - left - 100.0).abs() / 15.0 + (p[1] - top - 170.0).abs() / 110.0;
+            assert!(off > 0.9, "{line:?} crosses the dart");
+        }
+    }
+    let seams = document.descendants().filter_map(|n| n.attribute("stroke"));
+    let mut colours: Vec<&str> =
+        seams.filter(|colour| colour.starts_with("hsl") || colour.len() == 7).collect();
+    colours.retain(|c| !["#ffffff", "#222222", "#9aa5b1", "#c9a27a"].contains(c));
+    colours.sort_unstable();
+    colours.dedup();
+    assert_eq!(colours.len(), 2, "one of each dart");
+}

@@ -4,6 +4,7 @@
 
 mod attachments;
 mod blocked_seam;
+mod darts;
 mod layers;
 
 /// A tube of 40 mm height in two halves of a width, each wrapped to a radius, both in mm; it closes

@@ -6,7 +6,8 @@
 
 use super::merge::Merge;
 use crate::edge::Edge;
-use crate::pattern::{EdgeId, Pattern, Seam};
+use crate::pattern::Pattern;
+use crate::pattern::seam::{EdgeId, Seam};
 
 /// Difference of two fractions of a seam's length below which they are equal but for rounding.
 const SAME: f64 = 1e-9;
@@ -21,9 +22,9 @@ const GATHER: f64 = 1.5 + 1e-6;
 /// Point of an outline that becomes a node; the arcs between two of them are sampled.
 #[derive(Debug, Clone)]
 pub(crate) struct Breakpoint {
-    /// Number of the panel.
-    pub panel: usize,
-    /// Distance along the outline from the start of its first edge, in m.
+    /// Number of the closed line that it lies on, among those of all panels.
+    pub line: usize,
+    /// Distance along the line from the start of its first edge, in m.
     pub distance: f64,
     /// Angle between the tangents before and after the point, without sign, in rad.
     pub corner_angle: f64,
@@ -59,10 +60,33 @@ pub(crate) struct Breakpoints {
     pub classes: Vec<Vec<usize>>,
     /// Breakpoints that are all of a collapsed piece.
     pub merges: Vec<Merge>,
-    /// Distances along the outline at which the edges of each panel start, and its perimeter, in m.
-    pub starts: Vec<Vec<f64>>,
-    /// First breakpoint of each panel; the breakpoints at the starts of its edges follow.
-    first: Vec<usize>,
+    /// Closed lines of all panels: of each panel its outline, then the holes of its darts.
+    pub lines: Vec<ClosedLine>,
+}
+
+/// Closed line of a panel.
+#[derive(Debug, Clone)]
+pub(crate) struct ClosedLine {
+    /// Number of the panel.
+    pub panel: usize,
+    /// Number of its first edge among those of the panel.
+    pub first_edge: usize,
+    /// Distances along the line at which its edges start, and its length, in m.
+    pub starts: Vec<f64>,
+    /// First breakpoint of the line; the breakpoints at the starts of its edges follow.
+    first: usize,
+}
+
+impl ClosedLine {
+    /// Returns the length, in m.
+    pub fn length(&self) -> f64 {
+        self.starts.last().copied().unwrap_or(0.0)
+    }
+
+    /// Returns the number of edges.
+    fn edges(&self) -> usize {
+        self.starts.len() - 1
+    }
 }
 
 /// Edge on a side of a seam.
@@ -90,19 +114,12 @@ impl Breakpoints {
     /// Returns the breakpoints of a pattern for a spacing in m.
     pub fn new(pattern: &Pattern, spacing: f64) -> Self {
         let mut all = Self::default();
-        for (panel, outline) in pattern.panels().iter().map(|p| p.outline()).enumerate() {
-            all.first.push(all.points.len());
-            let mut distance = 0.0;
-            let mut starts = vec![distance];
-            for (index, edge) in outline.iter().enumerate() {
-                let before = &outline[(index + outline.len() - 1) % outline.len()];
-                let point = all.insert(panel, distance);
-                all.points[point].corner_angle = corner_angle(before, edge);
-                all.points[point].edge = Some(index);
-                distance += edge.length();
-                starts.push(distance);
+        for (panel, own) in pattern.panels().iter().enumerate() {
+            let mut first_edge = 0;
+            for edges in own.loops() {
+                all.add_line(panel, first_edge, edges);
+                first_edge += edges.len();
             }
-            all.starts.push(starts);
         }
         for (index, seam) in pattern.seams().iter().enumerate() {
             all.sew(pattern, seam, index, spacing);
@@ -111,12 +128,43 @@ impl Breakpoints {
         all
     }
 
+    /// Adds a closed line of a panel with the breakpoints at the starts of its edges.
+    fn add_line(&mut self, panel: usize, first_edge: usize, edges: &[Edge]) {
+        let (line, first) = (self.lines.len(), self.points.len());
+        let mut distance = 0.0;
+        let mut starts = vec![distance];
+        for (index, edge) in edges.iter().enumerate() {
+            let before = &edges[(index + edges.len() - 1) % edges.len()];
+            let point = self.insert(line, distance);
+            self.points[point].corner_angle = corner_angle(before, edge);
+            self.points[point].edge = Some(first_edge + index);
+            distance += edge.length();
+            starts.push(distance);
+        }
+        self.lines.push(ClosedLine { panel, first_edge, starts, first });
+    }
+
+    /// Returns the number of the closed line of an edge, and the number of the edge there.
+    fn place(&self, id: EdgeId) -> [usize; 2] {
+        let own = |line: &ClosedLine| {
+            let edges = line.first_edge..line.first_edge + line.edges();
+            line.panel == id.panel && edges.contains(&id.edge)
+        };
+        let line = self.lines.iter().position(own).expect("its pattern has the edge");
+        [line, id.edge - self.lines[line].first_edge]
+    }
+
+    /// Returns the number of the panel of a breakpoint.
+    pub fn panel(&self, point: usize) -> usize {
+        self.lines[self.points[point].line].panel
+    }
+
     /// Adds a smooth breakpoint that begins no edge.
-    fn insert(&mut self, panel: usize, distance: f64) -> usize {
+    fn insert(&mut self, line: usize, distance: f64) -> usize {
         let class = self.points.len();
         self.classes.push(vec![class]);
         self.points.push(Breakpoint {
-            panel,
+            line,
             distance,
             corner_angle: 0.0,
             edge: None,
@@ -128,18 +176,13 @@ impl Breakpoints {
         class
     }
 
-    /// Returns the breakpoints of a panel that are not removed, along its outline.
-    pub fn ring(&self, panel: usize) -> Vec<usize> {
-        let own = |p: &usize| self.points[*p].panel == panel && !self.points[*p].removed;
+    /// Returns the breakpoints of a closed line that are not removed, along it.
+    pub fn ring(&self, line: usize) -> Vec<usize> {
+        let own = |p: &usize| self.points[*p].line == line && !self.points[*p].removed;
         let mut ring: Vec<usize> = (0..self.points.len()).filter(own).collect();
         let distance = |p: usize| self.points[p].distance;
         ring.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)));
         ring
-    }
-
-    /// Returns the perimeter of a panel, in m.
-    pub fn perimeter(&self, panel: usize) -> f64 {
-        self.starts[panel].last().copied().unwrap_or(0.0)
     }
 
     /// Returns the length of the outline from a breakpoint to the next, in m.
@@ -148,7 +191,8 @@ impl Breakpoints {
         let [here, there] = [point, next].map(|p| self.points[p].distance);
         // Breakpoints at the same distance are in the order of their numbers.
         let onward = here.total_cmp(&there).then(point.cmp(&next)).is_lt();
-        if onward { there - here } else { there - here + self.perimeter(self.points[point].panel) }
+        let whole = self.lines[self.points[point].line].length();
+        if onward { there - here } else { there - here + whole }
     }
 
     /// Returns the length from which the arcs of the piece after a breakpoint are counted, in m.
@@ -208,9 +252,9 @@ impl Breakpoints {
 
     /// Returns the breakpoints at which an edge starts and ends, in the direction of the seam.
     fn ends_of(&self, edge: &SideEdge) -> [usize; 2] {
-        let EdgeId { panel, edge: number } = edge.id;
-        let edges = self.starts[panel].len() - 1;
-        let ends = [self.first[panel] + number, self.first[panel] + (number + 1) % edges];
+        let [line, number] = self.place(edge.id);
+        let line = &self.lines[line];
+        let ends = [number, (number + 1) % line.edges()].map(|number| line.first + number);
         if edge.forward { ends } else { [ends[1], ends[0]] }
     }
 
@@ -219,10 +263,10 @@ impl Breakpoints {
         let edge = edges.iter().find(|e| fraction < e.range[1]).unwrap_or(&edges[edges.len() - 1]);
         let [begin, end] = edge.range;
         let part = ((fraction - begin) / (end - begin)).clamp(0.0, 1.0);
-        let EdgeId { panel, edge: number } = edge.id;
-        let [from, to] = [self.starts[panel][number], self.starts[panel][number + 1]];
+        let [line, number] = self.place(edge.id);
+        let [from, to] = [0, 1].map(|end| self.lines[line].starts[number + end]);
         let part = if edge.forward { part } else { 1.0 - part };
-        self.insert(panel, from + part * (to - from))
+        self.insert(line, from + part * (to - from))
     }
 
     /// Makes the seam pieces of a seam.
@@ -315,8 +359,8 @@ impl Breakpoints {
 
     /// Sets the neighbours along the outlines, and the seam pieces beside each breakpoint.
     fn connect(&mut self) {
-        for panel in 0..self.starts.len() {
-            let ring = self.ring(panel);
+        for line in 0..self.lines.len() {
+            let ring = self.ring(line);
             for (k, &point) in ring.iter().enumerate() {
                 let after = ring[(k + 1) % ring.len()];
                 self.points[point].neighbours[1] = after;

@@ -32,8 +32,8 @@ impl Breakpoints {
         if one.iter().any(|end| other.contains(end)) {
             return false;
         }
-        let same_panel = self.points[both[0]].panel == self.points[both[1]].panel;
-        let lost = if same_panel { 2 } else { 1 };
+        let same_line = self.points[both[0]].line == self.points[both[1]].line;
+        let lost = if same_line { 2 } else { 1 };
         if !both.iter().all(|&first| self.can_lose(first, lost)) {
             return false;
         }
@@ -50,7 +50,7 @@ impl Breakpoints {
 
     /// Returns whether the outline of a breakpoint can lose so many.
     fn can_lose(&self, point: usize, lost: usize) -> bool {
-        self.ring(self.points[point].panel).len() >= POINTS_MIN + lost
+        self.ring(self.points[point].line).len() >= POINTS_MIN + lost
     }
 
     /// Makes one breakpoint of a breakpoint and the next, and returns it.

@@ -2,15 +2,15 @@
 
 use super::cut_pattern::CutPattern;
 use super::panel_cut::{Cut, GrainFrame, RimUnits};
+use super::region::Region;
 use super::rim::Rim;
-use super::sampling::{SampledOutline, SampledPattern};
+use super::sampling::{SampledPanel, SampledPattern};
 use super::seam_nodes::SeamNodes;
 use crate::edge::difference;
 use crate::error::Error;
 use crate::mistake::Mistake;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
-use crate::polygon::self_intersection;
 
 /// Spacing when none is chosen, in m.
 const SPACING: f64 = 0.01;
@@ -73,11 +73,12 @@ impl Cutter {
         let mut mistakes = Vec::new();
         // A rectangle numbers the nodes of its outline anew.
         let mut seams = sampled.seams;
-        for (number, outline) in sampled.outlines.into_iter().enumerate() {
+        for (number, outline) in sampled.panels.into_iter().enumerate() {
             match self.cut_panel(&pattern.panels()[number], outline) {
                 Ok(cut) => {
                     let nodes = seams.iter_mut().flat_map(SeamNodes::nodes_mut);
-                    for id in nodes.filter(|id| id.panel == number) {
+                    // A rectangle has no holes.
+                    for id in nodes.filter(|id| id.panel == number && cut.holes.is_empty()) {
                         id.node = cut.outline[id.node as usize];
                     }
                     notes.extend(cut.thin_part(spacing));
@@ -93,7 +94,7 @@ impl Cutter {
     }
 
     /// Cuts a panel with a sampled outline.
-    fn cut_panel(&self, panel: &Panel, outline: SampledOutline) -> Result<Cut, Mistake> {
+    fn cut_panel(&self, panel: &Panel, outline: SampledPanel) -> Result<Cut, Mistake> {
         let spacing = self.spacing;
         let name = || panel.name().to_owned();
         let grain = GrainFrame::new(panel.grain());
@@ -106,19 +107,15 @@ impl Cutter {
         if size[0] * size[1] > POINTS_MAX {
             return Err(Mistake::TooMany { panel: name(), nodes: size[0] * size[1], spacing });
         }
-        let twice_area = |k: usize| {
-            let (a, b) = (polygon[k], polygon[(k + 1) % polygon.len()]);
-            a[0] * b[1] - a[1] * b[0]
-        };
-        let area: f64 = (0..polygon.len()).map(twice_area).sum();
-        let crossed = self_intersection(&polygon).map(|[first, _]| first);
-        if let Some(first) = crossed.or((area <= 0.0).then_some(0)) {
+        let region = Region::new(polygon, outline.lines.clone());
+        let is_flat = region.twice_area() <= 0.0;
+        if let Some(first) = region.intersection().or(is_flat.then_some(0)) {
             return Err(Mistake::Narrow { panel: name(), at: outline.nodes[first], spacing });
         }
         if let Some(rectangle) = Cut::of_rectangle(&outline, grain, spacing) {
             return Ok(Cut { panel: name(), ..rectangle });
         }
-        let rim = Rim::new(&polygon).ok_or_else(|| Mistake::Rim { panel: name(), spacing })?;
+        let rim = Rim::new(&region).ok_or_else(|| Mistake::Rim { panel: name(), spacing })?;
         let units = RimUnits { origin: low, spacing };
         Ok(Cut { panel: name(), ..Cut::of_rim(outline, &rim, grain, units) })
     }

@@ -1,7 +1,8 @@
-//! Lattice: the nodes of a regular grid inside a polygon that keep clear of its sides.
+//! Lattice: the nodes of a regular grid inside a region that keep clear of its sides.
 //!
-//! `rim` fills the strip between the full cells of the lattice and the polygon with triangles.
+//! `rim` fills the strip between the full cells of the lattice and the region's sides with triangles.
 
+use super::region::Region;
 use crate::edge::difference;
 
 /// Smallest distance of a lattice node from the outline, in spacings.
@@ -17,7 +18,7 @@ pub(crate) const LOOSE: f64 = 1.03;
 /// Number of phases of the grid that are tried in each direction, over one spacing.
 const PHASES: usize = 4;
 
-/// Regular grid over a polygon. Lengths are in spacings.
+/// Regular grid over a region. Lengths are in spacings.
 #[derive(Debug, Clone)]
 pub(crate) struct Lattice {
     /// Position of column 0 and row 0.
@@ -33,19 +34,19 @@ pub(crate) struct Lattice {
 
 impl Lattice {
     /// Returns the phases of the grid in the order of their numbers of full cells, most first.
-    pub fn phases(polygon: &[[f64; 2]]) -> Vec<usize> {
-        let cells = |phase: usize| Self::new(polygon, phase).cells().len();
+    pub fn phases(region: &Region) -> Vec<usize> {
+        let cells = |phase: usize| Self::new(region, phase).cells().len();
         let mut all: Vec<(usize, usize)> =
             (0..PHASES * PHASES).map(|phase| (cells(phase), phase)).collect();
         all.sort_by_key(|&(cells, phase)| (std::cmp::Reverse(cells), phase));
         all.into_iter().map(|(_, phase)| phase).collect()
     }
 
-    /// Returns the grid over a polygon at a phase.
-    pub fn new(polygon: &[[f64; 2]], phase: usize) -> Self {
+    /// Returns the grid over a region at a phase.
+    pub fn new(region: &Region, phase: usize) -> Self {
         let offset = [phase % PHASES, phase / PHASES].map(|k| k as f64 / PHASES as f64);
         let extent = |k: usize| {
-            let all = polygon.iter().map(|p| p[k]);
+            let all = region.corners.iter().map(|p| p[k]);
             [all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max)]
         };
         let extents = [extent(0), extent(1)];
@@ -54,10 +55,10 @@ impl Lattice {
         let count = size[0] * size[1];
         let clearance = vec![f64::MAX; count];
         let mut lattice = Self { origin, size, kept: vec![false; count], clearance };
-        for (k, &start) in polygon.iter().enumerate() {
-            lattice.measure_clearance(start, polygon[(k + 1) % polygon.len()]);
+        for [from, to] in region.sides() {
+            lattice.measure_clearance(region.corners[from], region.corners[to]);
         }
-        lattice.fill(polygon);
+        lattice.fill(region);
         lattice
     }
 
@@ -86,11 +87,11 @@ impl Lattice {
         }
     }
 
-    /// Makes nodes of the grid points inside the polygon that are clear of its sides.
-    fn fill(&mut self, polygon: &[[f64; 2]]) {
+    /// Makes nodes of the grid points inside the region that are clear of its sides.
+    fn fill(&mut self, region: &Region) {
         let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.size[1]];
-        for (k, &a) in polygon.iter().enumerate() {
-            let b = polygon[(k + 1) % polygon.len()];
+        for side in region.sides() {
+            let [a, b] = side.map(|corner| region.corners[corner]);
             let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
             for row in self.between(1, low[1], high[1]) {
                 let y = self.position([0, row])[1];
@@ -145,7 +146,7 @@ impl Lattice {
 
     /// Returns whether the cell to the right of and above a grid point has all four nodes.
     ///
-    /// No side of the polygon intersects such a cell: every point on its border is closer to one of
+    /// No side of the region intersects such a cell: every point on its border is closer to one of
     /// its nodes than [`CLEAR`].
     pub fn is_full(&self, [column, row]: [usize; 2]) -> bool {
         column + 1 < self.size[0]

@@ -1,13 +1,15 @@
 //! Cut of a panel: nodes, cells and triangles, made of a rim.
 
+use std::ops::Range;
+
 use super::rim::Rim;
-use super::sampling::SampledOutline;
+use super::sampling::SampledPanel;
 
 /// Panel cut into the full cells of a lattice along its grain, and triangles between them and its
 /// outline.
 ///
-/// The nodes of the outline come first, anticlockwise, then those of the lattice, row by row. In a
-/// rectangle without a rim all nodes are in rows.
+/// The nodes of the outline come first, anticlockwise, then those of holes, then those of the
+/// lattice, row by row. In a rectangle without a rim all nodes are in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
     /// Name of the panel.
@@ -19,18 +21,20 @@ pub struct Cut {
     /// Positions of the nodes in the frame of the grain, whose x axis is the weft and whose y axis
     /// is the warp, in m; its origin is that of the panel's frame.
     pub yarns: Vec<[f64; 2]>,
-    /// Column and row of each node of the lattice; `None` for nodes of the outline beside a rim.
+    /// Column and row of each node of the lattice; `None` for nodes of closed lines beside a rim.
     pub lattice: Vec<Option<[u32; 2]>>,
     /// Full cells by their nodes, anticlockwise from the lowest along weft and warp.
     pub quads: Vec<[u32; 4]>,
     /// Triangles of the rim by their nodes, anticlockwise.
     pub triangles: Vec<[u32; 3]>,
-    /// Nodes of each edge of the outline, in its direction, with both ends. An edge shorter than
+    /// Nodes of each edge of the panel, in its direction, with both ends. An edge shorter than
     /// half a spacing that was joined with a neighbour has the nodes nearest to its ends, which may
     /// be one.
     pub edges: Vec<Vec<u32>>,
     /// Nodes of the outline, anticlockwise.
     pub outline: Vec<u32>,
+    /// Nodes of the hole of each closed dart, clockwise.
+    pub holes: Vec<Vec<u32>>,
     /// Whether each node is an end of an edge or of a seam piece.
     pub hard: Vec<bool>,
 }
@@ -70,9 +74,14 @@ pub(crate) struct RimUnits {
 }
 
 impl Cut {
+    /// Returns the closed lines of the panel by their nodes: the outline, then the holes.
+    pub fn lines(&self) -> impl Iterator<Item = &[u32]> {
+        std::iter::once(self.outline.as_slice()).chain(self.holes.iter().map(Vec::as_slice))
+    }
+
     /// Returns the cut of a sampled outline with a rim.
     pub(crate) fn of_rim(
-        outline: SampledOutline,
+        outline: SampledPanel,
         rim: &Rim,
         grain: GrainFrame,
         units: RimUnits,
@@ -97,6 +106,7 @@ impl Cut {
         let inside = yarns[sides..].iter().map(|&p| grain.to_panel(p));
         let positions = outline.nodes.iter().copied().chain(inside).collect();
         let columns = nodes.iter().map(|node| Some(node.map(|k| k as u32)));
+        let line = |nodes: &Range<usize>| nodes.clone().map(|node| node as u32).collect();
         let mut hard = outline.hard;
         hard.resize(yarns.len(), false);
         Self {
@@ -107,7 +117,8 @@ impl Cut {
             quads: quads.collect(),
             triangles: rim.triangles.clone(),
             edges: outline.edges,
-            outline: (0..sides as u32).collect(),
+            outline: line(&outline.lines[0]),
+            holes: outline.lines[1..].iter().map(line).collect(),
             hard,
             yarns,
         }

@@ -80,10 +80,12 @@ impl Cut {
     /// between nodes of the outline that are far apart along it and joined by one edge, or by two
     /// through one node.
     pub(crate) fn thin_part(&self, spacing: f64) -> Option<Note> {
-        let n = self.outline.len();
+        // Number of the closed line of each node on one, place along the line, and length of the line.
         let mut along = vec![None; self.positions.len()];
-        for (k, &node) in self.outline.iter().enumerate() {
-            along[node as usize] = Some(k);
+        for (number, line) in self.lines().enumerate() {
+            for (k, &node) in line.iter().enumerate() {
+                along[node as usize] = Some((number, k, line.len()));
+            }
         }
         let mut beside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for [a, b] in self.sides().flat_map(|[a, b]| [[a, b], [b, a]]) {
@@ -93,10 +95,13 @@ impl Cut {
         }
         let at = |node: u32| self.positions[node as usize];
         let width = |a: u32, b: u32| {
-            let steps = along[a as usize]?.abs_diff(along[b as usize]?);
+            let ((line, one, count), (other_line, other, _)) =
+                (along[a as usize]?, along[b as usize]?);
+            let steps = one.abs_diff(other);
             let width = distance(at(a), at(b));
-            // Closer along the outline it is the side of a corner.
-            (steps.min(n - steps) > 3 && width < THIN * spacing).then_some((width, a))
+            // Closer along a line it is the side of a corner.
+            let is_across = line != other_line || steps.min(count - steps) > 3;
+            (is_across && width < THIN * spacing).then_some((width, a))
         };
         let direct = beside.iter().flat_map(|(&a, all)| all.iter().map(move |&b| (a, b)));
         let inner = beside.iter().filter(|(a, _)| along[**a as usize].is_none());
@@ -110,16 +115,18 @@ impl Cut {
 
 /// Returns the largest distance between points of the outline and the chords of the cut, in m.
 fn deviation(panel: &Panel, cut: &Cut) -> f64 {
-    let n = cut.outline.len();
-    let mut along = vec![0; cut.positions.len()];
-    for (k, &node) in cut.outline.iter().enumerate() {
-        along[node as usize] = k;
+    let lines: Vec<&[u32]> = cut.lines().collect();
+    let mut along = vec![(0, 0); cut.positions.len()];
+    for (number, line) in lines.iter().enumerate() {
+        line.iter().enumerate().for_each(|(k, &node)| along[node as usize] = (number, k));
     }
-    let at = |k: usize| cut.positions[cut.outline[k % n] as usize];
     let mut most: f64 = 0.0;
-    for (edge, nodes) in panel.outline().iter().zip(&cut.edges) {
+    for (edge, nodes) in panel.edges().zip(&cut.edges) {
+        let (number, start) = along[nodes[0] as usize];
+        let line = lines[number];
+        let at = |k: usize| cut.positions[line[k % line.len()] as usize];
         // One chord more at both ends: the ends may be no nodes.
-        let first = along[nodes[0] as usize] + n - 1;
+        let first = start + line.len() - 1;
         let chords = nodes.len() + 1;
         let samples = SAMPLES * chords;
         for k in 0..=samples {

@@ -1,7 +1,7 @@
 //! Cut of a rectangle along the grain, which consists of full cells and has no rim.
 
 use super::panel_cut::{Cut, GrainFrame};
-use super::sampling::SampledOutline;
+use super::sampling::SampledPanel;
 
 /// Largest distance of a node from its grid point, in spacings: rounding.
 const EXACT: f64 = 1e-9;
@@ -61,10 +61,13 @@ impl Cut {
     /// Returns the cut of a sampled outline that is the border of a grid in the grain's frame;
     /// `None` if it is none.
     pub(crate) fn of_rectangle(
-        sampled: &SampledOutline,
+        sampled: &SampledPanel,
         grain: GrainFrame,
         spacing: f64,
     ) -> Option<Self> {
+        if sampled.lines.len() > 1 {
+            return None;
+        }
         let polygon: Vec<[f64; 2]> = sampled.nodes.iter().map(|&p| grain.to_grain(p)).collect();
         let border = Border::of(&polygon, spacing)?;
         let [columns, rows] = border.cells;
@@ -95,6 +98,7 @@ impl Cut {
             edges: sampled.edges.iter().map(renumbered).collect(),
             hard,
             outline,
+            holes: Vec::new(),
             yarns,
         })
     }

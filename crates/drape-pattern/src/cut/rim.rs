@@ -9,6 +9,7 @@ use spade::handles::FixedFaceHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::lattice::{LOOSE, Lattice};
+use super::region::Region;
 use crate::edge::difference;
 
 /// Angle of a triangle below which the lattice is thinned, in rad: 22 degrees.
@@ -18,26 +19,26 @@ const SHARP: f64 = 22.0 * std::f64::consts::PI / 180.0;
 /// outline itself is sharp.
 const PASSES: usize = 12;
 
-/// Lattice inside a polygon and the triangles between them. Lengths are in spacings.
+/// Lattice inside a region and the triangles between them. Lengths are in spacings.
 #[derive(Debug, Clone)]
 pub(crate) struct Rim {
     pub lattice: Lattice,
-    /// Corners of the triangles, anticlockwise: numbers of the polygon's corners, then of the
+    /// Corners of the triangles, anticlockwise: numbers of the region's corners, then of the
     /// lattice's nodes, row by row.
     pub triangles: Vec<[u32; 3]>,
-    /// Smallest angle of the triangles that is not one of the polygon's own corners, in rad.
+    /// Smallest angle of the triangles that is not one of the region's own corners, in rad.
     smallest_angle: f64,
 }
 
 impl Rim {
-    /// Returns the rim of a simple polygon that runs anticlockwise; `None` if triangulation failed.
+    /// Returns the rim of a region between simple polygons; `None` if triangulation failed.
     ///
     /// The phases of the lattice are tried in the order of their numbers of cells until one leaves
     /// no sharp angle; if none does, the one with the largest smallest angle is taken.
-    pub fn new(polygon: &[[f64; 2]]) -> Option<Self> {
+    pub fn new(region: &Region) -> Option<Self> {
         let mut best: Option<Self> = None;
-        for phase in Lattice::phases(polygon) {
-            let rim = Self::thinned(polygon, Lattice::new(polygon, phase))?;
+        for phase in Lattice::phases(region) {
+            let rim = Self::thinned(region, Lattice::new(region, phase))?;
             if best.as_ref().is_none_or(|b| rim.smallest_angle > b.smallest_angle) {
                 best = Some(rim);
             }
@@ -49,14 +50,14 @@ impl Rim {
     }
 
     /// Returns the rim of a lattice that is thinned as long as that may help.
-    fn thinned(polygon: &[[f64; 2]], lattice: Lattice) -> Option<Self> {
-        let mut best = Self::of(polygon, lattice)?;
+    fn thinned(region: &Region, lattice: Lattice) -> Option<Self> {
+        let mut best = Self::of(region, lattice)?;
         let mut rim = best.clone();
         for _ in 0..PASSES {
-            if rim.smallest_angle >= SHARP || !rim.thin(polygon) {
+            if rim.smallest_angle >= SHARP || !rim.thin(region) {
                 break;
             }
-            rim = Self::of(polygon, rim.lattice)?;
+            rim = Self::of(region, rim.lattice)?;
             if rim.smallest_angle > best.smallest_angle {
                 best = rim.clone();
             }
@@ -65,39 +66,37 @@ impl Rim {
     }
 
     /// Returns the rim of a lattice.
-    fn of(polygon: &[[f64; 2]], lattice: Lattice) -> Option<Self> {
+    fn of(region: &Region, lattice: Lattice) -> Option<Self> {
         let nodes: Vec<[usize; 2]> = lattice.nodes().collect();
-        let triangles = triangulate(polygon, &lattice, &nodes)?;
+        let triangles = triangulate(region, &lattice, &nodes)?;
         let mut rim = Self { lattice, triangles, smallest_angle: std::f64::consts::PI };
-        let position = |node: u32| rim.position(polygon, &nodes, node);
-        let sharp = rim.triangles.iter().map(|t| free_angle(polygon.len(), *t, t.map(position)));
+        let position = |node: u32| rim.position(region, &nodes, node);
+        let sharp = rim.triangles.iter().map(|t| free_angle(region, *t, t.map(position)));
         rim.smallest_angle = sharp.fold(std::f64::consts::PI, f64::min);
         Some(rim)
     }
 
-    /// Returns the position of a corner of the polygon or node of the lattice.
-    fn position(&self, polygon: &[[f64; 2]], nodes: &[[usize; 2]], node: u32) -> [f64; 2] {
+    /// Returns the position of a corner of the region or node of the lattice.
+    fn position(&self, region: &Region, nodes: &[[usize; 2]], node: u32) -> [f64; 2] {
         let node = node as usize;
-        if node < polygon.len() {
-            polygon[node]
-        } else {
-            self.lattice.position(nodes[node - polygon.len()])
+        match region.corners.get(node) {
+            Some(corner) => *corner,
+            None => self.lattice.position(nodes[node - region.corners.len()]),
         }
     }
 
     /// Drops from each sharp triangle its lattice node nearest to the outline, if that is loose;
     /// returns whether any was dropped.
-    fn thin(&mut self, polygon: &[[f64; 2]]) -> bool {
+    fn thin(&mut self, region: &Region) -> bool {
         let nodes: Vec<[usize; 2]> = self.lattice.nodes().collect();
         let mut lost = Vec::new();
         for &triangle in &self.triangles {
-            let corners = triangle.map(|node| self.position(polygon, &nodes, node));
-            if free_angle(polygon.len(), triangle, corners) >= SHARP {
+            let corners = triangle.map(|node| self.position(region, &nodes, node));
+            if free_angle(region, triangle, corners) >= SHARP {
                 continue;
             }
-            let own = triangle
-                .iter()
-                .filter_map(|&n| nodes.get((n as usize).wrapping_sub(polygon.len())));
+            let sides = region.corners.len();
+            let own = triangle.iter().filter_map(|&n| nodes.get((n as usize).wrapping_sub(sides)));
             let clear = |node: &[usize; 2]| self.lattice.clearance(*node);
             let nearest = own.min_by(|a, b| clear(a).total_cmp(&clear(b)));
             lost.extend(nearest.filter(|node| clear(node) < LOOSE));
@@ -118,12 +117,14 @@ pub(crate) fn angles(corners: [[f64; 2]; 3]) -> [f64; 3] {
     })
 }
 
-/// Returns the smallest angle of a triangle, except one between two sides of the polygon, which is
-/// the polygon's own.
-fn free_angle(sides: usize, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
+/// Returns the smallest angle of a triangle, except one between two sides of the region, which is the
+/// region's own.
+fn free_angle(region: &Region, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
     let angles = angles(corners);
+    let sides = region.corners.len();
     let follows = |a: u32, b: u32| {
-        (a as usize) < sides && (b as usize) < sides && (a as usize + 1) % sides == b as usize
+        let (a, b) = (a as usize, b as usize);
+        a < sides && b < sides && region.next(a) == b
     };
     let free = (0..3).filter(|&k| {
         let (node, next, last) = (triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]);
@@ -132,19 +133,16 @@ fn free_angle(sides: usize, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
     free.map(|k| angles[k]).fold(std::f64::consts::PI, f64::min)
 }
 
-/// Returns the triangles between a polygon and the full cells of a lattice.
-fn triangulate(
-    polygon: &[[f64; 2]],
-    lattice: &Lattice,
-    nodes: &[[usize; 2]],
-) -> Option<Vec<[u32; 3]>> {
+/// Returns the triangles between the sides of a region and the full cells of a lattice.
+fn triangulate(region: &Region, lattice: &Lattice, nodes: &[[usize; 2]]) -> Option<Vec<[u32; 3]>> {
     let number: BTreeMap<[usize; 2], usize> =
-        nodes.iter().enumerate().map(|(k, &node)| (node, polygon.len() + k)).collect();
+        nodes.iter().enumerate().map(|(k, &node)| (node, region.corners.len() + k)).collect();
     // Nodes inside the cells take no part.
     let outer = outer_nodes(lattice, nodes);
-    let mut vertices: Vec<Point2<f64>> = polygon.iter().map(|p| Point2::new(p[0], p[1])).collect();
-    let mut names: Vec<u32> = (0..polygon.len() as u32).collect();
-    let mut vertex: BTreeMap<usize, usize> = (0..polygon.len()).map(|k| (k, k)).collect();
+    let corners = &region.corners;
+    let mut vertices: Vec<Point2<f64>> = corners.iter().map(|p| Point2::new(p[0], p[1])).collect();
+    let mut names: Vec<u32> = (0..corners.len() as u32).collect();
+    let mut vertex: BTreeMap<usize, usize> = (0..corners.len()).map(|k| (k, k)).collect();
     for &node in &outer {
         let [x, y] = lattice.position(node);
         vertex.insert(number[&node], vertices.len());
@@ -152,8 +150,7 @@ fn triangulate(
         vertices.push(Point2::new(x, y));
     }
     // Directed so that the rim lies on the left.
-    let mut sides: Vec<[usize; 2]> =
-        (0..polygon.len()).map(|k| [k, (k + 1) % polygon.len()]).collect();
+    let mut sides: Vec<[usize; 2]> = region.sides().collect();
     for [from, to] in cell_sides(lattice) {
         sides.push([vertex[&number[&to]], vertex[&number[&from]]]);
     }

@@ -1,7 +1,9 @@
 //! Outlines sampled at the spacing, with the same number of nodes on both sides of every seam.
 //!
 //! `cutter` calls [`SampledPattern::new`], which finds the breakpoints, simplifies the outlines,
-//! counts the arcs and places the nodes; each [`SampledOutline`] becomes a cut panel.
+//! counts the arcs and places the nodes; each [`SampledPanel`] becomes a cut panel.
+
+use std::ops::Range;
 
 use super::breakpoint::{Breakpoints, SeamPiece};
 use super::seam_nodes::{NodeId, SeamNodes, Tie};
@@ -10,8 +12,8 @@ use crate::edge::{Curve, Edge};
 use crate::mistake::Mistake;
 use crate::note::Note;
 use crate::panel::Panel;
-use crate::partition::Partition;
 use crate::pattern::Pattern;
+use crate::pattern::partition::Partition;
 
 /// Largest angle between an edge and a yarn that counts as parallel, in rad.
 const PARALLEL: f64 = 1e-9;
@@ -19,24 +21,37 @@ const PARALLEL: f64 = 1e-9;
 /// Largest number of nodes on an outline.
 const NODES_MAX: f64 = 1e6;
 
-/// Sampled outline of a panel.
+/// Sampled closed lines of a panel: its outline, then the holes of its darts.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct SampledOutline {
-    /// Positions of the nodes, anticlockwise, in m.
+pub(crate) struct SampledPanel {
+    /// Positions of the nodes along the lines, with the cloth on the left, in m.
     pub nodes: Vec<[f64; 2]>,
     /// Whether each node is an end of an edge or of a seam piece.
     pub hard: Vec<bool>,
     /// Nodes of each edge from its start to its end.
     pub edges: Vec<Vec<u32>>,
-    /// Distances of the nodes along the outline, in m, ascending: nodes past the start of the first edge have
-    /// the perimeter added.
+    /// Nodes of each line.
+    pub lines: Vec<Range<usize>>,
+}
+
+/// Sampled closed line.
+#[derive(Debug, Clone, Default)]
+struct SampledLine {
+    /// Positions of the nodes, in m.
+    nodes: Vec<[f64; 2]>,
+    /// Whether each node is an end of an edge or of a seam piece.
+    hard: Vec<bool>,
+    /// Nodes of each edge from its start to its end.
+    edges: Vec<Vec<u32>>,
+    /// Distances of the nodes along the line, in m, ascending: nodes past the start of the first edge
+    /// have the length of the line added.
     distances: Vec<f64>,
 }
 
 /// Sampled outlines of a pattern.
 #[derive(Debug)]
 pub(crate) struct SampledPattern {
-    pub outlines: Vec<SampledOutline>,
+    pub panels: Vec<SampledPanel>,
     /// Nodes of each seam.
     pub seams: Vec<SeamNodes>,
     pub notes: Vec<Note>,
@@ -46,7 +61,7 @@ impl SampledPattern {
     /// Samples the outlines of a pattern at a spacing in m, or returns all mistakes.
     pub fn new(pattern: &Pattern, spacing: f64) -> Result<Self, Vec<Mistake>> {
         let too_long = |panel: &Panel| {
-            let nodes: f64 = panel.outline().iter().map(Edge::length).sum::<f64>() / spacing;
+            let nodes: f64 = panel.edges().map(Edge::length).sum::<f64>() / spacing;
             let panel = panel.name().to_owned();
             (nodes > NODES_MAX).then_some(Mistake::TooMany { panel, nodes, spacing })
         };
@@ -60,20 +75,47 @@ impl SampledPattern {
             return Err(simplified.mistakes);
         }
         let mut sampler = Sampler::new(&breakpoints, pattern, spacing);
-        let panels = 0..pattern.panels().len();
-        let outlines: Vec<SampledOutline> = panels.map(|panel| sampler.outline(panel)).collect();
-        let few = |(panel, outline): (&Panel, &SampledOutline)| {
-            let (name, at) = (panel.name().to_owned(), panel.outline()[0].start);
-            (outline.nodes.len() < 3).then_some(Mistake::Narrow { panel: name, at, spacing })
-        };
-        let mistakes: Vec<Mistake> =
-            pattern.panels().iter().zip(&outlines).filter_map(few).collect();
+        let mut panels = vec![SampledPanel::default(); pattern.panels().len()];
+        let mut mistakes = Vec::new();
+        for (number, line) in breakpoints.lines.iter().enumerate() {
+            let (panel, own) = (&pattern.panels()[line.panel], &mut panels[line.panel]);
+            let first = own.nodes.len();
+            sampler.places.push(LinePlace { panel: line.panel, first, count: 0 });
+            let sampled = sampler.line(number);
+            if sampled.nodes.len() < 3 {
+                let edge = panel.edges().nth(line.first_edge).expect("a line has edges");
+                let (panel, at) = (panel.name().to_owned(), edge.start);
+                mistakes.push(Mistake::Narrow { panel, at, spacing });
+            }
+            sampler.places[number].count = sampled.nodes.len();
+            own.append(sampled);
+        }
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
-        let seams = sampler.seams(&outlines);
-        Ok(Self { outlines, seams, notes: simplified.notes })
+        Ok(Self { panels, seams: sampler.seams(), notes: simplified.notes })
     }
+}
+
+impl SampledPanel {
+    /// Adds a line behind those that the panel has.
+    fn append(&mut self, line: SampledLine) {
+        let first = self.nodes.len();
+        let numbered = |edge: Vec<u32>| edge.into_iter().map(|node| node + first as u32).collect();
+        self.edges.extend(line.edges.into_iter().map(numbered));
+        self.lines.push(first..first + line.nodes.len());
+        self.nodes.extend(line.nodes);
+        self.hard.extend(line.hard);
+    }
+}
+
+/// Place of a closed line among the nodes of its panel.
+struct LinePlace {
+    panel: usize,
+    /// Number of its first node in the panel.
+    first: usize,
+    /// Number of its nodes.
+    count: usize,
 }
 
 /// Sampler of the arcs between breakpoints.
@@ -82,24 +124,28 @@ struct Sampler<'a> {
     pattern: &'a Pattern,
     /// Number of arcs from each breakpoint to the next.
     counts: Vec<u32>,
-    /// Node of each breakpoint on its outline, once the outline is sampled.
+    /// Node of each breakpoint on its line, once the line is sampled.
     first_node: Vec<usize>,
+    /// Places of the lines that are sampled.
+    places: Vec<LinePlace>,
 }
 
 impl<'a> Sampler<'a> {
     fn new(breakpoints: &'a Breakpoints, pattern: &'a Pattern, spacing: f64) -> Self {
         let counts = Counter { breakpoints, pattern, spacing }.counts();
         let first_node = vec![0; breakpoints.points.len()];
-        Self { breakpoints, pattern, counts, first_node }
+        Self { breakpoints, pattern, counts, first_node, places: Vec::new() }
     }
 
-    /// Samples the outline of a panel.
-    fn outline(&mut self, panel: usize) -> SampledOutline {
-        let mut sampled = SampledOutline::default();
-        let outline = self.pattern.panels()[panel].outline();
-        let perimeter = self.breakpoints.perimeter(panel);
-        let starts = &self.breakpoints.starts[panel];
-        for point in self.breakpoints.ring(panel) {
+    /// Samples a closed line.
+    fn line(&mut self, number: usize) -> SampledLine {
+        let mut sampled = SampledLine::default();
+        let line = &self.breakpoints.lines[number];
+        let panel = &self.pattern.panels()[line.panel];
+        let (perimeter, starts) = (line.length(), &line.starts);
+        let edges: Vec<&Edge> =
+            panel.edges().skip(line.first_edge).take(starts.len() - 1).collect();
+        for point in self.breakpoints.ring(number) {
             self.first_node[point] = sampled.nodes.len();
             let start = self.breakpoints.points[point].distance;
             let length = self.breakpoints.length_after(point);
@@ -107,59 +153,59 @@ impl<'a> Sampler<'a> {
                 let distance = start + length * f64::from(k) / f64::from(self.counts[point]);
                 sampled.distances.push(distance);
                 let distance = if distance >= perimeter { distance - perimeter } else { distance };
-                let edge = starts.partition_point(|&s| s <= distance).clamp(1, outline.len()) - 1;
+                let edge = starts.partition_point(|&s| s <= distance).clamp(1, edges.len()) - 1;
                 let fraction = (distance - starts[edge]) / (starts[edge + 1] - starts[edge]);
-                sampled.nodes.push(outline[edge].at(fraction));
+                sampled.nodes.push(edges[edge].at(fraction));
                 sampled.hard.push(k == 0);
             }
         }
         let edge = |e: usize| sampled.chain([starts[e], starts[e + 1]], perimeter);
-        sampled.edges = (0..outline.len()).map(edge).collect();
+        sampled.edges = (0..edges.len()).map(edge).collect();
         sampled
     }
 
     /// Returns the nodes of all seams.
-    fn seams(&self, outlines: &[SampledOutline]) -> Vec<SeamNodes> {
+    fn seams(&self) -> Vec<SeamNodes> {
         let mut seams = vec![SeamNodes::default(); self.pattern.seams().len()];
         for piece in self.breakpoints.pieces.iter().filter(|p| !p.removed) {
-            self.sew(piece, outlines, &mut seams[piece.seam]);
+            self.sew(piece, &mut seams[piece.seam]);
         }
         for merge in &self.breakpoints.merges {
-            let node = |point: usize| NodeId {
-                panel: self.breakpoints.points[point].panel,
-                node: self.first_node[point] as u32,
-            };
-            let pair = merge.points.map(node);
+            let pair = merge.points.map(|point| self.node(point, 0));
             if !seams[merge.seam].pairs.contains(&pair) {
-                seams[merge.seam].pairs.push(pair);
+                seams[merge.seam].go_on_at(pair);
             }
         }
         seams
     }
 
+    /// Returns the node some steps along its line from a breakpoint, or back if negative.
+    fn node(&self, point: usize, steps: isize) -> NodeId {
+        let LinePlace { panel, first, count } = self.places[self.breakpoints.points[point].line];
+        let along = (self.first_node[point] as isize + steps).rem_euclid(count as isize);
+        NodeId { panel, node: (first + along as usize) as u32 }
+    }
+
     /// Adds the nodes of a seam piece to its seam.
-    fn sew(&self, piece: &SeamPiece, outlines: &[SampledOutline], seam: &mut SeamNodes) {
+    fn sew(&self, piece: &SeamPiece, seam: &mut SeamNodes) {
         let own = [0, 1].map(|side| self.counts[Breakpoints::foremost(piece, side)] as usize);
         let count = own[0].min(own[1]);
         // Number of arcs of each side between two pairs.
         let arcs = own.map(|own| own / count);
         let node = |side: usize, k: usize| {
-            let start = piece.ends[side][0];
-            let panel = self.breakpoints.points[start].panel;
-            let nodes = outlines[panel].nodes.len();
-            let steps = if piece.forward[side] { k } else { nodes - k % nodes };
-            NodeId { panel, node: ((self.first_node[start] + steps) % nodes) as u32 }
+            let steps = if piece.forward[side] { k as isize } else { -(k as isize) };
+            self.node(piece.ends[side][0], steps)
         };
-        let SeamNodes { pairs, ties } = seam;
         for k in 0..=count {
             let pair = [0, 1].map(|side| node(side, k * arcs[side]));
-            // A piece begins where the one before it ended.
-            if pairs.last() != Some(&pair) {
-                pairs.push(pair);
+            match k {
+                0 => seam.go_on_at(pair),
+                _ => seam.pairs.push(pair),
             }
             for side in (0..2).filter(|_| k < count) {
-                ties.extend((1..arcs[side]).map(|step| Tie {
-                    after: pairs.len() - 1,
+                let after = seam.pairs.len() - 1;
+                seam.ties.extend((1..arcs[side]).map(|step| Tie {
+                    after,
                     side,
                     node: node(side, k * arcs[side] + step),
                     fraction: step as f64 / arcs[side] as f64,
@@ -227,9 +273,13 @@ impl Counter<'_> {
     /// Returns the four breakpoints of a panel that is a rectangle along the yarns.
     fn rectangle(&self, panel: &Panel, number: usize) -> Option<[usize; 4]> {
         let points = &self.breakpoints.points;
-        let straight = panel.outline().iter().all(|e| e.curve == Curve::Line);
+        let lines = &self.breakpoints.lines;
+        let straight = panel.edges().all(|e| e.curve == Curve::Line);
+        // A panel with holes has a rim.
+        let mut on_panel = (0..lines.len()).filter(|&line| lines[line].panel == number);
+        let (Some(outline), None) = (on_panel.next(), on_panel.next()) else { return None };
         let mut own =
-            (0..points.len()).filter(|&p| points[p].panel == number && !points[p].removed);
+            (0..points.len()).filter(|&p| points[p].line == outline && !points[p].removed);
         let first = own.next()?;
         let next = |p: usize| points[p].neighbours[1];
         let corners = [first, next(first), next(next(first)), next(next(next(first)))];
@@ -247,7 +297,7 @@ impl Counter<'_> {
     }
 }
 
-impl SampledOutline {
+impl SampledLine {
     /// Returns the nodes of an edge between two distances along the outline: from the node nearest
     /// to its start to that nearest to its end.
     fn chain(&self, [from, to]: [f64; 2], perimeter: f64) -> Vec<u32> {

@@ -123,7 +123,7 @@ impl Simplifier<'_> {
         for point in inside {
             let class = self.breakpoints.points[point].class;
             if !self.breakpoints.points[point].removed && self.is_removable(class) {
-                self.class(class).for_each(|p| lost[self.breakpoints.points[p].panel] += 1);
+                self.class(class).for_each(|p| lost[self.breakpoints.panel(p)] += 1);
                 self.remove(class);
             }
         }
@@ -259,13 +259,13 @@ impl Simplifier<'_> {
     /// Returns the names of the panel and of the edge in the middle of the piece after a
     /// breakpoint.
     fn edge_after(&self, point: usize) -> EdgeName {
-        let Breakpoints { points, starts, .. } = &*self.breakpoints;
-        let number = points[point].panel;
+        let Breakpoints { points, lines, .. } = &*self.breakpoints;
+        let line = &lines[points[point].line];
         let middle = points[point].distance + 0.5 * self.breakpoints.length_after(point);
-        let middle = middle % self.breakpoints.perimeter(number);
-        let edge = starts[number].partition_point(|&s| s <= middle).max(1) - 1;
-        let panel = &self.pattern.panels()[number];
-        let edge = &panel.outline()[edge.min(panel.outline().len() - 1)];
+        let after = line.starts.partition_point(|&s| s <= middle % line.length());
+        let number = after.clamp(1, line.starts.len() - 1) - 1;
+        let panel = &self.pattern.panels()[line.panel];
+        let edge = panel.edges().nth(line.first_edge + number).expect("the panel has the edge");
         EdgeName { panel: panel.name().into(), edge: edge.name.clone() }
     }
 }

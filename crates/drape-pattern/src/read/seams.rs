@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use drape_input::{
-    Angle, Diagnostic, Diagnostics, Document, Given, Length, closest, figure, toml_key,
+    Angle, Diagnostic, Diagnostics, Document, Edit, Given, Length, Subject, closest, figure,
+    toml_key, toml_string,
 };
 use serde::Deserialize;
 
@@ -11,8 +12,10 @@ use crate::ease::DEFAULT_EASE;
 #[cfg(feature = "schema")]
 use crate::ease::MAX_EASE;
 use crate::length::Millimetres;
-use crate::mistake::{Mistake, Subject};
-use crate::pattern::{EdgeId, Pattern, Seam};
+use crate::mistake::Mistake;
+use crate::panel::Panel;
+use crate::pattern::Pattern;
+use crate::pattern::seam::{EdgeId, Seam};
 
 /// Largest angle of a fold or a seam, in degrees; beyond it the bending of yarns is not exact.
 const ANGLE_MAX: f64 = 140.0;
@@ -68,6 +71,11 @@ impl Place<'_> {
         (!(angle.abs() <= ANGLE_MAX)).then(|| self.at(key, message(), help))
     }
 
+    /// Returns the change of a value of the table, in TOML, or its removal.
+    pub(crate) fn edit(&self, key: &str, new: Option<&str>) -> Option<Edit> {
+        self.document.edit(&format!("{}{key}", self.prefix), new)
+    }
+
     /// Returns the mistake of the width of an allowance or a hem.
     pub(crate) fn width(&self, key: &str, width: Given<Length>) -> Option<Diagnostic> {
         let metres = width * self.unit;
@@ -80,8 +88,8 @@ impl Place<'_> {
     }
 }
 
-/// Panels that seams can name, with the names of their edges; `None` for those with mistakes.
-pub(crate) type Known<'a> = Vec<(&'a str, Option<Vec<String>>)>;
+/// Panels that seams can name; `None` for those with mistakes.
+pub(crate) type Known<'a> = Vec<(&'a str, Option<&'a Panel>)>;
 
 /// Returns the seams that a file states, or all mistakes of their keys.
 pub(crate) fn seams(
@@ -97,9 +105,19 @@ pub(crate) fn seams(
             let mut ids = Vec::new();
             for (number, word) in seam.sides[side].iter().enumerate() {
                 let key = format!("{key}.sides[{side}][{number}]");
-                match edge(word, known) {
-                    Ok(id) => ids.extend(id),
-                    Err((message, help)) => mistakes.push(place.at(&key, message, &help)),
+                match edges(word, known) {
+                    // Against the outline, the parts of an edge that darts divide come the other way.
+                    Ok(mut parts) => {
+                        if side == 1 && !seam.reversed {
+                            parts.reverse();
+                        }
+                        ids.extend(parts);
+                    }
+                    Err(WrongWord { message, help, meant }) => {
+                        let edit =
+                            meant.and_then(|meant| place.edit(&key, Some(&toml_string(&meant))));
+                        mistakes.push(place.at(&key, message, &help).with_edits(edit));
+                    }
                 }
             }
             ids
@@ -118,9 +136,17 @@ pub(crate) fn seams(
     if mistakes.is_empty() { Ok(seams) } else { Err(mistakes) }
 }
 
-/// Returns the edge that a word such as `front.side` names, `None` if its panel has mistakes; or
-/// what is wrong with the word, and the remedy.
-fn edge(word: &str, known: &Known<'_>) -> Result<Option<EdgeId>, (String, String)> {
+/// Word of a seam that names no edge.
+struct WrongWord {
+    message: String,
+    help: String,
+    /// Word that was probably meant.
+    meant: Option<String>,
+}
+
+/// Returns the edges that a word such as `front.side` names: one, the parts of one that darts divide,
+/// or none if its panel has mistakes.
+fn edges(word: &str, known: &Known<'_>) -> Result<Vec<EdgeId>, WrongWord> {
     // Names of panels and edges may have dots: the longest panel counts that the word begins with.
     let rest = |name: &str| word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
     let panels =
@@ -128,23 +154,29 @@ fn edge(word: &str, known: &Known<'_>) -> Result<Option<EdgeId>, (String, String
     let Some((panel, name, edge)) = panels.max_by_key(|(_, name, _)| name.len()) else {
         let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-        let help = match closest(panel, names.iter().copied()) {
-            Some(similar) if similar != panel => format!("did you mean \"{similar}.{edge}\"?"),
-            _ => format!("write panel.edge; the panels are: {}", names.join(", ")),
+        let similar = closest(panel, names.iter().copied()).filter(|similar| *similar != panel);
+        let meant = similar.map(|similar| format!("{similar}.{edge}"));
+        let help = match &meant {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None => format!("write panel.edge; the panels are: {}", names.join(", ")),
         };
-        return Err((format!("\"{word}\": there is no panel \"{panel}\""), help));
+        let message = format!("\"{word}\": there is no panel \"{panel}\"");
+        return Err(WrongWord { message, help, meant });
     };
-    let Some(edges) = &known[panel].1 else { return Ok(None) };
-    match edges.iter().position(|known| *known == edge) {
-        Some(edge) => Ok(Some(EdgeId { panel, edge })),
-        None => {
-            let help = match closest(edge, edges.iter().map(String::as_str)) {
-                Some(similar) => format!("did you mean \"{name}.{similar}\"?"),
-                None => format!("its edges are: {}", edges.join(", ")),
-            };
-            Err((format!("panel {name} has no edge \"{edge}\""), help))
-        }
+    let Some(own) = known[panel].1 else { return Ok(Vec::new()) };
+    let numbers = own.edges_named(edge);
+    if !numbers.is_empty() {
+        return Ok(numbers.into_iter().map(|edge| EdgeId { panel, edge }).collect());
     }
+    let edges: Vec<&str> = own.edges().map(|own| own.name.as_str()).collect();
+    let similar = closest(edge, edges.iter().copied());
+    let meant = similar.map(|similar| format!("{name}.{similar}"));
+    let help = match &meant {
+        Some(meant) => format!("did you mean \"{meant}\"?"),
+        None => format!("its edges are: {}", edges.join(", ")),
+    };
+    let message = format!("panel {name} has no edge \"{edge}\"");
+    Err(WrongWord { message, help, meant })
 }
 
 /// Returns the seams of a pattern with those of a file added, or in place of those of the same
@@ -161,12 +193,20 @@ pub(crate) fn merged(mut own: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
 
 /// Returns the answer to a mistake of a pattern whose seams or panels a file states.
 pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
-    let key = match mistake.subject() {
-        Subject::Panel(panel) => format!("panel.{}.outline", toml_key(panel)),
-        Subject::Seam(seam) => format!("seam.{}.sides", toml_key(seam)),
-        Subject::Spacing => String::new(),
+    let subject = mistake.subject();
+    let key = match &subject {
+        Some(Subject::Edge { panel, .. } | Subject::Panel(panel)) => {
+            format!("panel.{}.outline", toml_key(panel))
+        }
+        Some(Subject::Seam(seam)) => format!("seam.{}.sides", toml_key(seam)),
+        _ => String::new(),
     };
-    place.at(&key, mistake.to_string(), &mistake.help())
+    let located = place.at(&key, mistake.to_string(), &mistake.help());
+    let ease = mistake.enough_ease().zip(key.strip_suffix(".sides"));
+    let edit = ease.and_then(|(enough, seam)| {
+        place.edit(&format!("{seam}.max_ease"), Some(&enough.to_string()))
+    });
+    Diagnostic { subject, ..located }.with_edits(edit)
 }
 
 /// Returns the answer to a mistake of a pattern to which a file adds seams.
@@ -199,10 +239,7 @@ impl Pattern {
         seams: &BTreeMap<String, SeamKeys>,
         place: &Place<'_>,
     ) -> Result<Self, Diagnostics> {
-        let known = self.panels().iter().map(|panel| {
-            let edges = panel.outline().iter().map(|edge| edge.name.clone());
-            (panel.name(), Some(edges.collect()))
-        });
+        let known = self.panels().iter().map(|panel| (panel.name(), Some(panel)));
         let added = self::seams(place, seams, &known.collect()).map_err(Diagnostics)?;
         let all = merged(self.seams().to_vec(), added);
         let notes = self.reader_notes();

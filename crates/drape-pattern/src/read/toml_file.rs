@@ -19,23 +19,29 @@
 //!
 //! With `from`, the file adds to a pattern of another format: its panels change those of the same
 //! name, its seams are added or take the place of those of the same name. `keys` mirrors the file,
-//! `panels` makes the panels, [`seams`](super::seams) the seams.
+//! `panels` makes the panels and `darts` their darts, [`seams`](super::seams) the seams.
 
+mod darts;
 pub(crate) mod keys;
 mod panels;
 
 use std::collections::BTreeSet;
 
-use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, toml_key};
+use drape_input::{
+    Diagnostic, Diagnostics, Document, Faults, closest, excerpt, near_file, toml_key, toml_string,
+};
 
 use self::keys::{PanelKeys, PatternKeys};
 use self::panels::{Reader, key};
 use super::request::Request;
 use super::seams::{Known, answer, merged, seams};
+use super::size::Doubt;
 use super::unit::Unit;
 use crate::note::Note;
 use crate::panel::Panel;
-use crate::pattern::{EdgeId, Pattern, Seam};
+use crate::pattern::Pattern;
+use crate::pattern::seam::{EdgeId, Seam};
+use crate::sketch::Sketch;
 
 /// Pattern of a document in the project's own format that names another file, which is still to be
 /// read.
@@ -67,8 +73,18 @@ impl File<'_> {
         }
         if !path.is_file() {
             let message = format!("there is no file {}", path.display());
-            let help = "the path is relative to the folder of this file";
-            return Err(self.document.at("from.file", message).help(help).into());
+            let near = near_file(&path).map(|name| {
+                let near = std::path::Path::new(&from.file).with_file_name(name);
+                toml_string(&near.to_string_lossy())
+            });
+            let help = match &near {
+                Some(near) => {
+                    format!("did you mean {near}? the path is relative to the folder of this file")
+                }
+                None => "the path is relative to the folder of this file".into(),
+            };
+            let edit = near.and_then(|near| self.document.edit("from.file", Some(&near)));
+            return Err(self.document.at("from.file", message).help(help).with_edits(edit).into());
         }
         let unit = match from.unit.as_deref().map(Unit::parse) {
             None => None,
@@ -79,7 +95,8 @@ impl File<'_> {
                 return Err(self.document.at("from.unit", message).help(Unit::HELP).into());
             }
         };
-        Ok(Some(Request { path, unit, size: from.size.clone() }))
+        let (size, from) = (from.size.clone(), Some(self.document.clone()));
+        Ok(Some(Request { path, unit, size, from }))
     }
 
     /// Removes what does not fit a pattern, whose drawing was changed: panels and edges that it has
@@ -95,7 +112,7 @@ impl File<'_> {
         });
         let words: BTreeSet<String> = panels
             .iter()
-            .flat_map(|p| p.outline().iter().map(move |e| format!("{}.{}", p.name(), e.name)))
+            .flat_map(|p| p.edges().map(move |e| format!("{}.{}", p.name(), e.name)))
             .collect();
         let mut lost = Vec::new();
         self.keys.seam.retain(|name, seam| {
@@ -109,9 +126,13 @@ impl File<'_> {
     }
 
     /// Returns the pattern: its own panels and seams, and those of the pattern that it adds to.
-    pub(crate) fn pattern(&self, base: Option<Pattern>) -> Result<Pattern, Diagnostics> {
+    pub(crate) fn pattern(
+        &self,
+        base: Option<Pattern>,
+        sketch: &mut Sketch,
+    ) -> Result<Pattern, Diagnostics> {
         let Self { document, keys, faults } = self;
-        let mut reader = Reader::new(document, faults);
+        let mut reader = Reader::new(document, faults, sketch);
         reader.read_unit(keys);
         if keys.panel.is_empty() && base.is_none() && !faults.cover("panel") {
             let help = "add [panel.front] with start and outline, rectangle, or path";
@@ -130,7 +151,8 @@ impl File<'_> {
     /// Returns the mistakes of the file that do not depend on the pattern that it adds to, which has
     /// mistakes itself.
     pub(crate) fn without_base(&self, mistakes: Diagnostics) -> Diagnostics {
-        let mut reader = Reader::new(self.document, &self.faults);
+        let mut sketch = Sketch::default();
+        let mut reader = Reader::new(self.document, &self.faults, &mut sketch);
         reader.read_unit(&self.keys);
         reader.mistakes.extend(mistakes.0);
         self.keys.panel.iter().for_each(|(name, keys)| reader.check_loose(name, keys));
@@ -187,6 +209,9 @@ impl Reader<'_> {
     fn seams(&mut self, keys: &PatternKeys, known: &Known<'_>) -> Vec<Seam> {
         let mut own = keys.seam.clone();
         own.retain(|name, _| !self.faults.cover(&format!("seam.{}", toml_key(name))));
+        for (name, seam) in &own {
+            self.sketch.add_seam(name, seam.sides.concat());
+        }
         seams(&self.place(), &own, known).unwrap_or_else(|more| {
             self.mistakes.extend(more);
             Vec::new()
@@ -217,6 +242,9 @@ impl Reader<'_> {
                 made.push((name, None));
                 continue;
             }
+            if keys.omit {
+                self.sketch.remove(name);
+            }
             if keys.omit || (copy && !keys.has_shape()) {
                 continue;
             }
@@ -225,14 +253,18 @@ impl Reader<'_> {
                 None if !keys.has_shape() && base.is_some() => {
                     let known: Vec<&str> = entries.iter().map(|e| e.name).collect();
                     let others = known.iter().copied().filter(|other| *other != name);
-                    let help = match closest(name, others.clone()) {
+                    let similar = closest(name, others.clone());
+                    let help = match similar {
                         Some(similar) => format!("did you mean \"{similar}\"?"),
                         None => format!(
                             "the panels are: {}; a new one needs a shape or copy_of",
                             others.collect::<Vec<_>>().join(", ")
                         ),
                     };
-                    self.fail(&key(name), "the other file has no such panel", help);
+                    let free = similar.map(key).filter(|similar| !self.document.has(similar));
+                    let edits = free.map(|similar| self.document.renamed(&key(name), &similar));
+                    let message = "the other file has no such panel";
+                    self.fail_with(&key(name), message, help, edits.unwrap_or_default());
                     None
                 }
                 _ => {
@@ -276,18 +308,19 @@ impl Reader<'_> {
     ) -> Option<Panel> {
         let Some((_, panel)) = made.iter().find(|(other, _)| *other == of) else {
             let known = made.iter().map(|(name, _)| *name);
-            let help = match closest(of, known.clone()) {
-                Some(similar) if similar != of => format!("did you mean \"{similar}\"?"),
-                _ => format!(
+            let similar = closest(of, known.clone()).filter(|similar| *similar != of);
+            let help = match similar {
+                Some(similar) => format!("did you mean \"{similar}\"?"),
+                None => format!(
                     "the panels that can be copied are: {}",
                     known.collect::<Vec<_>>().join(", ")
                 ),
             };
-            self.fail(
-                &format!("{}.copy_of", key(name)),
-                format!("there is no panel \"{of}\""),
-                help,
-            );
+            let key = format!("{}.copy_of", key(name));
+            let edit =
+                similar.and_then(|similar| self.document.edit(&key, Some(&toml_string(similar))));
+            let message = format!("there is no panel \"{of}\"");
+            self.fail_with(&key, message, help, edit.into_iter().collect());
             return None;
         };
         let panel = panel.clone()?.renamed(name);
@@ -301,14 +334,7 @@ impl Reader<'_> {
         base: Option<&Pattern>,
         panels: &Made<'_>,
     ) -> Result<Pattern, Diagnostics> {
-        let known: Known<'_> = panels
-            .iter()
-            .map(|(name, panel)| {
-                let edges =
-                    |panel: &Panel| panel.outline().iter().map(|e| e.name.clone()).collect();
-                (*name, panel.as_ref().map(edges))
-            })
-            .collect();
+        let known: Known<'_> = panels.iter().map(|(name, panel)| (*name, panel.as_ref())).collect();
         let added = self.seams(keys, &known);
         let given = base.map(|base| self.kept(base, panels)).unwrap_or_default();
         if let Some(base) = base {
@@ -329,7 +355,11 @@ impl Reader<'_> {
         if !(self.mistakes.is_empty() && self.faults.is_empty()) {
             return Err(self.finish());
         }
-        let panels = panels.iter().filter_map(|(_, panel)| panel.clone()).collect();
+        let panels: Vec<Panel> = panels.iter().filter_map(|(_, panel)| panel.clone()).collect();
+        if base.is_none() {
+            let doubt = Doubt::of_file(&panels, self.metres);
+            self.notes.extend(doubt.map(|doubt| doubt.note()));
+        }
         match Pattern::new(panels, merged(given, added)) {
             Ok(pattern) => Ok(pattern.with_notes(self.notes)),
             Err(all) => {
@@ -345,15 +375,25 @@ impl Reader<'_> {
         let mut lost = BTreeSet::new();
         let place = |id: &EdgeId| {
             let panel = &base.panels()[id.panel];
-            let edge = &panel.outline()[id.edge].name;
+            let edge = &base.edge(*id).name;
             let number = panels.iter().position(|(name, _)| *name == panel.name())?;
-            let outline = panels[number].1.as_ref()?.outline();
             // A panel with another shape, or with edges that were split, may not have it.
-            let edge = outline.iter().position(|other| other.name == *edge)?;
-            Some(EdgeId { panel: number, edge })
+            let parts = panels[number].1.as_ref()?.edges_named(edge);
+            let parts = parts.into_iter().map(|edge| EdgeId { panel: number, edge });
+            Some(parts.collect::<Vec<_>>()).filter(|parts| !parts.is_empty())
         };
         for seam in base.seams() {
-            let sides = [0, 1].map(|side| seam.sides[side].iter().map(place).collect());
+            let sides = [0, 1].map(|side| {
+                let parts: Option<Vec<Vec<EdgeId>>> = seam.sides[side].iter().map(place).collect();
+                // Against the outline, the parts of an edge that darts divide come the other way.
+                let turned = |mut parts: Vec<EdgeId>| {
+                    if side == 1 && !seam.reversed {
+                        parts.reverse();
+                    }
+                    parts
+                };
+                Some(parts?.into_iter().flat_map(turned).collect())
+            });
             match sides {
                 [Some(first), Some(second)] => {
                     seams.push(Seam { sides: [first, second], ..seam.clone() });

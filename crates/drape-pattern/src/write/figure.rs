@@ -19,8 +19,8 @@ const HUE_STEP: f64 = 137.508;
 
 /// Returns a drawing of the panels of a cut, side by side, as SVG in mm.
 ///
-/// Cells and rim are drawn in grey and brown, the outline in black; both sides of a seam have the
-/// same colour, with a dot at the first stitch and an arrowhead in the direction of the seam. An
+/// Cells and rim are drawn in grey and brown, the outline and the holes of darts in black; both sides
+/// of a seam have the same colour, with a dot at the first stitch and an arrowhead in the direction of the seam. An
 /// arrow along the warp shows the grain, and small letters name the edges. Dashed lines are folds,
 /// with their angles in degrees.
 #[must_use]
@@ -125,12 +125,13 @@ impl Drawing<'_> {
     /// Draws outline, cells and rim.
     fn mesh(&self, svg: &mut String) {
         let width = 0.06 * self.sheet.letter;
-        let outline = polygon(self.cut.outline.iter().map(|&n| self.node(n)));
+        let lines = self.cut.lines().map(|line| polygon(line.iter().map(|&n| self.node(n))));
+        let outline: String = lines.collect();
         let cells = self.cells();
         let rim = self.rim();
         let _ = writeln!(
             svg,
-            "<path d=\"{outline}\" fill=\"#faf7f2\" stroke=\"#222222\" stroke-width=\"{:.2}\"/>\n\
+            "<path d=\"{outline}\" fill=\"#faf7f2\" fill-rule=\"evenodd\" stroke=\"#222222\" stroke-width=\"{:.2}\"/>\n\
              <path d=\"{cells}\" stroke=\"#9aa5b1\" stroke-width=\"{width:.2}\"/>\n\
              <path d=\"{rim}\" stroke=\"#c9a27a\" stroke-width=\"{width:.2}\"/>",
             2.5 * width,
@@ -183,10 +184,11 @@ impl Drawing<'_> {
 
     /// Draws the sides of seams that lie in this panel.
     fn seams(&self, cut: &CutPattern, svg: &mut String) {
-        let outline = &self.cut.outline;
-        let next = outline.iter().cycle().skip(1);
-        let sides: BTreeSet<[u32; 2]> =
-            outline.iter().zip(next).flat_map(|(&a, &b)| [[a, b], [b, a]]).collect();
+        let both = |line: &'_ [u32]| -> Vec<[u32; 2]> {
+            let next = line.iter().cycle().skip(1);
+            line.iter().zip(next).flat_map(|(&a, &b)| [[a, b], [b, a]]).collect()
+        };
+        let sides: BTreeSet<[u32; 2]> = self.cut.lines().flat_map(both).collect();
         for (number, seam) in cut.seams.iter().enumerate() {
             let (mut path, mut marks) = (String::new(), String::new());
             for side in 0..2 {
@@ -258,13 +260,14 @@ impl Drawing<'_> {
     /// Draws the parts of fold lines inside the outline, each line with its angle beside its
     /// longest part.
     fn folds(&self, panel: &Panel, svg: &mut String) {
-        let outline: Vec<[f64; 2]> =
-            self.cut.outline.iter().map(|&n| self.cut.positions[n as usize]).collect();
+        let place = |&node: &u32| self.cut.positions[node as usize];
+        let lines: Vec<Vec<[f64; 2]>> =
+            self.cut.lines().map(|line| line.iter().map(place).collect()).collect();
         let letter = self.sheet.letter;
         for Fold { ends: [from, to], angle } in panel.folds() {
             let line = difference(*to, *from);
             let at = |fraction: f64| [from[0] + fraction * line[0], from[1] + fraction * line[1]];
-            let pieces = inside(&outline, [*from, *to]);
+            let pieces = inside(&lines, [*from, *to]);
             let mut path = String::new();
             for piece in &pieces {
                 let [a, b] = piece.map(|fraction| self.point(at(fraction)));
@@ -320,7 +323,7 @@ impl Drawing<'_> {
         );
         let at = [middle[0], middle[1] + half * along[1].abs() + 1.4 * letter];
         Label { text: panel.name(), anchor: "middle", at, size: 1.2 * letter }.draw(svg);
-        for (edge, nodes) in panel.outline().iter().zip(&self.cut.edges) {
+        for (edge, nodes) in panel.edges().zip(&self.cut.edges) {
             // Beside the middle of the edge, inside.
             let half = nodes.len() / 2;
             let (from, to) = (self.node(nodes[half.saturating_sub(1)]), self.node(nodes[half]));
@@ -351,7 +354,7 @@ impl Drawing<'_> {
             let (a, c) = (self.node(quad[0]), self.node(quad[2]));
             [0.5 * (a[0] + c[0]), 0.5 * (a[1] + c[1])]
         };
-        let outline: Vec<[f64; 2]> = self.cut.outline.iter().map(|&n| self.node(n)).collect();
+        let outline: Vec<[f64; 2]> = self.cut.lines().flatten().map(|&n| self.node(n)).collect();
         let clearance = |p: &[f64; 2]| {
             let distances = outline.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1]));
             distances.fold(f64::MAX, f64::min)
@@ -366,10 +369,14 @@ impl Drawing<'_> {
     }
 }
 
-/// Returns the parts of a line inside a polygon, as fractions of its length from its start.
-fn inside(polygon: &[[f64; 2]], [from, to]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+/// Returns the parts of a line between closed polygons, of which the first is outside, as fractions of
+/// the line's length from its start.
+fn inside(polygons: &[Vec<[f64; 2]>], [from, to]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
     let line = difference(to, from);
-    let sides = || polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1));
+    let of_one = |polygon: &'_ Vec<[f64; 2]>| -> Vec<_> {
+        polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1)).collect()
+    };
+    let sides = || polygons.iter().flat_map(of_one);
     let left = |p: [f64; 2]| line[0] * (p[1] - from[1]) - line[1] * (p[0] - from[0]);
     let along = |p: [f64; 2]| {
         (line[0] * (p[0] - from[0]) + line[1] * (p[1] - from[1]))

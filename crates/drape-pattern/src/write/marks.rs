@@ -6,7 +6,8 @@ use super::number::decimal;
 use super::xml::escape;
 use crate::edge::{Edge, difference, distance};
 use crate::panel::Panel;
-use crate::pattern::{EdgeId, Pattern, Seam};
+use crate::pattern::Pattern;
+use crate::pattern::seam::{EdgeId, Seam};
 
 /// Length of notches and ticks, in mm.
 const TICK: f64 = 5.0;
@@ -28,7 +29,7 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
     /// Writes the marks.
     pub(crate) fn write(&self, svg: &mut String) {
         self.grain_and_name(svg);
-        for edge in self.panel.outline() {
+        for edge in self.panel.edges() {
             for notch in &edge.notches {
                 self.tick("notch", &self.rim(edge, notch / edge.length()), svg);
             }

@@ -13,7 +13,7 @@ use drape_input::{toml_key, toml_string};
 use super::layout::{Extent, Rows};
 use super::marks::Drawn;
 use super::number::{decimal, millimetres};
-use super::toml_text::{degrees, placement};
+use super::toml_text::{darts, degrees, placement};
 use super::xml::escape;
 use crate::edge::{Curve, Edge, distance};
 
@@ -104,22 +104,26 @@ fn group(pattern: &Pattern, panel: &Panel, origin: [f64; 2]) -> String {
         origin[0],
         origin[1],
         escape(&names.join("|")),
-        outline(panel, &on_sheet)
+        closed_line(panel.outline(), &on_sheet)
     );
+    for hole in panel.loops().skip(1) {
+        let data = closed_line(hole, &on_sheet);
+        let _ = writeln!(svg, "<path class=\"dart\" stroke-width=\"0.5\" d=\"{data}\"/>");
+    }
     let drawn = Drawn { pattern, panel, on_sheet: &on_sheet };
     drawn.write(&mut svg);
     svg.push_str("</g>\n");
     svg
 }
 
-/// Returns the outline of a panel as path data.
-fn outline(panel: &Panel, on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> String {
+/// Returns a closed line of a panel as path data.
+fn closed_line(edges: &[Edge], on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> String {
     let pair = |p: [f64; 2]| {
         let [x, y] = on_sheet(p).map(|x| decimal(x, 1e4));
         format!("{x} {y}")
     };
-    let mut data = format!("M{}", pair(panel.outline()[0].start));
-    for edge in panel.outline() {
+    let mut data = format!("M{}", pair(edges[0].start));
+    for edge in edges {
         let end = pair(edge.end);
         let _ = match edge.curve {
             Curve::Line => write!(data, "L{end}"),
@@ -157,6 +161,7 @@ fn metadata(pattern: &Pattern) -> String {
         if !hems.is_empty() {
             let _ = writeln!(text, "hems = {{ {} }}", hems.join(", "));
         }
+        darts(panel, &mut text);
         for fold in panel.folds() {
             let [from, to] = fold.ends.map(|end| super::number::point(&end));
             let angle = degrees(fold.angle);
@@ -164,7 +169,8 @@ fn metadata(pattern: &Pattern) -> String {
                 writeln!(text, "[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}");
         }
     }
-    pattern.seams().iter().for_each(|seam| pattern.seam(seam, &mut text));
+    let seams = pattern.seams().iter().filter(|seam| !pattern.is_dart(seam));
+    seams.for_each(|seam| pattern.seam(seam, &mut text));
     text
 }
 

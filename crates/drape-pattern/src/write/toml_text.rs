@@ -4,12 +4,13 @@ use std::fmt::Write;
 
 use drape_input::{toml_key, toml_string};
 
-use super::number::{decimal, millimetres, point};
+use super::number::{as_written, decimal, millimetres, point};
 use crate::ease::{DEFAULT_EASE, MAX_EASE};
 use crate::edge::{Curve, Edge, distance};
 use crate::note::Note;
 use crate::panel::Panel;
-use crate::pattern::{EdgeId, Pattern, Seam};
+use crate::pattern::Pattern;
+use crate::pattern::seam::{EdgeId, Seam};
 
 impl Pattern {
     /// Returns the pattern in the project's own format, in mm, with a heading and its notes as
@@ -37,7 +38,7 @@ impl Pattern {
         for panel in self.panels() {
             self.panel(panel, &mut text);
         }
-        for seam in self.seams() {
+        for seam in self.seams().iter().filter(|seam| !self.is_dart(seam)) {
             self.seam(seam, &mut text);
         }
         if self.seams().is_empty() {
@@ -71,6 +72,7 @@ impl Pattern {
         }
         text.push_str("]\n");
         placement(panel, text);
+        darts(panel, text);
         for fold in panel.folds() {
             let [from, to] = fold.ends.map(|end| point(&end));
             let angle = degrees(fold.angle);
@@ -126,6 +128,23 @@ impl Pattern {
     }
 }
 
+/// Writes the closed darts of a panel; those of edges are part of its outline, with their seams.
+pub(crate) fn darts(panel: &Panel, text: &mut String) {
+    let key = toml_key(panel.name());
+    for dart in panel.darts().iter().filter(|dart| !dart.hole().is_empty()) {
+        let legs = dart.leg_edges();
+        let Some(from) = legs[0].first().map(|edge| point(&edge.start)) else { continue };
+        let name = toml_string(&dart.name);
+        let _ = writeln!(text, "\n[[panel.{key}.dart]]\nname = {name}\nfrom = {from}");
+        for (side, leg) in ["left", "right"].iter().zip(&legs) {
+            // The edges of legs are named after the dart.
+            let edges: Vec<String> =
+                leg.iter().map(|edge| format!("{{ {} }}", shape(edge))).collect();
+            let _ = writeln!(text, "{side} = [{}]", edges.join(", "));
+        }
+    }
+}
+
 /// Writes the place of a panel in space.
 pub(crate) fn placement(panel: &Panel, text: &mut String) {
     let Some(placement) = panel.placement() else { return };
@@ -138,7 +157,23 @@ pub(crate) fn placement(panel: &Panel, text: &mut String) {
 
 /// Returns an edge as an inline table.
 fn edge_text(edge: &Edge) -> String {
-    let mut text = format!("{{ name = {}, to = {}", toml_string(&edge.name), point(&edge.end));
+    let mut text = format!("{{ name = {}, {}", toml_string(&edge.name), shape(edge));
+    if edge.hem != 0.0 {
+        let _ = write!(text, ", hem = {}", millimetres(edge.hem));
+    }
+    if !edge.notches.is_empty() {
+        // A notch at the very end stays within the edge, whose ends are rounded.
+        let length = edge.mapped(false, |p| p.map(as_written)).length();
+        let inside = |at: &f64| millimetres((at.min(length) - 1e-7).max(0.0));
+        let all: Vec<String> = edge.notches.iter().map(inside).collect();
+        let _ = write!(text, ", notches = [{}]", all.join(", "));
+    }
+    text + " }"
+}
+
+/// Returns the end and the curve of an edge, as keys of an inline table.
+fn shape(edge: &Edge) -> String {
+    let mut text = format!("to = {}", point(&edge.end));
     let _ = match edge.curve {
         Curve::Line => Ok(()),
         Curve::Quadratic(control) => write!(text, ", quadratic = {}", point(&control)),
@@ -156,16 +191,7 @@ fn edge_text(edge: &Edge) -> String {
             write!(text, ", radius = {radius}{large}")
         }
     };
-    if edge.hem != 0.0 {
-        let _ = write!(text, ", hem = {}", millimetres(edge.hem));
-    }
-    if !edge.notches.is_empty() {
-        // A notch at the very end stays within the edge.
-        let inside = |at: &f64| millimetres((*at - 1e-7).max(0.0));
-        let all: Vec<String> = edge.notches.iter().map(inside).collect();
-        let _ = write!(text, ", notches = [{}]", all.join(", "));
-    }
-    text + " }"
+    text
 }
 
 /// Returns an angle in rad as a number of degrees.

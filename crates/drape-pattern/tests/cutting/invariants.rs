@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use drape_pattern::{Cut, CutPattern, NodeId, Pattern};
+use drape_pattern::{Cut, CutPattern, NodeId, Panel, Pattern};
 
 /// Twice the area of a polygon, from its first corner.
 fn twice_area(points: &[[f64; 2]]) -> f64 {
@@ -19,7 +19,7 @@ pub fn check(pattern: &Pattern, cut: &CutPattern) {
         tiling(cut);
         clearance(cut);
         frames(cut, panel.grain());
-        edges(cut);
+        edges(panel, cut);
     }
     seams(pattern, cut);
 }
@@ -33,8 +33,8 @@ fn tiling(cut: &Cut) {
         .map(|q| q.as_slice())
         .chain(cut.triangles.iter().map(|t| t.as_slice()))
         .collect();
-    let outline: Vec<[f64; 2]> = cut.outline.iter().map(at).collect();
-    let whole = twice_area(&outline);
+    let whole: f64 =
+        cut.lines().map(|line| twice_area(&line.iter().map(at).collect::<Vec<_>>())).sum();
     let mut sum = 0.0;
     let mut sides: BTreeMap<[u32; 2], usize> = BTreeMap::new();
     let mut used = vec![false; cut.positions.len()];
@@ -51,10 +51,10 @@ fn tiling(cut: &Cut) {
     assert!((sum / whole - 1.0).abs() < 1e-10, "{}: areas {sum} and {whole}", cut.panel);
     assert!(used.iter().all(|u| *u), "{}: a node is in no face", cut.panel);
     assert!(sides.values().all(|n| *n == 1), "{}: a side is in two faces", cut.panel);
-    let n = cut.outline.len();
-    for k in 0..n {
-        let side = [cut.outline[k], cut.outline[(k + 1) % n]];
-        assert_eq!(sides.remove(&side), Some(1), "{}: side {k} of the outline", cut.panel);
+    for line in cut.lines() {
+        for (k, (&a, &b)) in line.iter().zip(line.iter().cycle().skip(1)).enumerate() {
+            assert_eq!(sides.remove(&[a, b]), Some(1), "{}: side {k} of a line", cut.panel);
+        }
     }
     for [a, b] in sides.keys() {
         assert!(sides.contains_key(&[*b, *a]), "{}: {a} {b} has one face", cut.panel);
@@ -97,20 +97,25 @@ fn frames(cut: &Cut, grain: f64) {
     }
 }
 
-/// The nodes of edges run along the outline, and each edge begins where the one before it ends.
-fn edges(cut: &Cut) {
-    let n = cut.outline.len();
-    let place =
-        |node: u32| cut.outline.iter().position(|k| *k == node).expect("it is on the outline");
-    for (k, edge) in cut.edges.iter().enumerate() {
-        let next = &cut.edges[(k + 1) % cut.edges.len()];
-        assert_eq!(edge.last(), next.first(), "{}: after edge {k}", cut.panel);
-        for pair in edge.windows(2) {
-            assert_eq!((place(pair[0]) + 1) % n, place(pair[1]), "{}: edge {k}", cut.panel);
+/// The nodes of edges run along the closed lines, and each edge begins where the one before it ends.
+fn edges(panel: &Panel, cut: &Cut) {
+    let mut all = cut.edges.as_slice();
+    for (line, own) in cut.lines().zip(panel.loops()) {
+        let place = |node: u32| line.iter().position(|k| *k == node).expect("it is on the line");
+        let (edges, rest) = all.split_at(own.len());
+        for (k, edge) in edges.iter().enumerate() {
+            let next = &edges[(k + 1) % edges.len()];
+            assert_eq!(edge.last(), next.first(), "{}: after edge {k}", cut.panel);
+            for pair in edge.windows(2) {
+                let after = (place(pair[0]) + 1) % line.len();
+                assert_eq!(after, place(pair[1]), "{}: edge {k}", cut.panel);
+            }
         }
+        let arcs: usize = edges.iter().map(|e| e.len() - 1).sum();
+        assert_eq!(arcs, line.len(), "{}: the edges make the line", cut.panel);
+        all = rest;
     }
-    let arcs: usize = cut.edges.iter().map(|e| e.len() - 1).sum();
-    assert_eq!(arcs, n, "{}: the edges make the outline", cut.panel);
+    assert!(all.is_empty(), "{}: each edge is on a line", cut.panel);
 }
 
 /// Both sides of seams advance by one node at a time, in their senses, or leave for another panel.
@@ -143,9 +148,10 @@ fn seams(pattern: &Pattern, cut: &CutPattern) {
             }
             for two in nodes.windows(2) {
                 let [from, to] = [two[0], two[1]];
-                let outline = &cut.panels[from.panel].outline;
-                let place = |n: u32| outline.iter().position(|k| *k == n).expect("on the outline");
-                if from.panel == to.panel {
+                let mut lines = cut.panels[from.panel].lines();
+                let outline = lines.find(|line| line.contains(&from.node)).expect("on a line");
+                let place = |n: u32| outline.iter().position(|k| *k == n).expect("on the line");
+                if from.panel == to.panel && outline.contains(&to.node) {
                     let (a, b) = (place(from.node), place(to.node));
                     let (a, b) = if side == 0 || seam.reversed { (a, b) } else { (b, a) };
                     let step = (b + outline.len() - a) % outline.len();

@@ -92,6 +92,9 @@ pub(crate) struct PanelKeys {
     /// Lines along which the panel is folded.
     #[serde(default)]
     pub(crate) fold: Vec<FoldKeys>,
+    /// Darts: cloth that is cut out, between two legs that are sewn together.
+    #[serde(default)]
+    pub(crate) dart: Vec<DartKeys>,
 }
 
 impl PanelKeys {
@@ -116,6 +119,43 @@ pub(crate) struct FoldKeys {
     /// Angle towards the right side of the cloth, in degrees; 0 is flat.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-140.0, 140.0)))]
     pub(crate) angle: Given<Angle>,
+}
+
+/// Dart: closed, between two tips inside the panel, or open at an edge.
+///
+/// A closed one has `from` and `to`, with `width` or with `left` and `right`; an open one has `edge`,
+/// `at` and `width`, with `to` or `depth`. Its seam is called `PANEL.NAME`. An edge with open darts is
+/// named as before in seams, which run on over the mouths; its parts are `EDGE 1`, `EDGE 2` and so on.
+#[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DartKeys {
+    /// Name; `dart` with its number from 1 if missing.
+    pub(crate) name: Option<String>,
+    /// One tip of a closed dart; the dart is open if missing.
+    pub(crate) from: Option<Point>,
+    /// The other tip, or the tip of an open dart; that at `depth` if missing.
+    pub(crate) to: Option<Point>,
+    /// Greatest width of a closed dart with straight legs, or width of the mouth of an open one; that
+    /// of `left` and `right` if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    pub(crate) width: Option<Given<Length>>,
+    /// Distance of the greatest width from `from`; the middle if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    pub(crate) widest: Option<Given<Length>>,
+    /// Edges of the left leg of a closed dart, from tip to tip; straight by `width` if missing.
+    pub(crate) left: Option<Vec<EdgeKeys>>,
+    /// Edges of the right leg of a closed dart, from tip to tip; straight by `width` if missing.
+    pub(crate) right: Option<Vec<EdgeKeys>>,
+    /// Edge at which an open dart begins; the dart is closed if missing.
+    pub(crate) edge: Option<String>,
+    /// Distance of the middle of the mouth from the start of that edge; no open dart if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    pub(crate) at: Option<Given<Length>>,
+    /// Distance of the tip of an open dart from the edge, at a right angle to the edge; that of `to` if
+    /// missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    pub(crate) depth: Option<Given<Length>>,
 }
 
 /// Edge of an outline: a line, or one kind of curve.

@@ -1,24 +1,32 @@
 //! Panels of a pattern in the project's own format: a shape of their own, or changes of another
 //! panel.
 
-use drape_input::{Diagnostic, Document, Faults, Given, Length, closest, figures, toml_key};
+use drape_input::{
+    Diagnostic, Document, Edit, Faults, Given, Length, closest, figures, toml_key, toml_string,
+};
 
 use super::keys::{EdgeKeys, FoldKeys, PanelKeys};
 use crate::edge::{Curve, Edge};
 use crate::length::Millimetres;
 use crate::mistake::Mistake;
 use crate::note::Note;
+use crate::panel::placement::Placement;
 use crate::panel::{Fold, Panel};
-use crate::placement::Placement;
-use crate::read::diagnostic::wrong_unit;
 use crate::read::seams::{Place, located};
+use crate::read::size::{Doubt, wrong_size};
 use crate::read::svg_path;
+use crate::sketch::Sketch;
+
+/// Distance beyond the end of an edge at which a notch is still on it, in m: the ends of the edge are
+/// rounded to a ten-thousandth of a millimetre where a program writes them.
+const ROUNDING: f64 = 1e-6;
 
 /// Reader of the panels of one document, with the mistakes and notes so far.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
     /// Mistakes of spelling and type, and what they leave unknown.
     pub(crate) faults: &'a Faults,
+    pub(crate) sketch: &'a mut Sketch,
     pub(crate) mistakes: Vec<Diagnostic>,
     pub(crate) notes: Vec<Note>,
     /// Unit of lengths of the file, in m; NaN if it is not known.
@@ -27,8 +35,9 @@ pub(crate) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// Creates the reader of a document with faults, before its unit is known.
-    pub(crate) fn new(document: &'a Document, faults: &'a Faults) -> Self {
-        Self { document, faults, mistakes: Vec::new(), notes: Vec::new(), metres: f64::NAN }
+    pub(crate) fn new(document: &'a Document, faults: &'a Faults, sketch: &'a mut Sketch) -> Self {
+        let (mistakes, notes) = (Vec::new(), Vec::new());
+        Self { document, faults, sketch, mistakes, notes, metres: f64::NAN }
     }
 
     /// Place of the tables of the file.
@@ -38,8 +47,19 @@ impl<'a> Reader<'a> {
 
     /// Adds a mistake at a key. Of a value that could not be read nothing more is said.
     pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.fail_with(key, message, help, Vec::new());
+    }
+
+    /// Adds a mistake at a key, with the changes that remedy it.
+    pub(crate) fn fail_with(
+        &mut self,
+        key: &str,
+        message: impl Into<String>,
+        help: impl Into<String>,
+        edits: Vec<Edit>,
+    ) {
         if !self.faults.cover(key) {
-            self.mistakes.push(self.document.at(key, message).help(help));
+            self.mistakes.push(self.document.at(key, message).help(help).with_edits(edits));
         }
     }
 
@@ -109,6 +129,7 @@ impl<'a> Reader<'a> {
             self.fail(&format!("{}.mirrored", key(name)), "belongs to copy_of", help);
         }
         let edges = self.edges(name, keys)?;
+        self.sketch.add(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
@@ -116,8 +137,15 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
-        if let Some(mistake) = wrong_unit(&panel) {
-            self.mistake(&mistake);
+        if let Some(mistake) = wrong_size(&panel) {
+            let doubt = Doubt::of_file(std::slice::from_ref(&panel), self.metres);
+            let unit = doubt.map(|doubt| toml_string(doubt.likely_unit()));
+            let edit = unit.as_ref().and_then(|unit| self.document.edit("length", Some(unit)));
+            let mut located = located(&self.place(), &mistake).with_edits(edit);
+            if let Some(unit) = unit {
+                located.help = Some(format!("did you mean length = {unit}? {}", mistake.help()));
+            }
+            self.mistakes.push(located);
         }
         if panel.was_clockwise() {
             self.notes.push(Note::Reversed { panel: name.into() });
@@ -140,6 +168,7 @@ impl<'a> Reader<'a> {
                 }
             }
         }
+        self.sketch.put(&panel);
         self.check_hems(&panel, keys)?;
         let metres = self.metres;
         if !keys.hems.is_empty() {
@@ -148,6 +177,8 @@ impl<'a> Reader<'a> {
                 vec![edge.clone().hemmed(width.unwrap_or(edge.hem))]
             });
         }
+        panel = self.darted(panel, &keys.dart)?;
+        self.sketch.put(&panel);
         if let Some(fabric) = &keys.fabric {
             panel = panel.with_fabric(fabric);
         }
@@ -242,15 +273,21 @@ impl<'a> Reader<'a> {
     }
 
     /// Returns the edge of a panel of a name; adds a mistake if there is none.
-    fn edge<'p>(&mut self, panel: &'p Panel, key: &str, name: &str) -> Option<&'p Edge> {
+    pub(crate) fn edge<'p>(&mut self, panel: &'p Panel, key: &str, name: &str) -> Option<&'p Edge> {
         let found = panel.outline().iter().find(|edge| edge.name == name);
         if found.is_none() {
             let known: Vec<&str> = panel.outline().iter().map(|e| e.name.as_str()).collect();
-            let help = match closest(name, known.iter().copied()) {
+            let similar = closest(name, known.iter().copied());
+            let help = match similar {
                 Some(similar) => format!("did you mean \"{similar}\"?"),
                 None => format!("its edges are: {}", known.join(", ")),
             };
-            self.fail(key, format!("panel {} has no edge \"{name}\"", panel.name()), help);
+            let table = key.strip_suffix(&toml_key(name)).zip(similar);
+            let renamed = table.map(|(table, similar)| {
+                self.document.renamed(key, &format!("{table}{}", toml_key(similar)))
+            });
+            let message = format!("panel {} has no edge \"{name}\"", panel.name());
+            self.fail_with(key, message, help, renamed.unwrap_or_default());
         }
         found
     }
@@ -323,10 +360,21 @@ impl<'a> Reader<'a> {
         start: Option<[Given<Length>; 2]>,
         outline: &[EdgeKeys],
     ) -> Option<Vec<Edge>> {
-        let Some(mut at) = start else {
+        let Some(start) = start else {
             self.fail(key, "start is missing", "set start = [x, y], where the first edge begins");
             return None;
         };
+        self.chain(&format!("{key}.outline"), start, outline)
+    }
+
+    /// Returns edges in a row from a point on, under a key.
+    pub(crate) fn chain(
+        &mut self,
+        key: &str,
+        start: [Given<Length>; 2],
+        outline: &[EdgeKeys],
+    ) -> Option<Vec<Edge>> {
+        let mut at = start;
         let before = self.mistakes.len();
         let mut edges = Vec::new();
         for (index, keys) in outline.iter().enumerate() {
@@ -343,7 +391,7 @@ impl<'a> Reader<'a> {
                 }
                 _ => None,
             };
-            let place = format!("{key}.outline[{index}]");
+            let place = format!("{key}[{index}]");
             self.check_width(&format!("{place}.hem"), keys.hem);
             if keys.large && keys.radius.is_none() {
                 self.fail(
@@ -360,7 +408,11 @@ impl<'a> Reader<'a> {
             };
             let mut edge = line.curved(curve).hemmed(keys.hem * self.metres);
             let length = edge.length();
-            edge.notches = keys.notches.iter().map(|&notch| notch * self.metres).collect();
+            let notches = keys.notches.iter().map(|&notch| notch * self.metres);
+            // A notch at the end of an edge may lie beyond it by the rounding of the digits.
+            let end =
+                |notch: f64| if notch < length + ROUNDING { notch.min(length) } else { notch };
+            edge.notches = notches.map(end).collect();
             if !edge.notches.iter().all(|notch| (0.0..=length).contains(notch)) {
                 let message = format!("are {}", millimetres(&edge.notches));
                 let help = format!("distances from its start, from 0 to {}", Millimetres(length));

@@ -36,7 +36,7 @@ pub(crate) fn allowances(pattern: &Pattern, cut: &CutPattern, panel: usize) -> V
             }
         }
     }
-    let edges = pattern.panels()[panel].outline().iter().zip(&cut.panels[panel].edges);
+    let edges = pattern.panels()[panel].edges().zip(&cut.panels[panel].edges);
     lines
         .extend(edges.map(|(edge, nodes)| AllowanceLine { nodes: nodes.clone(), width: edge.hem }));
     lines
