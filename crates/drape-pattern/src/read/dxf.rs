@@ -3,13 +3,14 @@
 //! Every piece is a block; the layer says what a line is: 1 the cut line, 14 the sewing line, 2
 //! corners, 3 points of curves, 4 and 80 to 83 notches, 6 a fold, 7 the grain line, 8 lines inside,
 //! 11 cut-outs, 13 drill holes; texts name the piece, its size, and the unit. `pairs` splits the
-//! file, `entities` makes blocks of it, `piece` a panel of a block. The reader is the project's
-//! own: the `dxf` crate brings a tree of packages for whole drawings, and keeps no lines for the
-//! answers.
+//! file, `entities` makes blocks of it, `piece` a panel of a block, `slit` notches of slits in a
+//! line. The reader is the project's own: the `dxf` crate brings a tree of packages for whole
+//! drawings, and keeps no lines for the answers.
 
 mod entities;
 mod pairs;
 mod piece;
+mod slit;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,14 +19,24 @@ use drape_input::{Diagnostic, Diagnostics, Document, closest};
 use self::entities::{Block, Contents, Form, contents, field, layer};
 use self::pairs::pairs;
 use self::piece::Reader;
+use super::fit::CHORDS;
 use super::request::Request;
+use super::size::Doubt;
 use super::unit::Unit;
 use crate::edge::Edge;
 use crate::note::Note;
 use crate::pattern::Pattern;
+use crate::sketch::Sketch;
+
+/// Distances within which programs let chords follow a curve, in m; others are another quantity.
+const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-5..=1e-3;
 
 /// Returns the pattern of a file.
-pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
+pub(crate) fn read(
+    document: &Document,
+    request: &Request,
+    sketch: &mut Sketch,
+) -> Result<Pattern, Diagnostics> {
     let contents = contents(document, &pairs(document)?)?;
     let mut pieces: Vec<&Block> = contents.blocks.iter().filter(|block| is_piece(block)).collect();
     if pieces.is_empty() && is_piece(&contents.loose) {
@@ -38,13 +49,20 @@ pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Di
     let mut notes = vec![taken];
     let (pieces, taken) = of_size(document, &contents, request, pieces)?;
     notes.extend(taken);
-    let mut reader = Reader { document, unit, mistakes: Vec::new(), notes };
+    let tolerance = tolerance(&contents, unit);
+    let mut reader = Reader { document, sketch, unit, tolerance, mistakes: Vec::new(), notes };
     let mut panels = Vec::new();
     for piece in pieces {
         panels.extend(reader.panel(piece));
     }
     let Reader { mistakes, mut notes, .. } = reader;
     Diagnostics::check(mistakes)?;
+    if let Some(doubt) = Doubt::of_drawing(&panels, unit.metres()) {
+        match request.unit {
+            Some(_) => notes.push(doubt.note()),
+            None => return Err(doubt.question(document, request, unit.word()).into()),
+        }
+    }
     notes.push(Note::NoSeams { format: "DXF" });
     match Pattern::new(panels, Vec::new()) {
         Ok(pattern) => Ok(pattern.with_notes(notes)),
@@ -82,6 +100,16 @@ fn no_piece(document: &Document, contents: &Contents) -> Diagnostics {
 fn field_of_file(contents: &Contents, key: &str) -> Option<String> {
     let blocks = [&contents.loose].into_iter().chain(&contents.blocks);
     blocks.into_iter().find_map(|block| field(block, key))
+}
+
+/// Returns the distance within which the chords of a file follow its curves, in m: what the file
+/// states, or what is usual.
+fn tolerance(contents: &Contents, unit: Unit) -> f64 {
+    let text = ["curve tolerance", "tolerance"].iter();
+    let text = text.filter_map(|key| field_of_file(contents, key)).next();
+    let number = text.and_then(|text| text.replace(',', ".").parse::<f64>().ok());
+    let metres = number.map(|number| number * unit.metres());
+    metres.filter(|metres| TOLERANCES.contains(metres)).unwrap_or(CHORDS)
 }
 
 /// Returns the unit of a file, with a note on why.

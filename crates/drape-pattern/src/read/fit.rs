@@ -5,50 +5,144 @@
 //! p_3$` has the control points of the least squares of its distances from the points; their
 //! parameters begin as fractions of the length of the chords and are moved to the nearest points of
 //! the curve \[Sch90\]. A run that one curve does not fit is halved.
+//!
+//! A curve fits if it passes the points, and if it stays near the chords between them: a program
+//! writes more points where a curve bends more, so that its chords are within a tolerance of it.
+//! Between points that are far apart a curve would bulge. A chord that is much longer than those
+//! beside it is a straight part, and a sharp turn is a corner.
 
 use crate::edge::{Curve, Edge, difference, distance};
 
 /// Largest distance of a point from the curve, in m.
 pub(crate) const TOLERANCE: f64 = 5e-5;
 
+/// Largest distance of a curve from the chords between its points where the file states none, in m.
+pub(crate) const CHORDS: f64 = 2e-4;
+
+/// Ratio of the length of a chord to the lengths of those beside it above which it is a straight
+/// part. Points that follow one tolerance are at most twice as far apart as their neighbours, but
+/// where the curvature jumps.
+const LONG: f64 = 3.0;
+
+/// Angle between two chords from which on their point is a corner, in rad: 20°.
+pub(crate) const TURN: f64 = 0.35;
+
 /// Largest number of times that the parameters are moved; the gain of a round below which they are
 /// not.
 const ROUNDS: usize = 100;
 const GAIN: f64 = 0.99;
 
-/// Returns edges from the first to the last of some points that pass all of them within the
-/// tolerance.
-pub(crate) fn fitted(points: &[[f64; 2]]) -> Vec<Edge> {
-    let mut edges = Vec::new();
-    let mut left = vec![points];
+/// Number of times that the point of a curve nearest to the middle of a chord is improved.
+const STEPS: usize = 4;
+
+/// Edges for the chords between points, with their largest distances from them, in m.
+#[derive(Debug, Default)]
+pub(crate) struct Fit {
+    pub(crate) edges: Vec<Edge>,
+    /// From the points.
+    pub(crate) from_points: f64,
+    /// From the chords.
+    pub(crate) from_chords: f64,
+}
+
+/// Edge for some chords, with its largest distances from points and chords, in m.
+struct Piece {
+    edge: Edge,
+    from_points: f64,
+    from_chords: f64,
+}
+
+/// Reason why one edge does not fit some points.
+enum Misfit {
+    /// It leaves the points.
+    Points,
+    /// It leaves the chord of this number, from 0, more than others.
+    Chord(usize),
+}
+
+/// Returns edges from the first to the last of some points that pass all of them, and leave the
+/// chords between them by no more than a distance, in m.
+pub(crate) fn fitted(points: &[[f64; 2]], chords: f64) -> Fit {
+    let mut fit = Fit::default();
+    for part in parts(points) {
+        // Where one chord bulges, it is taken out; where a curve is too long, it is halved. Which of
+        // both is wrong shows in the number of edges.
+        let ways = [true, false].map(|takes_out| pieces(part, chords, takes_out));
+        let fewer = ways.into_iter().min_by_key(Vec::len).unwrap_or_default();
+        for piece in fewer {
+            fit.from_points = fit.from_points.max(piece.from_points);
+            fit.from_chords = fit.from_chords.max(piece.from_chords);
+            fit.edges.push(piece.edge);
+        }
+    }
+    fit
+}
+
+/// Returns the edges for the chords of a part. One that leaves a chord is divided at the chord, or
+/// halved.
+fn pieces(part: &[[f64; 2]], chords: f64, takes_out: bool) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let mut left = vec![part];
     while let Some(run) = left.pop() {
-        match one(run) {
-            Some(edge) => edges.push(edge),
-            None => {
+        match one(run, chords) {
+            Ok(piece) => pieces.push(piece),
+            Err(Misfit::Chord(k)) if takes_out => {
+                let three = [&run[k + 1..], &run[k..=k + 1], &run[..=k]];
+                left.extend(three.into_iter().filter(|run| run.len() > 1));
+            }
+            Err(_) => {
                 let (first, second) = (&run[..=run.len() / 2], &run[run.len() / 2..]);
                 left.extend([second, first]);
             }
         }
     }
-    edges
+    pieces
 }
 
-/// Returns one edge that passes some points, if there is one.
-fn one(points: &[[f64; 2]]) -> Option<Edge> {
-    let (start, end) = (*points.first()?, *points.last()?);
+/// Returns the parts of a run of points between its corners and its straight parts. Each begins at
+/// the last point of the one before it.
+fn parts(points: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
+    let lengths: Vec<f64> = points.windows(2).map(|pair| distance(pair[0], pair[1])).collect();
+    let is_long = |k: usize| {
+        let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+        let mut beside = beside.filter_map(|k| lengths.get(k)).peekable();
+        beside.peek().is_some() && beside.all(|length| lengths[k] > LONG * length)
+    };
+    let is_corner = |k: usize| {
+        let (a, b) = (difference(points[k], points[k - 1]), difference(points[k + 1], points[k]));
+        (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs() > TURN
+    };
+    let mut parts = Vec::new();
+    let mut start = 0;
+    for k in 1..lengths.len() {
+        if is_corner(k) || is_long(k - 1) || is_long(k) {
+            parts.push(&points[start..=k]);
+            start = k;
+        }
+    }
+    parts.push(&points[start..]);
+    parts
+}
+
+/// Returns one edge that passes two or more points and stays within a distance, in m, of the chords
+/// between them.
+fn one(points: &[[f64; 2]], chords: f64) -> Result<Piece, Misfit> {
+    let (start, end) = (points[0], points[points.len() - 1]);
     let line = Edge::line("", start, end);
     let chord = difference(end, start);
     let size = chord[0].hypot(chord[1]);
-    let straight = points.iter().all(|&p| {
-        let arm = difference(p, start);
-        let (along, off) = (
-            (arm[0] * chord[0] + arm[1] * chord[1]) / size,
-            (arm[1] * chord[0] - arm[0] * chord[1]) / size,
-        );
-        off.abs() <= 0.2 * TOLERANCE && (-TOLERANCE..=size + TOLERANCE).contains(&along)
-    });
-    if points.len() < 3 || straight {
-        return Some(line);
+    let off = |p: &[f64; 2]| {
+        let arm = difference(*p, start);
+        ((arm[1] * chord[0] - arm[0] * chord[1]) / size).abs()
+    };
+    let is_beside = |p: &[f64; 2]| {
+        let arm = difference(*p, start);
+        let along = (arm[0] * chord[0] + arm[1] * chord[1]) / size;
+        off(p) <= 0.2 * TOLERANCE && (-TOLERANCE..=size + TOLERANCE).contains(&along)
+    };
+    if points.len() < 3 || points.iter().all(is_beside) {
+        let off = if points.len() < 3 { 0.0 } else { points.iter().map(off).fold(0.0, f64::max) };
+        return Ok(Piece { edge: line, from_points: off, from_chords: off });
     }
     let mut sums = vec![0.0];
     for pair in points.windows(2) {
@@ -61,26 +155,66 @@ fn one(points: &[[f64; 2]]) -> Option<Edge> {
         let weights = [(1.0 - t) * (1.0 - t), t * t, 2.0 * t * (1.0 - t)];
         let control =
             [0, 1].map(|k| (middle[k] - weights[0] * start[k] - weights[1] * end[k]) / weights[2]);
-        return Some(line.curved(Curve::Quadratic(control)));
+        // The same curve as one of degree three.
+        let towards = |p: [f64; 2]| [0, 1].map(|k| p[k] + 2.0 / 3.0 * (control[k] - p[k]));
+        let all = [start, towards(start), towards(end), end];
+        let edge = line.curved(Curve::Quadratic(control));
+        let from_chords = within_chords(&all, points, &parameters, chords)?;
+        return Ok(Piece { edge, from_points: 0.0, from_chords });
     }
     let mut last = f64::INFINITY;
     for _ in 0..ROUNDS {
-        let controls = controls(points, &parameters)?;
+        let controls = controls(points, &parameters).ok_or(Misfit::Points)?;
         let all = [start, controls[0], controls[1], end];
         let worst = points.iter().zip(&parameters).map(|(p, t)| distance(*p, at(&all, *t)));
-        let worst = worst.fold(0.0, f64::max);
-        if worst <= TOLERANCE {
-            return Some(line.curved(Curve::Cubic(controls)));
+        let from_points = worst.fold(0.0, f64::max);
+        if from_points <= TOLERANCE.min(chords) {
+            let edge = line.curved(Curve::Cubic(controls));
+            let from_chords = within_chords(&all, points, &parameters, chords)?;
+            return Ok(Piece { edge, from_points, from_chords });
         }
-        if !(worst < GAIN * last) {
-            return None;
+        if !(from_points < GAIN * last) {
+            return Err(Misfit::Points);
         }
-        last = worst;
+        last = from_points;
         for (point, t) in points.iter().zip(&mut parameters) {
             *t = nearer(&all, *point, *t);
         }
     }
-    None
+    Err(Misfit::Points)
+}
+
+/// Returns the largest distance of the middle of a chord from a curve, and of the curve from the
+/// chord, in m, if it is within a limit. The curve passes the points at some parameters.
+fn within_chords(
+    all: &[[f64; 2]; 4],
+    points: &[[f64; 2]],
+    parameters: &[f64],
+    limit: f64,
+) -> Result<f64, Misfit> {
+    let (mut most, mut worst) = (0.0_f64, 0);
+    for (k, (pair, t)) in points.windows(2).zip(parameters.windows(2)).enumerate() {
+        let middle = [0, 1].map(|k| 0.5 * (pair[0][k] + pair[1][k]));
+        let mut nearest = 0.5 * (t[0] + t[1]);
+        (0..STEPS).for_each(|_| nearest = nearer(all, middle, nearest));
+        let beside = [0.25, 0.5, 0.75].map(|part| {
+            let point = at(all, t[0] + part * (t[1] - t[0]));
+            distance_from_segment(point, [pair[0], pair[1]])
+        });
+        let off = beside.into_iter().fold(distance(middle, at(all, nearest)), f64::max);
+        if off > most {
+            (most, worst) = (off, k);
+        }
+    }
+    if most <= limit { Ok(most) } else { Err(Misfit::Chord(worst)) }
+}
+
+/// Returns the distance of a point from a segment, in m.
+pub(crate) fn distance_from_segment(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let (chord, arm) = (difference(to, from), difference(point, from));
+    let square = (chord[0] * chord[0] + chord[1] * chord[1]).max(f64::MIN_POSITIVE);
+    let t = ((arm[0] * chord[0] + arm[1] * chord[1]) / square).clamp(0.0, 1.0);
+    distance(point, [from[0] + t * chord[0], from[1] + t * chord[1]])
 }
 
 /// Returns the control points of the least squares.
@@ -133,39 +267,98 @@ fn nearer(all: &[[f64; 2]; 4], point: [f64; 2], t: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// Largest distance of the edges from the middles of the chords between points, in m, measured
+    /// at a thousand points of each edge.
+    fn from_middles(fit: &Fit, points: &[[f64; 2]]) -> f64 {
+        let off = |pair: &[[f64; 2]]| {
+            let middle = [0, 1].map(|k| 0.5 * (pair[0][k] + pair[1][k]));
+            fit.edges.iter().map(|edge| edge.nearest(middle)[1]).fold(f64::MAX, f64::min)
+        };
+        points.windows(2).map(off).fold(0.0, f64::max)
+    }
+
     #[test]
     fn points_on_a_curve_give_few_curves_that_pass_them() {
         let curve =
             Edge::line("", [0.0, 0.0], [0.3, 0.1]).curved(Curve::Cubic([[0.1, 0.2], [0.2, -0.1]]));
-        for count in [3, 4, 5, 9, 60, 400] {
+        for count in [30, 60, 400] {
             let points: Vec<_> =
                 (0..count).map(|k| curve.at(f64::from(k) / f64::from(count - 1))).collect();
-            let edges = fitted(&points);
-            assert!(edges.len() <= 2, "{count} points: {}", edges.len());
+            let fit = fitted(&points, 1e-3);
+            assert!(fit.edges.len() <= 2, "{count} points: {}", fit.edges.len());
             for p in &points {
-                let off = edges.iter().map(|e| e.nearest(*p)[1]).fold(f64::MAX, f64::min);
+                let off = fit.edges.iter().map(|e| e.nearest(*p)[1]).fold(f64::MAX, f64::min);
                 assert!(off < 1.1 * TOLERANCE, "{count} points: {off} m");
             }
-            if count >= 60 {
-                let length: f64 = edges.iter().map(Edge::length).sum();
-                assert!((length - curve.length()).abs() < 1e-4, "{length} m");
-            }
+            let length: f64 = fit.edges.iter().map(Edge::length).sum();
+            assert!((length - curve.length()).abs() < 1e-4, "{length} m");
         }
         let line: Vec<_> = (0..50).map(|k| [0.01 * f64::from(k), 0.02 * f64::from(k)]).collect();
-        assert_eq!(fitted(&line).len(), 1);
-        assert_eq!(fitted(&line)[0].curve, Curve::Line);
+        let edges = fitted(&line, CHORDS).edges;
+        assert_eq!(edges.len(), 1);
+        assert_eq!(edges[0].curve, Curve::Line);
     }
 
     #[test]
     fn the_curve_through_three_points_passes_the_middle_one_at_its_share_of_the_chords() {
-        // The second chord is three times as long as the first.
-        let points = [[0.3, 0.1], [0.36, 0.18], [0.66, 0.18]];
-        let edges = fitted(&points);
+        // The second chord is two and a half times as long as the first.
+        let points = [[0.3, 0.1], [0.36, 0.11], [0.511, 0.12]];
+        let edges = fitted(&points, 1e-2).edges;
         let [edge] = &edges[..] else { panic!("{edges:?}") };
         let Curve::Quadratic(control) = edge.curve else { panic!("{edge:?}") };
         assert_eq!([edge.start, edge.end], [points[0], points[2]]);
-        let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| 0.75 * a[k] + 0.25 * b[k]);
+        let [first, second] = [0, 1].map(|k| distance(points[k], points[k + 1]));
+        let t = first / (first + second);
+        let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k]);
         let middle = between(between(edge.start, control), between(control, edge.end));
         assert!(distance(middle, points[1]) < 1e-12, "{middle:?}");
+    }
+
+    #[test]
+    fn a_curve_stays_within_the_tolerance_of_its_chords() {
+        // Quarters of circles of 30, 100 and 400 mm, whose sagitta is near or above the tolerance.
+        for (radius, count) in [(0.03, 8), (0.1, 9), (0.1, 40), (0.4, 12), (0.4, 60)] {
+            let points: Vec<[f64; 2]> = (0..=count)
+                .map(|k| std::f64::consts::FRAC_PI_2 * f64::from(k) / f64::from(count))
+                .map(|angle| [radius * angle.cos(), radius * angle.sin()])
+                .collect();
+            let chord = distance(points[0], points[1]);
+            let sagitta = chord * chord / (8.0 * radius);
+            for tolerance in [5e-5, 1.52e-4, 2e-4, 1e-3] {
+                let fit = fitted(&points, tolerance);
+                let off = from_middles(&fit, &points);
+                assert!(off <= 1.001 * tolerance, "{radius} m, {count} chords: {off} m");
+                assert!(off <= fit.from_chords + 1e-6, "{off} m and {} m", fit.from_chords);
+                // Where the circle itself stays within the tolerance a few curves are enough; else
+                // the chords are left.
+                let edges = fit.edges.len();
+                let right = match sagitta / tolerance {
+                    ..0.8 => edges <= 4,
+                    1.1.. => edges == count as usize,
+                    _ => true,
+                };
+                assert!(right, "{radius} m, {count} chords, sagitta {sagitta} m: {edges} edges");
+            }
+        }
+    }
+
+    #[test]
+    fn a_long_chord_beside_short_ones_is_straight_and_a_sharp_turn_is_a_corner() {
+        // A straight part of 200 mm that goes over into an arc of 50 mm with chords of 4 mm.
+        let mut points = vec![[-0.2, -0.05]];
+        points.extend((0..=20).map(|k| {
+            let angle = 0.08 * f64::from(k) - std::f64::consts::FRAC_PI_2;
+            [0.05 * angle.cos(), 0.05 * angle.sin()]
+        }));
+        for points in [points.clone(), points.iter().rev().copied().collect()] {
+            let fit = fitted(&points, 2e-4);
+            let long = fit.edges.iter().find(|edge| edge.length() > 0.19).expect("it is there");
+            assert!((long.length() - 0.2).abs() < 1e-12 && long.curve == Curve::Line, "{long:?}");
+            assert!(from_middles(&fit, &points) <= 2e-4, "{}", from_middles(&fit, &points));
+            assert!(fit.edges.len() <= 3, "{:?}", fit.edges);
+        }
+        let turn = [[0.0, 0.0], [0.01, 0.001], [0.02, 0.0], [0.018, 0.01], [0.02, 0.02]];
+        let edges = fitted(&turn, 1e-3).edges;
+        assert_eq!(edges[0].end, [0.02, 0.0], "{edges:?}");
     }
 }

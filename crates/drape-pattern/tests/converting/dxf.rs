@@ -4,40 +4,8 @@ use drape_input::Document;
 use drape_pattern::{Curve, Edge, Pattern, Request, Unit};
 use proptest::prelude::*;
 
+use crate::dxf_text::{block, file, line, point, polyline, text};
 use crate::{OWN, apart, noted, read, refused};
-
-/// A block of DXF.
-fn block(name: &str, body: &str) -> String {
-    format!("0\nBLOCK\n8\n1\n2\n{name}\n70\n0\n10\n0.0\n20\n0.0\n{body}0\nENDBLK\n8\n1\n")
-}
-
-fn file(header: &str, blocks: &str, entities: &str) -> String {
-    format!(
-        "0\nSECTION\n2\nHEADER\n{header}0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n\
-         {entities}0\nENDSEC\n0\nEOF\n"
-    )
-}
-
-fn text(layer: u32, words: &str) -> String {
-    format!("0\nTEXT\n8\n{layer}\n10\n0.0\n20\n0.0\n40\n1.0\n1\n{words}\n")
-}
-
-fn point(layer: u32, [x, y]: [f64; 2]) -> String {
-    format!("0\nPOINT\n8\n{layer}\n10\n{x}\n20\n{y}\n")
-}
-
-fn line(layer: u32, a: [f64; 2], b: [f64; 2]) -> String {
-    format!("0\nLINE\n8\n{layer}\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n", a[0], a[1], b[0], b[1])
-}
-
-fn polyline(layer: u32, points: &[[f64; 2]], closed: bool) -> String {
-    let vertex = |p: &[f64; 2]| format!("0\nVERTEX\n8\n{layer}\n10\n{}\n20\n{}\n", p[0], p[1]);
-    let all: String = points.iter().map(vertex).collect();
-    format!(
-        "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{}\n{all}0\nSEQEND\n8\n{layer}\n",
-        u8::from(closed)
-    )
-}
 
 /// A front of 240 by 600 mm: hem, side, curved armhole in chords, centre.
 fn front(scale: f64) -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
@@ -174,7 +142,11 @@ fn what_a_dxf_does_not_say_is_asked_for() {
         &metric(&open),
         &["a.dxf:12: piece A: its outline is open, by 300 mm", "close the piece"],
     );
-    refused("a.dxf", &metric(&square(5.0)), &["0.0050 m", "lengths were taken in mm", "--unit"]);
+    refused(
+        "a.dxf",
+        &metric(&square(5.0)),
+        &["panel A is 5.0 × 5.0 mm", "--unit m, or --unit mm if the size is meant"],
+    );
     refused(
         "a.dxf",
         &metric(&square(200.0)).replace("\n200\n", "\nnan\n"),

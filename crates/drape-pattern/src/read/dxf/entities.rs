@@ -206,13 +206,17 @@ pub(crate) fn layer(name: &str) -> Option<u32> {
     digits.parse().ok()
 }
 
+/// Returns the texts of a block.
+pub(crate) fn texts(block: &Block) -> impl Iterator<Item = &str> {
+    block.entities.iter().filter_map(|entity| match &entity.form {
+        Form::Text(text) => Some(text.as_str()),
+        _ => None,
+    })
+}
+
 /// Returns the value of a text such as `Piece Name: FRONT` among the entities of a block.
 pub(crate) fn field(block: &Block, key: &str) -> Option<String> {
-    let texts = block.entities.iter().filter_map(|entity| match &entity.form {
-        Form::Text(text) => Some(text),
-        _ => None,
-    });
-    let mut values = texts.filter_map(|text| {
+    let mut values = texts(block).filter_map(|text| {
         let (name, value) = text.split_once(':')?;
         let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
         name.eq_ignore_ascii_case(key).then(|| value.trim().to_owned())

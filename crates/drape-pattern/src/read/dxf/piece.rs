@@ -1,23 +1,26 @@
 //! Panel of a piece: its sewing line, or its cut line, divided at its corners into edges.
 
-use drape_input::{Diagnostic, Document};
+use drape_input::{Diagnostic, Document, Subject};
 
-use super::entities::{Block, Form, field, layer};
+use super::entities::{Block, Form, field, layer, texts};
+use super::slit::{close_slits, drop_specks};
 use crate::edge::{Curve, Edge, difference, distance};
 use crate::note::Note;
 use crate::panel::Panel;
 use crate::read::chains::joined;
-use crate::read::diagnostic::{diagnostic, wrong_unit};
-use crate::read::fit::{TOLERANCE, fitted};
-use crate::read::marks::{add_notch, grain_of, low_corner, unfold};
+use crate::read::diagnostic::diagnostic;
+use crate::read::fit::{TURN, fitted};
+use crate::read::marks::{add_notch, grain_of, low_corner, says_on_fold, unfold};
+use crate::read::size::wrong_size;
 use crate::read::unit::Unit;
+use crate::sketch::Sketch;
 use crate::write::as_written;
 
 /// Distance of a vertex from a corner point that is meant to be it, in m.
 const CORNER: f64 = 2e-4;
 
-/// Angle, in rad, from which on a vertex is a corner where the file marks none: 20°.
-const TURN: f64 = 0.35;
+/// Distance of a slit from a mark of the same notch, in m.
+const SLIT_MARK: f64 = 4e-3;
 
 /// Number of places at which the width of a seam allowance is measured.
 const PLACES: usize = 60;
@@ -28,7 +31,10 @@ const EDGES: usize = 50_000;
 /// Reader of the pieces of one file, with the mistakes and notes so far.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
+    pub(crate) sketch: &'a mut Sketch,
     pub(crate) unit: Unit,
+    /// Largest distance of curves from the chords that they take the place of, in m.
+    pub(crate) tolerance: f64,
     pub(crate) mistakes: Vec<Diagnostic>,
     pub(crate) notes: Vec<Note>,
 }
@@ -44,11 +50,21 @@ impl Reader<'_> {
     pub(crate) fn panel(&mut self, block: &Block) -> Option<Panel> {
         let name = name(block);
         let before = self.mistakes.len();
-        let outline = self.outline(block, &name)?;
+        let mut outline = self.outline(block, &name)?;
+        drop_specks(&mut outline);
+        let slits = close_slits(&mut outline);
+        if !slits.is_empty() {
+            let taken = format!("panel {name}: {} slits of its line are notches", slits.len());
+            let reason = "the line runs in and back there";
+            self.notes.push(Note::Taken { taken, reason: reason.into() });
+        }
         let corners: Vec<[f64; 2]> = self.points(block, &[2]);
         let mut edges = self.divided(&name, outline, &corners);
-        for at in self.points(block, &[4, 80, 81, 82, 83]) {
-            add_notch(&mut edges, at);
+        let marked = self.points(block, &[4, 80, 81, 82, 83]);
+        // A slit may be marked as well.
+        let is_new = |at: &&[f64; 2]| marked.iter().all(|mark| distance(**at, *mark) > SLIT_MARK);
+        for at in slits.iter().filter(is_new).chain(&marked) {
+            add_notch(&mut edges, *at);
         }
         let line = |wanted: u32| {
             let chains = self.chains(block, wanted);
@@ -56,8 +72,13 @@ impl Reader<'_> {
             Some([chain.first()?.start, chain.last()?.end])
         };
         let (fold, grain) = (line(6), line(7));
-        if let Some(edge) = fold.and_then(|fold| unfold(&mut edges, fold)) {
-            self.notes.push(Note::Unfolded { panel: name.clone(), edge });
+        match fold.and_then(|fold| unfold(&mut edges, fold)) {
+            Some(edge) => self.notes.push(Note::Unfolded { panel: name.clone(), edge }),
+            None => {
+                let text = texts(block).find(|text| says_on_fold(text)).map(str::to_owned);
+                let text = text.or(fold.map(|_| "a mirror line, layer 6".into()));
+                self.notes.extend(text.map(|text| Note::Half { panel: name.clone(), text }));
+            }
         }
         self.remarks(block, &name);
         let polygon: Vec<[f64; 2]> = edges.iter().flat_map(Edge::polyline).collect();
@@ -66,8 +87,9 @@ impl Reader<'_> {
         // With the digits that a pattern is written with: curves fitted to chords may come within
         // rounding of each other, and what is sound here is sound when it is read again.
         let place = |p| difference(p, origin).map(as_written);
-        let edges = edges.iter().map(|edge| edge.mapped(false, place));
-        let panel = match Panel::new(&name, edges.collect()) {
+        let edges: Vec<Edge> = edges.iter().map(|edge| edge.mapped(false, place)).collect();
+        self.sketch.add(&name, &edges);
+        let panel = match Panel::new(&name, edges) {
             Ok(panel) => panel,
             Err(all) => {
                 self.mistakes.extend(all.iter().map(|m| at(diagnostic(self.document, m))));
@@ -75,7 +97,7 @@ impl Reader<'_> {
             }
         };
         let unit = self.unit.word();
-        self.mistakes.extend(wrong_unit(&panel).map(|m| {
+        self.mistakes.extend(wrong_size(&panel).map(|m| {
             let help = format!("lengths were taken in {unit}; if that is wrong: drape convert … --unit mm (cm, m, in)");
             at(diagnostic(self.document, &m).help(help))
         }));
@@ -132,7 +154,8 @@ impl Reader<'_> {
         let (cut, rest) = self.closed(block, 1);
         let fail = |reader: &mut Self, message: String, help: &str| {
             let mistake = Diagnostic::new(reader.document.path(), message);
-            reader.mistakes.push(mistake.on_line(block.line).help(help));
+            let mistake = mistake.on_line(block.line).help(help);
+            reader.mistakes.push(mistake.about(Subject::Panel(name.to_owned())));
         };
         match (sewing, cut) {
             (Some(sewing), cut) => {
@@ -162,6 +185,7 @@ impl Reader<'_> {
             }
             (None, None) => {
                 let chain = rest.iter().max_by_key(|chain| chain.len());
+                chain.iter().for_each(|chain| self.sketch.add(name, chain));
                 let gap =
                     chain.map_or(0.0, |chain| distance(chain[0].start, chain[chain.len() - 1].end));
                 let message = format!(
@@ -216,13 +240,17 @@ impl Reader<'_> {
             }
         }
         let (mut edges, mut chords) = (Vec::new(), 0);
+        let (mut from_points, mut from_chords) = (0.0_f64, 0.0_f64);
         for (number, run) in runs.into_iter().enumerate() {
             let chord = |edge: &Edge| edge.curve == Curve::Line;
             let pieces = if run.len() > 1 && run.iter().all(chord) {
                 chords += run.len();
                 let ends = run.iter().map(|edge| edge.end);
                 let points: Vec<[f64; 2]> = [run[0].start].into_iter().chain(ends).collect();
-                fitted(&points)
+                let fit = fitted(&points, self.tolerance);
+                from_points = fit.from_points.max(from_points);
+                from_chords = fit.from_chords.max(from_chords);
+                fit.edges
             } else {
                 run
             };
@@ -236,9 +264,10 @@ impl Reader<'_> {
         }
         if chords > edges.len() {
             let taken = format!(
-                "panel {name}: {chords} chords are {} edges within {:.2} mm of their points",
+                "panel {name}: {chords} chords are {} edges within {:.2} mm of their points and {:.2} mm of the chords",
                 edges.len(),
-                1e3 * TOLERANCE
+                1e3 * from_points,
+                1e3 * from_chords
             );
             let reason = if marks {
                 "corners are those of layer 2"
