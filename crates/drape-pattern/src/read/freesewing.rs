@@ -8,13 +8,16 @@ use std::collections::BTreeMap;
 
 use drape_input::{Diagnostic, Diagnostics, Document};
 use serde::Deserialize;
+use serde_json::Value;
 
-use super::diagnostic::{diagnostic, syntax, wrong_unit};
-use super::marks::{add_notch, grain_of, unfold};
+use super::diagnostic::{diagnostic, syntax};
+use super::marks::{add_notch, grain_of, says_on_fold, unfold};
+use super::size::{Doubt, wrong_size};
 use crate::edge::{Curve, Edge, distance};
 use crate::note::Note;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
+use crate::sketch::Sketch;
 
 /// Unit of drafts, in m.
 const UNIT: f64 = 0.001;
@@ -52,6 +55,57 @@ struct Part {
 #[derive(Deserialize)]
 struct Path {
     ops: Vec<Operation>,
+    hidden: Option<bool>,
+    /// Whether older versions of FreeSewing draw it.
+    render: Option<bool>,
+    #[serde(default)]
+    attributes: Value,
+}
+
+/// Returns the values of an attribute in the attributes of what is drawn: classes, styles, texts.
+fn values<'a>(attributes: &'a Value, key: &str) -> Vec<&'a str> {
+    match &attributes["list"][key] {
+        Value::Array(all) => all.iter().filter_map(Value::as_str).collect(),
+        value => value.as_str().into_iter().collect(),
+    }
+}
+
+impl Path {
+    /// Returns whether the draft shows it.
+    fn is_shown(&self) -> bool {
+        let values = |key: &str| values(&self.attributes, key);
+        let classes = values("class").join(" ");
+        let style: String = values("style").join(";").split_whitespace().collect();
+        !(self.hidden == Some(true)
+            || self.render == Some(false)
+            || classes.split_whitespace().any(|class| class == "hidden")
+            || values("display").contains(&"none")
+            || values("visibility").contains(&"hidden")
+            || values("opacity").contains(&"0")
+            || ["display:none", "visibility:hidden"].iter().any(|hidden| style.contains(hidden)))
+    }
+
+    /// Returns the first and the last point.
+    fn ends(&self) -> Option<[[f64; 2]; 2]> {
+        let mut points = self.ops.iter().filter_map(|operation| operation.p.as_ref());
+        Some([points.next()?.flipped(), points.next_back()?.flipped()])
+    }
+}
+
+impl Part {
+    /// Returns the texts that the draft shows along paths and at points.
+    fn texts(&self) -> impl Iterator<Item = &str> {
+        let along = self.paths.values().map(|path| &path.attributes);
+        let at = self.points.values().filter_map(Point::attributes);
+        along.chain(at).flat_map(|attributes| values(attributes, "data-text"))
+    }
+
+    /// Returns the ends of a path along which the draft says that the part is cut on the fold.
+    fn said_fold(&self) -> Option<[[f64; 2]; 2]> {
+        let says =
+            |path: &&Path| values(&path.attributes, "data-text").into_iter().any(says_on_fold);
+        self.paths.values().find(says)?.ends()
+    }
 }
 
 #[derive(Deserialize)]
@@ -71,21 +125,34 @@ struct Snippet {
     anchor: Option<Point>,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize)]
 #[serde(untagged)]
 enum Point {
     Pair([f64; 2]),
-    Named { x: f64, y: f64 },
+    Named {
+        x: f64,
+        y: f64,
+        #[serde(default)]
+        attributes: Value,
+    },
 }
 
 impl Point {
     /// Returns the point in the panel's frame, in m, with y up.
-    fn flipped(self) -> [f64; 2] {
+    fn flipped(&self) -> [f64; 2] {
         let [x, y] = match self {
-            Self::Pair(pair) => pair,
-            Self::Named { x, y } => [x, y],
+            Self::Pair(pair) => *pair,
+            Self::Named { x, y, .. } => [*x, *y],
         };
         [UNIT * x, -UNIT * y]
+    }
+
+    /// Returns its attributes, if it has some.
+    fn attributes(&self) -> Option<&Value> {
+        match self {
+            Self::Pair(_) => None,
+            Self::Named { attributes, .. } => Some(attributes),
+        }
     }
 }
 
@@ -95,18 +162,19 @@ type Points = BTreeMap<String, [f64; 2]>;
 /// Reader of one document with the mistakes and notes so far.
 struct Reader<'a> {
     document: &'a Document,
+    sketch: &'a mut Sketch,
     mistakes: Vec<Diagnostic>,
     notes: Vec<Note>,
     grainless: Vec<String>,
 }
 
 /// Returns the pattern of a draft. It has no seams: a draft does not say which edges are sewn.
-pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
+pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, Diagnostics> {
     let draft: Draft = serde_json::from_str(document.text()).map_err(|error| {
         syntax(document, &error).help("a draft has parts with paths, of ops, and points")
     })?;
     let mut reader =
-        Reader { document, mistakes: Vec::new(), notes: Vec::new(), grainless: Vec::new() };
+        Reader { document, sketch, mistakes: Vec::new(), notes: Vec::new(), grainless: Vec::new() };
     let mut parts: Vec<(String, &Part)> =
         draft.parts.iter().map(|(name, part)| (name.clone(), part)).collect();
     for (name, stack) in &draft.stacks {
@@ -131,6 +199,8 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     }
     reader.notes.push(Note::NoSeams { format: "a FreeSewing draft" });
     if reader.mistakes.is_empty() {
+        let doubt = Doubt::of_file(&panels, UNIT);
+        reader.notes.extend(doubt.map(|doubt| doubt.note()));
         match Pattern::new(panels, Vec::new()) {
             Ok(pattern) => return Ok(pattern.with_notes(reader.notes)),
             Err(all) => reader.mistakes.extend(all.iter().map(|m| diagnostic(document, m))),
@@ -157,16 +227,22 @@ impl Reader<'_> {
         };
         let line = |word: &str| {
             let mut all = part.paths.iter().filter(|(key, _)| key.starts_with(word));
-            let ops = &all.find(|(key, _)| key.ends_with("_line"))?.1.ops;
-            Some([ops.first()?.p?.flipped(), ops.last()?.p?.flipped()])
+            all.find(|(key, _)| key.ends_with("_line"))?.1.ends()
         };
         notches(&mut edges, part);
-        let fold = line("__macro_cutonfold");
-        if let Some(edge) = fold.and_then(|fold| unfold(&mut edges, fold)) {
-            self.notes.push(Note::Unfolded { panel: name.into(), edge });
+        let fold = line("__macro_cutonfold").or_else(|| part.said_fold());
+        match fold.and_then(|fold| unfold(&mut edges, fold)) {
+            Some(edge) => self.notes.push(Note::Unfolded { panel: name.into(), edge }),
+            None => {
+                let text = part.texts().find(|text| says_on_fold(text));
+                let text = text.or(fold.map(|_| "cut on fold"));
+                let half = text.map(|text| Note::Half { panel: name.into(), text: text.into() });
+                self.notes.extend(half);
+            }
         }
         // The fold lies along the grain where a draft shows no grainline.
         let grain = line("__macro_grainline").or(fold).map(grain_of);
+        self.sketch.add(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
@@ -177,7 +253,7 @@ impl Reader<'_> {
         if grain.is_none() {
             self.grainless.push(name.into());
         }
-        self.mistakes.extend(wrong_unit(&panel).map(|m| diagnostic(self.document, &m)));
+        self.mistakes.extend(wrong_size(&panel).map(|m| diagnostic(self.document, &m)));
         if panel.was_clockwise() {
             self.notes.push(Note::Reversed { panel: name.into() });
         }
@@ -187,12 +263,14 @@ impl Reader<'_> {
     /// Returns the path that is the outline of a part: the one of the usual name, or else the
     /// closed path round the largest area; a note if there is none.
     fn outline<'p>(&mut self, name: &str, part: &'p Part) -> Option<(&'p str, &'p Path)> {
-        if let Some((key, path)) = part.paths.get_key_value("seam") {
+        if let Some((key, path)) = part.paths.get_key_value("seam")
+            && path.is_shown()
+        {
             return Some((key, path));
         }
         let closed = part.paths.iter().filter(|(key, path)| {
             let last = path.ops.last().is_some_and(|op| kind(op) == "Z");
-            last && !key.starts_with("__") && !is_allowance(key)
+            last && path.is_shown() && !key.starts_with("__") && !is_allowance(key)
         });
         let areas = closed.filter_map(|(key, path)| {
             let edges = edges(path, &Points::new()).ok()?;
@@ -202,10 +280,14 @@ impl Reader<'_> {
         let (_, key, path) = match areas.max_by(|a, b| a.0.total_cmp(&b.0)) {
             Some(largest) if largest.0 > 0.0 => largest,
             _ => {
-                let known: Vec<&str> = part.paths.keys().map(String::as_str).collect();
-                let reason = match known.is_empty() {
-                    true => "the part is empty".to_owned(),
-                    false => format!("no closed path among {}", known.join(", ")),
+                let shown = part.paths.iter().filter(|(_, path)| path.is_shown());
+                let known: Vec<&str> = shown.map(|(key, _)| key.as_str()).collect();
+                let reason = if part.paths.is_empty() {
+                    "the part is empty".to_owned()
+                } else if known.is_empty() {
+                    "all of its paths are hidden".to_owned()
+                } else {
+                    format!("no closed path among {}", known.join(", "))
                 };
                 self.notes.push(Note::LeftOut { part: format!("part {name}"), reason });
                 return None;
@@ -239,7 +321,7 @@ fn kind(operation: &Operation) -> &str {
 /// Puts the notches of a part on its edges.
 fn notches(edges: &mut [Edge], part: &Part) {
     let all = part.snippets.values().filter(|snippet| snippet.def.ends_with("notch"));
-    for at in all.filter_map(|snippet| Some(snippet.anchor?.flipped())) {
+    for at in all.filter_map(|snippet| Some(snippet.anchor.as_ref()?.flipped())) {
         add_notch(edges, at);
     }
 }
@@ -264,7 +346,7 @@ fn edges(path: &Path, points: &Points) -> Result<Vec<Edge>, usize> {
     };
     for (index, operation) in path.ops.iter().enumerate() {
         let Operation { p, cp1, cp2, .. } = operation;
-        let end = p.map(Point::flipped);
+        let end = p.as_ref().map(Point::flipped);
         match (kind(operation), ends, end) {
             ("", ..) => {}
             _ if closed => return Err(index),
@@ -274,7 +356,8 @@ fn edges(path: &Path, points: &Points) -> Result<Vec<Edge>, usize> {
                 ends = Some((start, end));
             }
             ("C", Some((start, at)), Some(end)) => {
-                let controls = [cp1.ok_or(index)?, cp2.ok_or(index)?].map(Point::flipped);
+                let [Some(first), Some(second)] = [cp1, cp2] else { return Err(index) };
+                let controls = [first, second].map(Point::flipped);
                 push(at, end, Curve::Cubic(controls));
                 ends = Some((start, end));
             }

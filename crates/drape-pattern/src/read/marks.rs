@@ -1,10 +1,14 @@
 //! Marks on panels that other formats draw: grain lines, folds, notches.
 
+use super::fit::distance_from_segment;
 use crate::edge::{Curve, Edge, difference, distance};
 use crate::note::Note;
 
 /// Distance below which a point lies on a line, in m.
 const ON_LINE: f64 = 5e-5;
+
+/// Angle to an edge below which a line runs along it, in rad: 5°.
+const ALONG: f64 = 0.09;
 
 /// Distance from the outline below which a mark is a notch of it, in m.
 const NOTCH: f64 = 2e-3;
@@ -34,8 +38,8 @@ pub(crate) fn add_notch(edges: &mut [Edge], at: [f64; 2]) -> bool {
     true
 }
 
-/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None`
-/// if no edge does.
+/// Reflects an outline in its edges that lie on a line, and returns the name of the first of them;
+/// `None` if no edge does, or if there are others between them.
 pub(crate) fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
     let length = distance(from, to);
     let along = difference(to, from).map(|x| x / length);
@@ -43,19 +47,80 @@ pub(crate) fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option
         let arm = difference(p, from);
         along[0] * arm[1] - along[1] * arm[0]
     };
-    let on_line = |e: &Edge| {
+    let is_on = |e: &Edge| {
         e.curve == Curve::Line && off(e.start).abs() < ON_LINE && off(e.end).abs() < ON_LINE
     };
-    let fold = edges.iter().position(on_line)?;
+    let count = edges.iter().filter(|edge| is_on(edge)).count();
+    let before = |k: usize| &edges[(k + edges.len() - 1) % edges.len()];
+    let first = (0..edges.len()).find(|&k| is_on(&edges[k]) && !is_on(before(k)))?;
+    let in_a_row = (0..count).all(|k| is_on(&edges[(first + k) % edges.len()]));
+    if !in_a_row || count == edges.len() {
+        return None;
+    }
     let mirror = |p: [f64; 2]| {
         let twice = 2.0 * off(p);
         [p[0] + twice * along[1], p[1] - twice * along[0]]
     };
-    edges.rotate_left(fold);
-    let name = edges.remove(0).name;
+    edges.rotate_left(first);
+    let name = edges.drain(..count).next()?.name;
     let other: Vec<Edge> = edges.iter().rev().map(|e| e.reversed().mapped(true, mirror)).collect();
     edges.extend(other.into_iter().map(|e| Edge { name: format!("{} mirrored", e.name), ..e }));
     Some(name)
+}
+
+/// Reflects an outline in its straight edge that runs along a line, no farther from the line than a
+/// distance in m, and returns the name of the edge; `None` if no edge does.
+///
+/// A line that says where the fold is may be drawn beside it.
+pub(crate) fn unfold_beside(
+    edges: &mut Vec<Edge>,
+    line: [[f64; 2]; 2],
+    reach: f64,
+) -> Option<String> {
+    let middle = [0, 1].map(|k| 0.5 * (line[0][k] + line[1][k]));
+    let along = difference(line[1], line[0]);
+    let turn = |chord: [f64; 2]| {
+        let [cross, dot] =
+            [chord[0] * along[1] - chord[1] * along[0], chord[0] * along[0] + chord[1] * along[1]];
+        cross.abs().atan2(dot.abs())
+    };
+    let beside = edges
+        .iter()
+        .filter(|edge| edge.curve == Curve::Line && turn(difference(edge.end, edge.start)) < ALONG);
+    let off = |edge: &&Edge| distance_from_segment(middle, [edge.start, edge.end]);
+    let nearest = beside.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    let fold = [nearest.start, nearest.end];
+    (distance_from_segment(middle, fold) <= reach).then(|| unfold(edges, fold)).flatten()
+}
+
+/// Words by which a part says that it is cut on the fold, in small letters.
+const ON_FOLD: [&str; 19] = [
+    "on fold",
+    "on the fold",
+    "cutonfold",
+    "stoffbruch",
+    "im bruch",
+    "au pli",
+    "sur le pli",
+    "sur la pliure",
+    "op de vouw",
+    "aan de vouw",
+    "stofvouw",
+    "al doblez",
+    "en el doblez",
+    "sobre el doblez",
+    "sulla piega",
+    "na dobra",
+    "по сгибу",
+    "わ裁",
+    "わに裁",
+];
+
+/// Returns whether a text says that a part is cut on the fold.
+pub(crate) fn says_on_fold(text: &str) -> bool {
+    let words = text.to_lowercase();
+    let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+    words == "わ" || ON_FOLD.iter().any(|phrase| words.contains(phrase))
 }
 
 /// Outline of a file that may be a panel.

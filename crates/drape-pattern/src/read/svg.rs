@@ -1,29 +1,39 @@
 //! Reader of drawings in SVG: closed shapes are panels.
 //!
-//! `shapes` collects what is drawn, in the drawing's unit, with transforms applied; `scale` says
-//! how long that unit is; then outlines are told from marks by size, by what lies in what, and by
-//! name. A drawing that this project wrote has names, origins and seams in it; of others the edges
-//! are numbered and nothing is sewn.
+//! `shapes` collects what is drawn, in the drawing's unit, with transforms applied (`geometry`);
+//! `style` says what the drawing hides, `folds` what is cut on the fold; `scale` says how long that
+//! unit is. Then outlines are told from marks by size, by what lies in what, and by name. A drawing
+//! that this project wrote has names, origins and seams in it; of others the edges are numbered and
+//! nothing is sewn.
 //!
 //! The tree is `roxmltree`'s and paths, lengths and transforms are read by `svgtypes`: unlike
 //! `usvg`, which renders, they keep names and double precision.
 
+mod folds;
+mod geometry;
 mod scale;
 mod shapes;
+mod style;
 
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, Subject};
 
+use self::folds::{FoldMark, fold_marks};
 use self::scale::scale;
 use self::shapes::{Role, Shape, collect};
+use self::style::Styles;
 use super::chains::joined;
-use super::diagnostic::{diagnostic, wrong_unit};
-use super::marks::{Outline, add_notch, grain_of, inside, outlines};
+use super::diagnostic::diagnostic;
+use super::fit::distance_from_segment;
+use super::marks::{Outline, add_notch, grain_of, inside, outlines, unfold_beside};
 use super::request::Request;
+use super::size::{Doubt, wrong_size};
 use super::toml_file;
+use super::unit::Unit;
 use crate::edge::Edge;
 use crate::note::Note;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
+use crate::sketch::Sketch;
 
 /// Namespace of what this project writes into a drawing.
 const NAMESPACE: &str = "urn:drape:pattern";
@@ -34,8 +44,19 @@ const NODES: u32 = 1_000_000;
 /// Largest number of edges of an outline; more are a picture that was traced.
 const EDGES: usize = 20_000;
 
+/// Largest distance of a fold from the line or the text that says that it is one, in m: FreeSewing
+/// draws the line 15 mm inside.
+const FOLD_REACH: f64 = 0.03;
+
+/// Largest distance of a text outside of a panel that still belongs to the panel, in m.
+const BESIDE: f64 = 0.01;
+
 /// Returns the pattern of a drawing.
-pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
+pub(crate) fn read(
+    document: &Document,
+    request: &Request,
+    sketch: &mut Sketch,
+) -> Result<Pattern, Diagnostics> {
     let options =
         roxmltree::ParsingOptions { allow_dtd: true, nodes_limit: NODES, ..Default::default() };
     let tree = roxmltree::Document::parse_with_options(document.text(), options)
@@ -51,13 +72,17 @@ pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Di
         let message = format!("this is page {page} of a print, not the whole drawing");
         return Err(fail(&message, "read the *.toml or the drawing that was printed"));
     }
-    let collected = collect(&tree);
+    let styles = Styles::new(&tree);
+    let collected = collect(&tree, &styles);
     let (scale, taken) = scale(document, &tree, request, &collected.shapes)?;
     let largest = scale * collected.shapes.iter().map(Shape::extent).fold(0.0, f64::max);
     let why = taken.to_string();
     let mut notes = collected.notes;
     notes.push(taken);
-    let mut reader = Reader { document, scale, mistakes: Vec::new(), notes };
+    let up = |[x, y]: [f64; 2]| [scale * x, -scale * y];
+    let folds = fold_marks(&tree, &styles).into_iter();
+    let folds = folds.map(|mark| FoldMark { line: mark.line.map(up), ..mark }).collect();
+    let mut reader = Reader { document, sketch, scale, folds, mistakes: Vec::new(), notes };
     let panels = reader.panels(collected.shapes);
     if panels.is_empty() && reader.mistakes.is_empty() {
         let message = format!(
@@ -68,7 +93,7 @@ pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Di
                     wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
         return Err(fail(&message, help));
     }
-    reader.pattern(panels, &tree)
+    reader.pattern(panels, &tree, request)
 }
 
 /// Returns the answer to a mistake of the XML.
@@ -84,8 +109,11 @@ fn syntax(document: &Document, error: &roxmltree::Error) -> Diagnostics {
 /// Reader of one drawing with the mistakes and notes so far.
 struct Reader<'a> {
     document: &'a Document,
+    sketch: &'a mut Sketch,
     /// Length of the drawing's unit, in m.
     scale: f64,
+    /// Statements that a part is cut on the fold, in m with y up.
+    folds: Vec<FoldMark>,
     mistakes: Vec<Diagnostic>,
     notes: Vec<Note>,
 }
@@ -175,8 +203,9 @@ impl Reader<'_> {
                 crate::length::Millimetres(gap)
             );
             let help = "join the ends in the drawing, or delete the line";
-            self.mistakes
-                .push(Diagnostic::new(self.document.path(), message).on_line(line).help(help));
+            self.sketch.add(&name, edges);
+            let mistake = Diagnostic::new(self.document.path(), message).on_line(line).help(help);
+            self.mistakes.push(mistake.about(Subject::Panel(name)));
         }
     }
 
@@ -212,16 +241,22 @@ impl Reader<'_> {
         for [from, to] in notches.iter().filter(|line| inside(&polygon, middle(line))) {
             let _ = add_notch(&mut edges, *from) || add_notch(&mut edges, *to);
         }
+        if own.is_none() {
+            self.unfold(&name, &mut edges, &polygon);
+        }
+        let polygon: Vec<[f64; 2]> = edges.iter().flat_map(Edge::polyline).collect();
         let origin = own.unwrap_or_else(|| super::marks::low_corner(&polygon));
-        let edges = edges.iter().map(|e| e.mapped(false, |p| crate::edge::difference(p, origin)));
-        let panel = match Panel::new(name, edges.collect()) {
+        let moved = edges.iter().map(|e| e.mapped(false, |p| crate::edge::difference(p, origin)));
+        let edges: Vec<Edge> = moved.collect();
+        self.sketch.add(&name, &edges);
+        let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
                 self.mistakes.extend(all.iter().map(|m| at(diagnostic(self.document, m))));
                 return None;
             }
         };
-        self.mistakes.extend(wrong_unit(&panel).map(|m| {
+        self.mistakes.extend(wrong_size(&panel).map(|m| {
             let help =
                 "if the unit is wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
             at(diagnostic(self.document, &m).help(help))
@@ -238,16 +273,47 @@ impl Reader<'_> {
         }
     }
 
+    /// Unfolds a panel that is cut on the fold, as the drawing says, or notes that it is a half.
+    fn unfold(&mut self, name: &str, edges: &mut Vec<Edge>, polygon: &[[f64; 2]]) {
+        let middle = |[a, b]: [[f64; 2]; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        let off = |p: [f64; 2]| {
+            let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+            sides.map(|(a, b)| distance_from_segment(p, [*a, *b])).fold(f64::MAX, f64::min)
+        };
+        let is_here = |mark: &&FoldMark| {
+            let at = middle(mark.line);
+            inside(polygon, at) || off(at) < BESIDE
+        };
+        let marks: Vec<&FoldMark> = self.folds.iter().filter(is_here).collect();
+        let Some(mark) = marks.first() else { return };
+        let fold = marks.iter().find_map(|mark| unfold_beside(edges, mark.line, FOLD_REACH));
+        self.notes.push(match fold {
+            Some(edge) => Note::Unfolded { panel: name.into(), edge },
+            None => Note::Half { panel: name.into(), text: mark.text.clone() },
+        });
+    }
+
     /// Returns the pattern of the panels, with what this project wrote into the drawing.
     fn pattern(
         mut self,
         panels: Vec<Panel>,
         tree: &roxmltree::Document<'_>,
+        request: &Request,
     ) -> Result<Pattern, Diagnostics> {
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
         let more = tree.descendants().find(|node| node.has_tag_name((NAMESPACE, "pattern")));
         if more.is_none() {
             self.notes.push(Note::NoSeams { format: "a drawing" });
+        }
+        if let Some(doubt) = Doubt::of_drawing(&panels, self.scale) {
+            // What nobody can confirm by the name of a unit is not asked.
+            let asks = request.unit.is_none() && more.is_none();
+            match Unit::of_length(self.scale).filter(|_| asks) {
+                Some(taken) => {
+                    return Err(doubt.question(self.document, request, taken.word()).into());
+                }
+                None => self.notes.push(doubt.note()),
+            }
         }
         let pattern = Pattern::new(panels, Vec::new()).map_err(|all| {
             Diagnostics(all.iter().map(|m| diagnostic(self.document, m)).collect())
@@ -257,7 +323,7 @@ impl Reader<'_> {
         let inner = Document::new(self.document.path(), text);
         let all = toml_file::decode(&inner).and_then(|mut file| {
             let lost = file.fit(&pattern);
-            let read = file.pattern(Some(pattern))?;
+            let read = file.pattern(Some(pattern), self.sketch)?;
             let mut notes = read.reader_notes();
             if !lost.is_empty() {
                 notes.push(Note::SeamsLeftOut { seams: lost });

@@ -172,8 +172,8 @@ fn transforms_shapes_and_lines_drawn_apart_make_outlines() {
     let pattern = read("d.svg", &svg(both));
     assert!(pattern.panels()[0].name() == "sew" && noted(&pattern, "the sewing line"));
     // What is not shown, and names that two shapes have.
-    let two = "<defs><rect width=\"90\" height=\"90\"/></defs><rect style=\"display: none\" width=\"95\" height=\"90\"/>\
-               <g id=\"a\"><rect width=\"50\" height=\"90\"/><rect x=\"60\" width=\"50\" height=\"90\"/></g><use href=\"#a\"/>";
+    let two = "<defs><rect width=\"900\" height=\"900\"/></defs><rect style=\"display: none\" width=\"955\" height=\"900\"/>\
+               <g id=\"a\"><rect width=\"250\" height=\"450\"/><rect x=\"300\" width=\"250\" height=\"450\"/></g><use href=\"#a\"/>";
     let pattern = read("d.svg", &svg(two));
     let names: Vec<&str> = pattern.panels().iter().map(|p| p.name()).collect();
     assert!(names == ["a", "a 2"] && noted(&pattern, "unlink"), "{names:?}");

@@ -1,8 +1,11 @@
 //! Patterns of others become the project's own, and drawings, and come back.
 
 mod added;
+mod chords;
 mod drawings;
 mod dxf;
+mod dxf_text;
+mod hidden;
 
 use drape_input::Document;
 use drape_pattern::Pattern;

@@ -10,6 +10,9 @@ use crate::note::Note;
 use crate::read::request::Request;
 use crate::read::unit::Unit;
 
+/// Pixel of Inkscape before version 0.92, in m: 90 to the inch.
+const OLD_PIXEL: f64 = 0.0254 / 90.0;
+
 /// Size of a drawing, in the unit of its attribute.
 #[derive(Clone, Copy)]
 struct Size {
@@ -48,13 +51,15 @@ pub(crate) fn scale(
     }
     let view = view.and_then(Result::ok);
     let sides = [("width", view.map(|v| v.w)), ("height", view.map(|v| v.h))];
+    // Where a drawing has no viewBox, its unit is the pixel of its program.
+    let pixel = if is_old_inkscape(tree) { OLD_PIXEL } else { Unit::PIXEL.metres() };
     let mut scales = Vec::new();
     for (name, units) in sides {
         let Some(size) = root.attribute(name).and_then(size) else { continue };
         let Some(unit) = size.unit else { continue };
         let metres = match units {
             Some(units) => size.number * unit.metres() / units,
-            None => Unit::PIXEL.metres(),
+            None => pixel,
         };
         if !(metres.is_finite() && metres > 0.0) {
             let message = format!("{name} is \"{}\"", root.attribute(name).unwrap_or_default());
@@ -84,7 +89,10 @@ pub(crate) fn scale(
                     format!("its {name} is {of} for {units} units of the viewBox")
                 }
                 None => {
-                    format!("its {name} is {of} and there is no viewBox: pixels, 96 to the inch")
+                    let per_inch = (0.0254 / pixel).round();
+                    format!(
+                        "its {name} is {of} and there is no viewBox: pixels, {per_inch} to the inch"
+                    )
                 }
             };
             return Ok(taken(metres, reason));
@@ -110,6 +118,25 @@ fn size(text: &str) -> Option<Size> {
     Some(Size { number: length.number, unit })
 }
 
+/// Returns the version of Inkscape that wrote a drawing, such as `0.91 r13725`.
+fn inkscape<'a>(tree: &'a roxmltree::Document<'_>) -> Option<&'a str> {
+    let of_inkscape = |namespace: &str| namespace.contains("inkscape");
+    let mut attributes = tree.root_element().attributes();
+    let version =
+        attributes.find(|a| a.name() == "version" && a.namespace().is_some_and(of_inkscape))?;
+    Some(version.value())
+}
+
+/// Returns whether a version of Inkscape before 0.92 wrote a drawing.
+fn is_old_inkscape(tree: &roxmltree::Document<'_>) -> bool {
+    let numbers = |version: &str| -> Option<[u32; 2]> {
+        let mut parts = version.split(|letter: char| !letter.is_ascii_digit());
+        let [major, minor] = [parts.next()?, parts.next()?];
+        Some([major.parse().ok()?, minor.parse().ok()?])
+    };
+    inkscape(tree).and_then(numbers).is_some_and(|version| version < [0, 92])
+}
+
 /// Returns the unit by what is known of the program that wrote the drawing.
 fn by_program(
     document: &Document,
@@ -122,18 +149,13 @@ fn by_program(
         (Some(view), Some(size)) if view.w > 0.0 && size.number > 0.0 => size.number / view.w,
         _ => 1.0,
     };
-    let inkscape = root
-        .attributes()
-        .find(|a| a.name() == "version" && a.namespace().is_some_and(|n| n.contains("inkscape")));
-    if let Some(version) = inkscape {
-        let old = version.value().starts_with("0.4") || version.value().starts_with("0.91");
-        if !old {
-            let metres = pixels * Unit::PIXEL.metres();
-            return Some((
-                metres,
-                "Inkscape's pixels are 96 to the inch from version 0.92 on".into(),
-            ));
-        }
+    if inkscape(tree).is_some() {
+        let (pixel, reason) = if is_old_inkscape(tree) {
+            (OLD_PIXEL, "Inkscape's pixels are 90 to the inch before version 0.92")
+        } else {
+            (Unit::PIXEL.metres(), "Inkscape's pixels are 96 to the inch from version 0.92 on")
+        };
+        return Some((pixels * pixel, reason.into()));
     }
     let head: String = document.text().chars().take(2000).collect();
     if head.contains("Adobe Illustrator") {

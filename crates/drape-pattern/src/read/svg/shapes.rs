@@ -1,17 +1,14 @@
 //! Shapes of a drawing in its own unit, with y down: paths, polygons, rectangles, circles,
 //! ellipses, lines.
 
-use std::str::FromStr;
-
 use kurbo::{Affine, Point};
 use roxmltree::Node;
 
-use crate::edge::{Curve, Edge};
+use super::geometry::{DEPTH, lines, transform};
+use super::style::Styles;
+use crate::edge::Edge;
 use crate::note::Note;
-use crate::read::svg_path::{Subpath, subpaths};
-
-/// Longest list of references that are followed upwards for the transform of an element.
-const DEPTH: usize = 200;
+use crate::read::svg_path::Subpath;
 
 /// Meaning of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,42 +62,41 @@ pub(crate) struct Collected {
 }
 
 /// Returns the shapes that a drawing shows.
-pub(crate) fn collect(tree: &roxmltree::Document<'_>) -> Collected {
+pub(crate) fn collect(tree: &roxmltree::Document<'_>, styles: &Styles<'_>) -> Collected {
     let mut found = Collected { shapes: Vec::new(), notes: Vec::new() };
-    let mut clones = 0;
+    let (mut clones, mut hidden) = (0, 0);
     let mut unread = Vec::new();
     for node in tree.descendants().filter(Node::is_element) {
         let tag = node.tag_name().name();
-        clones += usize::from(tag == "use" && shown(node));
+        clones += usize::from(tag == "use" && !is_aside(node) && styles.shows(node));
         if !matches!(tag, "path" | "polygon" | "polyline" | "rect" | "circle" | "ellipse" | "line")
-            || !shown(node)
+            || is_aside(node)
         {
+            continue;
+        }
+        if !styles.shows(node) {
+            hidden += 1;
             continue;
         }
         let Some(role) = role(node) else { continue };
         let line = tree.text_pos_at(node.range().start).row as usize;
-        let Some(parts) = data(node).and_then(|data| subpaths(&data).ok()) else {
+        let Some(parts) = lines(node) else {
             unread.push(format!("{} of line {line}", name(node)));
             continue;
         };
-        let transform = transform(node);
-        let parts: Vec<Subpath> = parts
-            .into_iter()
-            .filter(|part| !part.edges.is_empty())
-            .map(|mut part| {
-                part.edges = part.edges.iter().flat_map(|edge| moved(edge, transform)).collect();
-                part
-            })
-            .collect();
         if parts.is_empty() {
             continue;
         }
-        let own = own(node, transform);
+        let own = own(node, transform(node));
         found.shapes.push(Shape { name: name(node), line, role, parts, own });
     }
     if clones > 0 {
         let reason = "clones are not followed: unlink them in the drawing".into();
         found.notes.push(Note::LeftOut { part: format!("{clones} clones (<use>)"), reason });
+    }
+    if hidden > 0 {
+        let reason = "the drawing hides them: show their layer or style if they are meant".into();
+        found.notes.push(Note::LeftOut { part: format!("{hidden} hidden shapes"), reason });
     }
     for part in unread {
         let reason = "its path cannot be read".into();
@@ -110,14 +106,14 @@ pub(crate) fn collect(tree: &roxmltree::Document<'_>) -> Collected {
 }
 
 /// Returns the words that tell what an element is: its class, identifier and label.
-fn words(node: Node<'_, '_>) -> String {
+pub(crate) fn words(node: Node<'_, '_>) -> String {
     let label = node.attributes().find(|a| a.name() == "label").map(|a| a.value());
     let all = [node.attribute("class"), node.attribute("id"), label];
     all.into_iter().flatten().collect::<Vec<_>>().join(" ").to_lowercase()
 }
 
 /// Returns the group of a panel that this project wrote, round an element.
-fn own_group<'a, 'i>(node: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
+pub(crate) fn own_group<'a, 'i>(node: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
     node.ancestors().take(DEPTH).find(|n| n.attribute("data-panel").is_some())
 }
 
@@ -143,10 +139,10 @@ fn role(node: Node<'_, '_>) -> Option<Role> {
     }
 }
 
-/// Returns whether an element is drawn.
-fn shown(node: Node<'_, '_>) -> bool {
-    node.ancestors().filter(Node::is_element).all(|n| {
-        let aside = matches!(
+/// Returns whether an element only defines or describes something.
+pub(crate) fn is_aside(node: Node<'_, '_>) -> bool {
+    node.ancestors().filter(Node::is_element).any(|n| {
+        matches!(
             n.tag_name().name(),
             "defs"
                 | "symbol"
@@ -157,10 +153,7 @@ fn shown(node: Node<'_, '_>) -> bool {
                 | "metadata"
                 | "text"
                 | "title"
-        );
-        let style: String = n.attribute("style").unwrap_or_default().split_whitespace().collect();
-        let hidden = n.attribute("display") == Some("none") || style.contains("display:none");
-        !(aside || hidden)
+        )
     })
 }
 
@@ -214,112 +207,6 @@ fn own(node: Node<'_, '_>, transform: Affine) -> Option<Own> {
     let moved = transform * Point::new(x, y);
     let edges = node.attribute("data-edges").map(|all| all.split('|').map(unlisted).collect());
     Some(Own { origin: [moved.x, moved.y], edges: edges.unwrap_or_default() })
-}
-
-/// Returns the outline of an element as path data.
-fn data(node: Node<'_, '_>) -> Option<String> {
-    let number = |key: &str| match node.attribute(key) {
-        None => Some(0.0),
-        // A size may have a unit; without one it is in the drawing's.
-        Some(text) => Some(svgtypes::Length::from_str(text).ok()?)
-            .filter(|length| {
-                matches!(length.unit, svgtypes::LengthUnit::None | svgtypes::LengthUnit::Px)
-            })
-            .map(|length| length.number),
-    };
-    match node.tag_name().name() {
-        "path" => Some(node.attribute("d").unwrap_or_default().to_owned()),
-        "polygon" => Some(format!("M{}Z", node.attribute("points")?)),
-        "polyline" => Some(format!("M{}", node.attribute("points")?)),
-        "line" => {
-            let [a, b, c, d] = ["x1", "y1", "x2", "y2"].map(number);
-            Some(format!("M{} {} L{} {}", a?, b?, c?, d?))
-        }
-        "rect" => {
-            let [x, y, w, h] = ["x", "y", "width", "height"].map(number);
-            let (x, y, w, h) = (x?, y?, w?, h?);
-            let radius = number("rx")?.max(number("ry")?).min(0.5 * w).min(0.5 * h);
-            if !(radius > 0.0) {
-                return Some(format!("M{x} {y} h{w} v{h} h{} Z", -w));
-            }
-            let (across, down, r) = (w - 2.0 * radius, h - 2.0 * radius, radius);
-            Some(format!(
-                "M{} {y} h{across} a{r} {r} 0 0 1 {r} {r} v{down} a{r} {r} 0 0 1 {} {r} h{} \
-                 a{r} {r} 0 0 1 {} {} v{} a{r} {r} 0 0 1 {r} {} Z",
-                x + r,
-                -r,
-                -across,
-                -r,
-                -r,
-                -down,
-                -r
-            ))
-        }
-        "circle" | "ellipse" => {
-            let [x, y, r, rx, ry] = ["cx", "cy", "r", "rx", "ry"].map(number);
-            let (rx, ry) = (rx?.max(r?), ry?.max(r?));
-            let (x, y) = (x?, y?);
-            Some(format!(
-                "M{} {y} A{rx} {ry} 0 0 1 {} {y} A{rx} {ry} 0 0 1 {} {y} Z",
-                x - rx,
-                x + rx,
-                x - rx
-            ))
-        }
-        _ => None,
-    }
-}
-
-/// Returns the transform of an element and of all that it lies in. Nested drawings shift by x and
-/// y.
-fn transform(node: Node<'_, '_>) -> Affine {
-    let mut all = Affine::IDENTITY;
-    for n in node.ancestors().take(DEPTH).filter(Node::is_element) {
-        if let Some(t) =
-            n.attribute("transform").and_then(|t| svgtypes::Transform::from_str(t).ok())
-        {
-            all = Affine::new([t.a, t.b, t.c, t.d, t.e, t.f]) * all;
-        }
-    }
-    all
-}
-
-/// Returns an edge after a transform. A circular arc stays one under a similarity, and becomes
-/// Bézier curves under another transform.
-fn moved(edge: &Edge, transform: Affine) -> Vec<Edge> {
-    let map = |[x, y]: [f64; 2]| {
-        let p = transform * Point::new(x, y);
-        [p.x, p.y]
-    };
-    let [a, b, c, d, ..] = transform.as_coeffs();
-    let size = a.abs().max(b.abs()).max(c.abs()).max(d.abs());
-    let similar = (a * a + b * b - c * c - d * d).abs() < 1e-9 * size * size
-        && (a * c + b * d).abs() < 1e-9 * size * size;
-    match edge.curve {
-        Curve::Arc { sweep } if !similar => {
-            let count = (sweep.abs() / 0.5).ceil().clamp(1.0, 20.0);
-            let length = edge.length();
-            let places: Vec<f64> = (1..count as usize).map(|k| k as f64 / count * length).collect();
-            let pieces = edge.split(&places);
-            pieces.iter().map(|piece| as_cubic(piece).mapped(false, map)).collect()
-        }
-        _ => vec![edge.mapped(a * d - b * c < 0.0, map)],
-    }
-}
-
-/// Returns a short arc as a Bézier curve that has its tangents at its ends.
-fn as_cubic(arc: &Edge) -> Edge {
-    let Curve::Arc { sweep } = arc.curve else { return arc.clone() };
-    let [from, to] = arc.tangents();
-    let chord = crate::edge::distance(arc.start, arc.end);
-    let radius = 0.5 * chord / (0.5 * sweep).sin().abs().max(f64::MIN_POSITIVE);
-    let handle = 4.0 / 3.0 * (0.25 * sweep.abs()).tan() * radius;
-    let along = |p: [f64; 2], t: [f64; 2], s: f64| {
-        let size = t[0].hypot(t[1]).max(f64::MIN_POSITIVE);
-        [p[0] + s * handle * t[0] / size, p[1] + s * handle * t[1] / size]
-    };
-    let controls = [along(arc.start, from, 1.0), along(arc.end, to, -1.0)];
-    Edge { curve: Curve::Cubic(controls), ..arc.clone() }
 }
 
 /// Returns an entry of a list that bars divide as a name.
