@@ -12,9 +12,7 @@ mod varying;
 
 use std::path::Path;
 
-use drape_input::{
-    Diagnostic, Diagnostics, Document, Given, Length, MassPerArea, toml_string,
-};
+use drape_input::{Diagnostic, Diagnostics, Document, Given, Length, MassPerArea, toml_string};
 use serde::{Deserialize, Serialize};
 
 use crate::assumed;

@@ -1,7 +1,15 @@
 //! Mistakes of a pattern, each with its values, its remedy and its subject.
 
+use std::path::Path;
+
+use drape_input::{Diagnostic, Subject};
+
 use crate::ease::MAX_EASE;
-use crate::length::Millimetres;
+use crate::length::{Extents, Millimetres};
+
+/// Largest spacing for an edge, over its length. Half a spacing would do; a little less leaves room
+/// for rounding.
+const MOST_SPACING: f64 = 1.99;
 
 /// Mistake of a pattern, or of cutting it at a spacing. Lengths are in m.
 ///
@@ -83,6 +91,46 @@ pub enum Mistake {
         /// Point where they meet, in the panel's frame, in m.
         at: [f64; 2],
     },
+    /// A closed dart meets the outline or another dart: move it inside.
+    #[error(
+        "panel {panel}: dart {dart} meets edge {edge} near ({:.1}, {:.1}) mm",
+        1000.0 * at[0], 1000.0 * at[1]
+    )]
+    DartMeets {
+        /// The panel.
+        panel: String,
+        /// The dart.
+        dart: String,
+        /// The edge.
+        edge: String,
+        /// Point near which they meet, in the panel's frame, in m.
+        at: [f64; 2],
+    },
+    /// A closed dart is outside of its panel, or in another dart: move it inside.
+    #[error("panel {panel}: dart {dart} is not in the cloth of the panel")]
+    DartOutside {
+        /// The panel.
+        panel: String,
+        /// The dart.
+        dart: String,
+    },
+    /// The mouth of an open dart is not on its edge: move it there.
+    #[error(
+        "panel {panel}: the mouth of dart {dart} is from {} to {} along edge {edge}, which is {} long",
+        Millimetres(mouth[0]), Millimetres(mouth[1]), Millimetres(*length)
+    )]
+    Mouth {
+        /// The panel.
+        panel: String,
+        /// The dart.
+        dart: String,
+        /// The edge.
+        edge: String,
+        /// Distances of the ends of the mouth from the start of the edge, in m.
+        mouth: [f64; 2],
+        /// Length of the edge, in m.
+        length: f64,
+    },
     /// An outline encloses nothing: give the panel area.
     #[error("panel {panel} has an area of {area:.3e} m²")]
     NoArea {
@@ -92,12 +140,12 @@ pub enum Mistake {
         area: f64,
     },
     /// A panel is larger or smaller than any garment panel: correct the unit of the file.
-    #[error("panel {panel} is {size:.4} m wide or high")]
+    #[error("panel {panel} is {}", Extents(*size))]
     Size {
         /// The panel.
         panel: String,
-        /// Its larger side, in m.
-        size: f64,
+        /// Its width and its height, in m.
+        size: [f64; 2],
     },
     /// Two panels have one name: give each its own.
     #[error("there are two panels named {panel}")]
@@ -261,17 +309,6 @@ pub enum Mistake {
     },
 }
 
-/// Part of a pattern that a mistake is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Subject<'a> {
-    /// The panel of this name.
-    Panel(&'a str),
-    /// The seam of this name.
-    Seam(&'a str),
-    /// The spacing.
-    Spacing,
-}
-
 impl Mistake {
     /// Returns the remedy.
     #[must_use]
@@ -281,7 +318,7 @@ impl Mistake {
                 "write finite numbers; an arc turns through less than 360 degrees".into()
             }
             Self::Far { .. } | Self::Size { .. } => {
-                "is the unit right? a garment panel is 0.02 to 3 m".into()
+                "is the unit right? a garment panel is 1 mm to 50 m long, and up to 5 m wide".into()
             }
             Self::FewEdges { .. } => "an outline needs two edges or more".into(),
             Self::SameEdge { .. } => "give each edge of a panel its own name".into(),
@@ -289,6 +326,19 @@ impl Mistake {
             Self::Open { .. } => "let each edge begin where the one before it ends".into(),
             Self::Crossing { .. } => "let the outline run once round without meeting itself".into(),
             Self::NoArea { .. } => "let the outline run round some cloth".into(),
+            Self::DartMeets { .. } => {
+                "keep the dart inside the panel, clear of its edges and of other darts; one that \
+                                       opens at an edge is written with edge, at, width and depth"
+                    .into()
+            }
+            Self::DartOutside { .. } => {
+                "give its tips in the frame of the panel, inside the outline".into()
+            }
+            Self::Mouth { length, .. } => format!(
+                "at is the middle of the mouth and width its width: both ends lie on the edge, between 0 and {}, \
+                 clear of other darts",
+                Millimetres(*length)
+            ),
             Self::PathSyntax { .. } => "a path is SVG's: M, L, H, V, C, S, Q, T, A and Z".into(),
             Self::PathParts { .. } => "begin with M, end with Z, and draw one outline".into(),
             Self::SamePanel { .. } => "give each panel its own name".into(),
@@ -303,22 +353,20 @@ impl Mistake {
             Self::MaxEase { .. } => {
                 format!("from 1 to {}: gathers beyond are not cut", MAX_EASE)
             }
-            Self::Ease { ratio, .. } if *ratio <= MAX_EASE => {
-                // Two digits, rounded up.
-                let enough = ((100.0 * ratio).ceil() / 100.0).min(MAX_EASE);
-                format!("write max_ease = {enough} if the fullness is meant, or correct the edges")
-            }
-            Self::Ease { .. } => format!(
-                "gathers above {} are not cut: shorten the longer side, or sew it to several edges",
-                MAX_EASE
-            ),
+            Self::Ease { .. } => match self.enough_ease() {
+                Some(enough) => {
+                    format!(
+                        "write max_ease = {enough} if the fullness is meant, or correct the edges"
+                    )
+                }
+                None => format!(
+                    "gathers above {MAX_EASE} are not cut: shorten the longer side, or sew it to several edges"
+                ),
+            },
             Self::Spacing { .. } => "choose a length, such as 0.01 m".into(),
-            // Half a spacing would do; a little less leaves room for rounding.
             Self::ShortEdge { length, .. } => {
-                format!(
-                    "use a spacing of {} or less, or join it to a neighbour",
-                    Millimetres(1.99 * length)
-                )
+                let most = Millimetres(MOST_SPACING * length);
+                format!("use a spacing of {most} or less, or join it to a neighbour")
             }
             Self::Narrow { spacing, .. } => {
                 format!("use a spacing under {}", Millimetres(0.5 * spacing))
@@ -328,35 +376,78 @@ impl Mistake {
         }
     }
 
-    /// Returns the part that the mistake is about.
+    /// Returns the part that the mistake is about; `None` of the spacing.
     #[must_use]
-    pub fn subject(&self) -> Subject<'_> {
-        match self {
-            Self::NotFinite { panel, .. }
-            | Self::Far { panel, .. }
-            | Self::FewEdges { panel, .. }
-            | Self::SameEdge { panel, .. }
-            | Self::EmptyEdge { panel, .. }
-            | Self::Open { panel, .. }
-            | Self::Crossing { panel, .. }
+    pub fn subject(&self) -> Option<Subject> {
+        Some(match self {
+            Self::NotFinite { panel, edge }
+            | Self::Far { panel, edge, .. }
+            | Self::SameEdge { panel, edge }
+            | Self::EmptyEdge { panel, edge, .. }
+            | Self::Open { panel, to: edge, .. }
+            | Self::Crossing { panel, first: edge, .. }
+            | Self::DartMeets { panel, edge, .. }
+            | Self::Mouth { panel, edge, .. }
+            | Self::ShortEdge { panel, edge, .. } => {
+                Subject::Edge { panel: panel.clone(), edge: edge.clone() }
+            }
+            Self::FewEdges { panel, .. }
             | Self::NoArea { panel, .. }
+            | Self::DartOutside { panel, .. }
             | Self::Size { panel, .. }
             | Self::SamePanel { panel }
             | Self::PathSyntax { panel, .. }
             | Self::PathParts { panel, .. }
             | Self::Placed { panel, .. }
             | Self::Wrap { panel, .. }
-            | Self::ShortEdge { panel, .. }
             | Self::Narrow { panel, .. }
             | Self::TooMany { panel, .. }
-            | Self::Rim { panel, .. } => Subject::Panel(panel),
+            | Self::Rim { panel, .. } => Subject::Panel(panel.clone()),
             Self::NoEdge { seam, .. }
             | Self::EmptySide { seam }
             | Self::SewnHem { seam, .. }
             | Self::MaxEase { seam, .. }
             | Self::Ease { seam, .. }
-            | Self::SewnTwice { second: seam, .. } => Subject::Seam(seam),
-            Self::Spacing { .. } => Subject::Spacing,
+            | Self::SewnTwice { second: seam, .. } => Subject::Seam(seam.clone()),
+            Self::Spacing { .. } => return None,
+        })
+    }
+
+    /// Returns the place of the mistake in the frame of its panel, in m, where it has one.
+    #[must_use]
+    pub fn place(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Crossing { at, .. } | Self::DartMeets { at, .. } | Self::Narrow { at, .. } => {
+                Some(*at)
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns the mistake of a file without a better place.
+    #[must_use]
+    pub fn diagnostic(&self, file: &Path) -> Diagnostic {
+        let diagnostic = Diagnostic::new(file, self.to_string()).help(self.help());
+        Diagnostic { subject: self.subject(), ..diagnostic }
+    }
+
+    /// Returns the largest spacing at which the mistake goes away, in m, where it is known.
+    #[must_use]
+    pub fn most_spacing(&self) -> Option<f64> {
+        match self {
+            Self::ShortEdge { length, .. } => Some(MOST_SPACING * length),
+            _ => None,
+        }
+    }
+
+    /// Returns the ratio of the sides of a seam that is enough for its fullness, if it can be cut.
+    pub(crate) fn enough_ease(&self) -> Option<f64> {
+        match self {
+            // Two digits, rounded up.
+            Self::Ease { ratio, .. } if *ratio <= MAX_EASE => {
+                Some(((100.0 * ratio).ceil() / 100.0).min(MAX_EASE))
+            }
+            _ => None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Notes on a pattern or its cut that do not prevent its use.
 
-use crate::length::Millimetres;
+use crate::length::{Extents, Millimetres};
 
 /// Note on a pattern or its cut that its user should know, and that prevents nothing. Lengths are
 /// in m.
@@ -67,6 +67,17 @@ pub enum Note {
         /// The edge on the fold.
         edge: String,
     },
+    /// A panel is half of a symmetric one, by a text of the file, and no edge is known to be the fold.
+    #[error(
+        "panel {panel} is one half, as its text \"{text}\" says, and is taken as it is: no edge is marked as the fold; \
+         mirror it in the program that wrote it"
+    )]
+    Half {
+        /// The panel.
+        panel: String,
+        /// The text.
+        text: String,
+    },
     /// A short edge has no node at one of its ends.
     #[error(
         "panel {panel}: edge {edge} is {}, under half the spacing ({}); joined with edge {with}",
@@ -126,6 +137,22 @@ pub enum Note {
         at: [f64; 2],
         /// The spacing, in m.
         spacing: f64,
+    },
+    /// The largest panel of a pattern is of a size that no garment has.
+    #[error(
+        "panel {panel} is {}, and no panel is larger: no garment has this size; if a unit of the file is 1 {likely}, \
+         the panel is {}",
+        Extents(*size), Extents(*meant)
+    )]
+    Size {
+        /// The panel.
+        panel: String,
+        /// Its width and its height, in m.
+        size: [f64; 2],
+        /// Unit by which the size would be usual.
+        likely: &'static str,
+        /// Width and height in that unit, in m.
+        meant: [f64; 2],
     },
     /// In space, the ends of a seam lie closer together in the opposite sense.
     #[error(

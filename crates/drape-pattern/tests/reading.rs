@@ -210,7 +210,7 @@ fn mistakes_of_outlines_and_seams_are_named() {
         |exchanges: &[(&str, &str)], words: &[&str]| says("a.toml", &squares(exchanges), words);
     toml(
         &[("length = \"cm\"", "length = \"m\"")],
-        &["panel front is 30.0000 m wide or high", "is the unit right?", "panel back is 30"],
+        &["panel front is 30.00 × 30.00 m", "did you mean length = \"cm\"?", "panel back is 30"],
     );
     toml(
         &[("to = [0, 0] }", "to = [0, 0.32] }")],
@@ -435,7 +435,10 @@ fn mistakes_of_garmentcode_are_named_together() {
             "the vertices are 0 to 4",
         ],
     );
-    garment(&[("/properties/units_in_meter", "1")], &["panel Lback is 60", "is the unit right?"]);
+    garment(
+        &[("/properties/units_in_meter", "1")],
+        &["panel Lback is 38.00 × 60.00 m", "is the unit right?"],
+    );
     garment(
         &[("/properties/units_in_meter", "0")],
         &["units_in_meter is 0", "100 for centimetres"],
@@ -450,7 +453,7 @@ fn mistakes_of_garmentcode_are_named_together() {
     garment(&[("/pattern/panels/Lback/vertices", "3")], &["t.json:1:", "invalid type"]);
     says("t.json", "{\"pattern\": 1", &["t.json:1:13", "EOF"]);
     says("t.json", "[]", &["holds no pattern", "parts"]);
-    says("t.pdf", "", &["files *.pdf hold no pattern"]);
+    says("t.pdf", "", &["files *.pdf are not read: this is a drawing for print"]);
     let missing = Pattern::read("patterns/shrt.json").expect_err("there is none").to_string();
     assert!(missing.contains("did you mean patterns/shirt.json?"), "{missing}");
 }

@@ -44,7 +44,7 @@ pub(crate) fn convert_pattern(
         let known = Unit::parse(&word);
         known.ok_or_else(|| usage(format!("unit={word:?}: it is mm, cm, m, in, pt or px")))
     });
-    let request = Request { path: path.clone(), unit: unit.transpose()?, size };
+    let request = Request { unit: unit.transpose()?, size, ..Request::new(&path) };
     let pattern = Pattern::read_as(&request).map_err(|error| match error {
         Error::Input(mistakes) => input(&mistakes),
         other => mistake(Diagnostic::new(&path, other.to_string())),

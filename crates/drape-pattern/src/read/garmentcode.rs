@@ -11,13 +11,16 @@ use drape_input::{Diagnostic, Diagnostics, Document, closest};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::diagnostic::{diagnostic, syntax, wrong_unit};
+use super::diagnostic::{diagnostic, syntax};
+use super::size::{Doubt, wrong_size};
 use crate::ease::MAX_EASE;
 use crate::edge::{Curve, Edge};
 use crate::note::Note;
 use crate::panel::Panel;
-use crate::pattern::{EdgeId, Pattern, Seam};
-use crate::placement::Placement;
+use crate::panel::placement::Placement;
+use crate::pattern::Pattern;
+use crate::pattern::seam::{EdgeId, Seam};
+use crate::sketch::Sketch;
 
 #[derive(Deserialize)]
 struct File {
@@ -64,6 +67,7 @@ struct CurveFault {
 /// Reader of one document with the mistakes and notes so far.
 struct Reader<'a> {
     document: &'a Document,
+    sketch: &'a mut Sketch,
     mistakes: Vec<Diagnostic>,
     notes: Vec<Note>,
     /// Unit of lengths of the file, in m.
@@ -79,7 +83,7 @@ struct Panels<'a> {
 }
 
 /// Returns the pattern of a document in this format.
-pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
+pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, Diagnostics> {
     let file: File = serde_json::from_str(document.text()).map_err(|error| {
         let help = "a specification has pattern.panels with vertices and edges, pattern.stitches \
                     and properties.units_in_meter";
@@ -89,6 +93,7 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     let coords = file.properties.curvature_coords.as_deref();
     let mut reader = Reader {
         document,
+        sketch,
         mistakes: Vec::new(),
         notes: Vec::new(),
         metres: unit.recip(),
@@ -130,13 +135,20 @@ impl Reader<'_> {
         let known = Panels { file: &file, order: &order };
         let mut seams = Vec::new();
         for (index, sides) in stitches.iter().enumerate() {
-            seams.extend(self.seam(&known, index, sides));
+            let seam = self.seam(&known, index, sides);
+            let word = |id: &EdgeId| format!("{}.{}", order[id.panel], id.edge);
+            let words =
+                seam.iter().flat_map(|seam| seam.sides.iter().flatten()).map(word).collect();
+            self.sketch.add_seam(&index.to_string(), words);
+            seams.extend(seam);
         }
         let mut panels = Vec::new();
         for name in &order {
             panels.extend(self.panel(name, &file.panels[name]));
         }
         if self.mistakes.is_empty() {
+            let doubt = Doubt::of_file(&panels, self.metres);
+            self.notes.extend(doubt.map(|doubt| doubt.note()));
             match Pattern::new(panels, seams) {
                 Ok(pattern) => {
                     // The format has no grain.
@@ -188,6 +200,7 @@ impl Reader<'_> {
         if self.mistakes.len() > before {
             return None;
         }
+        self.sketch.add(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
@@ -195,7 +208,7 @@ impl Reader<'_> {
                 return None;
             }
         };
-        self.mistakes.extend(wrong_unit(&panel).map(|m| diagnostic(self.document, &m)));
+        self.mistakes.extend(wrong_size(&panel).map(|m| diagnostic(self.document, &m)));
         let angles = part.rotation.unwrap_or_default().map(f64::to_radians);
         let placement = part
             .translation

@@ -22,6 +22,12 @@ impl Unit {
     pub(crate) const HELP: &'static str =
         "a unit is \"mm\", \"cm\", \"m\", \"in\", \"pt\" (1/72 in) or \"px\" (1/96 in)";
 
+    /// Units in which people measure cloth.
+    pub(crate) const OF_FILES: [Self; 4] = [UNITS[0], UNITS[1], UNITS[2], UNITS[3]];
+
+    /// Units of drawings.
+    pub(crate) const ALL: [Self; 6] = UNITS;
+
     /// Millimetre.
     pub(crate) const MM: Self = UNITS[0];
     /// Inch.
@@ -35,6 +41,11 @@ impl Unit {
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
         UNITS.into_iter().find(|unit| unit.word == word)
+    }
+
+    /// Returns the unit of a length in m, if there is one.
+    pub(crate) fn of_length(metres: f64) -> Option<Self> {
+        UNITS.into_iter().find(|unit| (metres / unit.metres - 1.0).abs() < 1e-3)
     }
 
     /// Length, in m.

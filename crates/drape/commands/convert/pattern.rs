@@ -15,8 +15,8 @@ use drape::file;
 /// Converts a pattern and says what is not in the result, or was taken for it.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
     let form = Form::new(arguments)?;
-    let request =
-        Request { path: from.into(), unit: unit(arguments)?, size: arguments.size.clone() };
+    let (unit, size) = (unit(arguments)?, arguments.size.clone());
+    let request = Request { unit, size, ..Request::new(from) };
     let pattern = match input::is_standard(from) {
         true => Pattern::parse_as(&input::document(from)?, &request)?,
         false => Pattern::read_as(&request).map_err(|error| match error {
