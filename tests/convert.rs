@@ -51,6 +51,38 @@ fn a_pattern_goes_to_toml_to_a_drawing_to_pages_and_back() {
 const FABRICS: &str = "Fabric,B warp,B weft,W\npoplin,0.1,0.08,12\nserge,0.3,0.2,25\n";
 
 #[test]
+fn files_of_other_programs_are_answered_with_how_to_get_a_drawing_from_them() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    // None of them is text.
+    for (name, words) in [
+        ("shirt.val", ["Valentina or Seamly2D", "SVG or DXF"]),
+        ("shirt.vit", ["table of measurements", "*.val"]),
+        ("shirt.zpac", ["CLO or Marvelous Designer", "File > Export > DXF"]),
+        ("shirt.MRK", ["marker", "DXF (AAMA or ASTM)"]),
+        ("shirt.pds", ["OptiTex", "File > Export"]),
+        ("shirt.mdl", ["Lectra Modaris", "File > Export"]),
+        ("shirt.rul", ["grade rules", "*.dxf file beside it"]),
+        ("shirt.plt", ["plotter", "Inkscape"]),
+    ] {
+        std::fs::write(folder.join(name), [0_u8, 159, 146, 150, 0, 255]).expect("it is written");
+        let scene = format!(
+            "fabric.f.file = \"f.toml\"\n[[garment]]\npattern = \"{name}\"\nfabric = \"f\"\n"
+        );
+        std::fs::write(folder.join("scene.toml"), scene).expect("it is written");
+        for arguments in [vec!["convert", name], vec!["check", name], vec!["check", "scene.toml"]] {
+            let output = drape(folder, &arguments);
+            let said = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(3), "{arguments:?}: {said}");
+            assert!(
+                words.iter().all(|word| said.contains(word)),
+                "{arguments:?}: {words:?}: {said}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_does_not_fit_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();

@@ -127,6 +127,17 @@ fn what_cannot_be_exported_is_refused_with_a_remedy_that_works() {
         assert!(said.contains(told), "{arguments:?}: {said}");
     };
     refused(&["-o", "garment"], 2, "add it, such as --format glb");
+    for (name, told) in [
+        (
+            "a.abc",
+            "no format abc; the formats are obj, glb, usda, pc2, mdd, vtp, npz, csv, svg, png, apng; programs",
+        ),
+        ("a.fbx", "glb too"),
+        ("a.USD", "may be renamed to *.usd"),
+        ("a.xyz", "the formats are obj, glb"),
+    ] {
+        refused(&["-o", name], 2, told);
+    }
     export(folder.path(), &["-o", "garment", "--format", "glb"]);
     refused(&["-o", "garment", "--format", "glb"], 2, "replace it with --force");
     export(folder.path(), &["-o", "garment", "--format", "glb", "--force"]);

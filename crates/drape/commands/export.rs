@@ -9,6 +9,7 @@ mod pictures;
 
 use std::ops::RangeInclusive;
 
+use clap::ValueEnum;
 use drape::export::{
     Clip, Field, GLB_FRAMES_MAX, write_csv, write_glb, write_mdd, write_npz, write_obj, write_pc2,
     write_usda,
@@ -106,10 +107,29 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
 /// Returns the format that is asked for, or that the ending of the file says.
 fn format(arguments: &ExportArguments) -> Result<Format, Failure> {
     let ending = arguments.output.extension().unwrap_or_default().to_string_lossy();
-    let named = || <Format as clap::ValueEnum>::from_str(&ending, true).ok();
+    let named = || <Format as ValueEnum>::from_str(&ending, true).ok();
     arguments.format.or_else(named).ok_or_else(|| {
         let output = arguments.output.display();
-        Failure::Usage(format!("{output} does not say its format; add it, such as --format glb"))
+        if ending.is_empty() {
+            let advice = "add it, such as --format glb";
+            return Failure::Usage(format!("{output} does not say its format; {advice}"));
+        }
+        let formats = Format::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        let formats: Vec<String> = formats.map(|format| format.get_name().to_owned()).collect();
+        let instead = match ending.to_ascii_lowercase().as_str() {
+            "abc" => "; programs that read Alembic read usda, or pc2 and mdd with an OBJ file",
+            "fbx" | "dae" | "gltf" => "; programs that read it read glb too, with its movement",
+            "usd" | "usdc" | "usdz" => "; usda is USD as text, and may be renamed to *.usd",
+            "stl" | "ply" | "3mf" => "; obj has the mesh of one frame",
+            "mp4" | "mov" | "gif" | "webm" | "avi" => {
+                "; apng moves, and png writes numbered pictures"
+            }
+            _ => "",
+        };
+        Failure::Usage(format!(
+            "{output}: there is no format {ending}; the formats are {}{instead}",
+            formats.join(", ")
+        ))
     })
 }
 

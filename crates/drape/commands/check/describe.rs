@@ -46,6 +46,9 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
     if path.is_dir() {
         return sheet(path);
     }
+    if let Some(answer) = Pattern::foreign(path) {
+        return Err(answer.into());
+    }
     if Pattern::is_drawing(path) {
         return Ok(CutOut::read(path, spacing)?.describe());
     }
