@@ -2,6 +2,8 @@
 
 #[path = "start/bodies.rs"]
 mod bodies;
+#[path = "start/figures.rs"]
+mod figures;
 
 use std::collections::BTreeSet;
 use std::path::Path;

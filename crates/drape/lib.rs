@@ -64,4 +64,5 @@ pub use drape_verify as verify;
 
 pub use scene_fabric::{
     NamedCurve, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of, scene_of_documents,
+    scene_or_refused,
 };

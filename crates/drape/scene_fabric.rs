@@ -9,7 +9,7 @@ use drape_fabric::Fabric;
 use drape_fit::{FitSettings, LoopModel, identify_with};
 use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_kes::Sheet;
-use drape_scene::{FabricRequest, Model, Scene, is_fabric};
+use drape_scene::{FabricRequest, Model, Refused, Scene, is_fabric};
 
 use crate::file::FileKind;
 
@@ -47,6 +47,15 @@ pub fn scene_of_documents(
 ) -> Result<Scene, drape_scene::Error> {
     FileKind::expect_document(document, &[FileKind::Scene])?;
     Scene::from_documents_with(document, others, &scene_fabric)
+}
+
+/// Makes a scene of a document, as [`scene_of`] does; what is refused has the scene beside its mistakes
+/// where it could be made, to be shown.
+///
+/// # Errors
+/// As for [`read_scene`].
+pub fn scene_or_refused(document: &Document) -> Result<Scene, Box<Refused>> {
+    Scene::from_documents_or_refused(document, &[], &scene_fabric)
 }
 
 /// Reads a `fabric.toml`, or fits a fabric to a `sheet.toml`.

@@ -8,8 +8,8 @@
 //! draws it. What is wrong is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the
 //! file; what only should be known is a [`Note`].
 //!
-//! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`;
-//! `placement`, `panel`, `pattern`; the chapters `read` and `cut`; `figure`.
+//! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; the
+//! chapters `panel` and `pattern`, `sketch`; the chapters `read` and `cut`; `write`.
 
 // Geometry of outlines.
 mod edge;
@@ -19,7 +19,7 @@ mod polygon;
 mod ease;
 mod panel;
 mod pattern;
-mod placement;
+mod sketch;
 
 // Answers.
 mod error;
@@ -35,15 +35,18 @@ mod read;
 mod write;
 
 pub use cut::{Cut, CutPattern, Cutter, NodeId, Quality, SeamNodes, Tie};
-pub use ease::MAX_EASE;
+pub use ease::{DEFAULT_EASE, MAX_EASE};
 pub use edge::{Curve, Edge};
 pub use error::Error;
-pub use mistake::{Mistake, Subject};
+pub use mistake::Mistake;
 pub use note::Note;
+pub use panel::dart::{Dart, OpenDart};
+pub use panel::placement::Placement;
 pub use panel::{Fold, Panel};
-pub use pattern::{EdgeId, Pattern, Seam};
-pub use placement::Placement;
+pub use pattern::Pattern;
+pub use pattern::seam::{EdgeId, Seam};
 #[cfg(feature = "schema")]
 pub use read::pattern_schema;
 pub use read::{Place, Request, SeamKeys, Unit};
+pub use sketch::{Sketch, Wrong};
 pub use write::{Page, Paper, figure, seam_colour};

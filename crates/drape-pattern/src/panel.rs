@@ -15,7 +15,7 @@ use ring::{Meeting, Ring};
 /// Largest coordinate of a point, in m.
 ///
 /// Beyond it the unit of the file is wrong; the arithmetic of the cutter is not tested there.
-const FARTHEST: f64 = 1000.0;
+pub(crate) const FARTHEST: f64 = 1000.0;
 
 /// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
 const GAP: f64 = 1e-5;

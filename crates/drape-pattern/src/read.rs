@@ -18,6 +18,7 @@ mod garmentcode;
 mod marks;
 mod request;
 mod seams;
+mod size;
 mod svg;
 mod svg_path;
 mod toml_file;
@@ -30,7 +31,8 @@ use serde_json::Value;
 
 use crate::error::Error;
 use crate::pattern::Pattern;
-use diagnostic::syntax;
+use crate::sketch::Sketch;
+use diagnostic::{foreign, syntax};
 
 pub use request::Request;
 pub use seams::{Place, SeamKeys};
@@ -59,6 +61,9 @@ impl Pattern {
     /// # Errors
     /// All mistakes of the file, each with its place and a remedy.
     pub fn read_as(request: &Request) -> Result<Self, Error> {
+        if let Some(answer) = Self::foreign(&request.path) {
+            return Err(Diagnostics::from(answer).into());
+        }
         let document = match ending(&request.path).as_str() {
             "json" | "svg" | "dxf" => document(&request.path)?,
             _ => Document::read(&request.path)?,
@@ -90,6 +95,13 @@ impl Pattern {
         matches!(ending(path).as_str(), "json" | "svg" | "dxf")
     }
 
+    /// Returns the answer to a path of a file that only the program of a pattern maker reads, with how
+    /// to get DXF or SVG from that program; `None` for other files.
+    #[must_use]
+    pub fn foreign(path: &Path) -> Option<Diagnostic> {
+        foreign(path)
+    }
+
     /// Returns whether a document is in a format that holds nothing but patterns.
     #[must_use]
     pub fn is_drawing_text(document: &Document) -> bool {
@@ -97,9 +109,38 @@ impl Pattern {
     }
 }
 
+impl Sketch {
+    /// Returns the lines of a document that holds a pattern, in spite of its mistakes.
+    #[must_use]
+    pub fn parse(document: &Document) -> Self {
+        let mut sketch = Self::default();
+        // The mistakes are told by those who read the pattern.
+        let _ = parse_into(document, &Request::new(document.path()), &mut sketch);
+        sketch
+    }
+
+    /// Returns the lines of a file that holds a pattern, in spite of its mistakes.
+    #[must_use]
+    pub fn read(path: &Path) -> Self {
+        document(path).map(|document| Self::parse(&document)).unwrap_or_default()
+    }
+}
+
 /// Returns the pattern of a document.
 fn parse(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
+    parse_into(document, request, &mut Sketch::default())
+}
+
+/// Returns the pattern of a document, and adds its lines to a sketch, also where they are wrong.
+fn parse_into(
+    document: &Document,
+    request: &Request,
+    sketch: &mut Sketch,
+) -> Result<Pattern, Diagnostics> {
     let ending = format(document);
+    if let Some(answer) = foreign(document.path()) {
+        return Err(answer.into());
+    }
     if !ENDINGS.contains(&ending.as_str()) {
         let help = "patterns are *.toml, *.json of GarmentCode or FreeSewing, *.svg and *.dxf";
         let message = format!("files *.{ending} hold no pattern");
@@ -108,41 +149,46 @@ fn parse(document: &Document, request: &Request) -> Result<Pattern, Diagnostics>
     if request.unit.is_some() && matches!(ending.as_str(), "toml" | "json") {
         let message = "the unit is asked for, and the format states it itself";
         let help = "leave the unit out; it is for *.svg and *.dxf";
-        return Err(Diagnostic::new(document.path(), message).help(help).into());
+        let edit = request.edit_out("unit");
+        return Err(Diagnostic::new(document.path(), message).help(help).with_edits(edit).into());
     }
     if request.size.is_some() && ending != "dxf" {
         let message = "a size is asked for, and the format has none";
         let help = "leave the size out; it is for graded *.dxf";
-        return Err(Diagnostic::new(document.path(), message).help(help).into());
+        let edit = request.edit_out("size");
+        return Err(Diagnostic::new(document.path(), message).help(help).with_edits(edit).into());
     }
     match ending.as_str() {
         "toml" => {
             let file = toml_file::decode(document)?;
             let base = match file.from() {
-                Ok(Some(from)) => self::document(&from.path).and_then(|base| parse(&base, &from)),
-                Ok(None) => return file.pattern(None),
+                Ok(Some(from)) => {
+                    let base = self::document(&from.path);
+                    base.and_then(|base| parse_into(&base, &from, sketch))
+                }
+                Ok(None) => return file.pattern(None, sketch),
                 Err(mistakes) => Err(mistakes),
             };
             match base {
-                Ok(base) => file.pattern(Some(base)),
+                Ok(base) => file.pattern(Some(base), sketch),
                 Err(mistakes) => Err(file.without_base(mistakes)),
             }
         }
-        "svg" => svg::read(document, request),
-        "dxf" => dxf::read(document, request),
-        _ => json(document),
+        "svg" => svg::read(document, request, sketch),
+        "dxf" => dxf::read(document, request, sketch),
+        _ => json(document, sketch),
     }
 }
 
 /// Returns the pattern of a document in JSON.
-fn json(document: &Document) -> Result<Pattern, Diagnostics> {
+fn json(document: &Document, sketch: &mut Sketch) -> Result<Pattern, Diagnostics> {
     let value: Value = serde_json::from_str(document.text())
         .map_err(|error| syntax(document, &error).help("correct the JSON"))?;
     let has = |key: &str| value.get(key).is_some();
     if has("pattern") {
-        garmentcode::read(document)
+        garmentcode::read(document, sketch)
     } else if has("parts") || has("stacks") {
-        freesewing::read(document)
+        freesewing::read(document, sketch)
     } else {
         let help = "GarmentCode's specifications have \"pattern\", FreeSewing's drafts \"parts\" or \
                     \"stacks\"";

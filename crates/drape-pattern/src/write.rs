@@ -1,12 +1,14 @@
 //! Writing of patterns: the project's own TOML (`toml_text`), and drawings in SVG at true scale for
-//! a plotter (`svg`) or on pages of paper (`pages`). `marks` says what is drawn on a panel,
-//! `number` how numbers are written.
+//! a plotter (`svg`) or on pages of paper (`pages`); drawings of cuts (`figure`) and of sketches with
+//! their mistakes (`sketch_figure`). `marks` says what is drawn on a panel, `number` how numbers are
+//! written.
 
 mod figure;
 mod layout;
 mod marks;
 mod number;
 mod pages;
+mod sketch_figure;
 mod svg;
 mod toml_text;
 mod xml;

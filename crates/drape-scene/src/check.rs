@@ -29,7 +29,7 @@ use drape_collide::MeshInspection;
 use drape_input::{Diagnostics, Faults, Given, excerpt, figures};
 
 use crate::contact_stiffness::max_impact_speed;
-use crate::error::Error;
+use crate::error::Refused;
 use crate::file::SceneFile;
 use crate::scene::garment::Garment;
 use crate::scene::material::Material;
@@ -60,7 +60,7 @@ pub(crate) fn check(
     documents: &Documents<'_>,
     file: &SceneFile,
     faults: Faults,
-) -> Result<Scene, Error> {
+) -> Result<Scene, Box<Refused>> {
     let document = documents.scene;
     let checker = &mut Checker::new(documents, file, faults);
     let model = solver::model(checker);
@@ -109,7 +109,7 @@ pub(crate) fn check(
     let folder = file.output.folder.as_ref();
     let folder = folder.and_then(|folder| checker.locate("output.folder", folder));
     // Seams and the start need sound panels.
-    checker.finish()?;
+    checker.finish_parts()?;
 
     let pairs: Vec<_> = placed
         .iter()
@@ -174,6 +174,9 @@ pub(crate) fn check(
         coarser: Vec::new(),
     };
     hold(&mut scene);
+    if let Err(mistakes) = checker.finish() {
+        return Err(Refused::with(mistakes, scene));
+    }
     let mut scene = start::check_start(checker, scene)?;
     let note = scene.stiffness_note();
     scene.source.notes.extend(note);

@@ -16,7 +16,7 @@ mod file;
 mod read;
 
 pub use check::checker::MESH_LIMIT;
-pub use error::Error;
+pub use error::{Error, Refused};
 #[cfg(feature = "schema")]
 pub use file::schema::scene_schema;
 pub use needs::Needs;

@@ -6,7 +6,7 @@ use drape_input::{Diagnostics, Document, Setting, figure};
 
 use crate::check::check;
 use crate::check::documents::Documents;
-use crate::error::Error;
+use crate::error::{Error, Refused};
 use crate::file::SceneFile;
 use crate::scene::Scene;
 use crate::scene::material::{FabricReader, read_fabric};
@@ -59,6 +59,19 @@ impl Scene {
         others: &[Document],
         fabrics: FabricReader<'_>,
     ) -> Result<Self, Error> {
+        Self::from_documents_or_refused(scene, others, fabrics).map_err(|refused| refused.error)
+    }
+
+    /// Makes a scene of documents in memory, as [`Scene::from_documents_with`] does; what is refused has
+    /// the scene beside its mistakes where it could be made, to be shown.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn from_documents_or_refused(
+        scene: &Document,
+        others: &[Document],
+        fabrics: FabricReader<'_>,
+    ) -> Result<Self, Box<Refused>> {
         let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
         let documents = Documents { scene, others, fabrics };
         let mut checked = check(&documents, &file, faults)?;
@@ -93,8 +106,8 @@ fn on_grid(
     file.refine = None;
     file.grading = None;
     let documents = Documents { scene: &scene, ..*documents };
-    check(&documents, &file, faults).map_err(|error| {
-        let message = format!("a grid of {} mm: {error}", figure(1e3 * spacing));
+    check(&documents, &file, faults).map_err(|refused| {
+        let message = format!("a grid of {} mm: {}", figure(1e3 * spacing), refused.error);
         let mistake = documents.scene.at(&format!("{REFINE}[{index}]"), message);
         Diagnostics::from(mistake.help("take a finer one, or leave it out")).into()
     })

@@ -16,12 +16,12 @@ mod values;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::input::{Diagnostic, Diagnostics, Setting};
-use serde_json::{Value, json};
+use drape::input::{Diagnostic, Diagnostics, Edit, Setting, Subject};
+use serde_json::{Map, Value, json};
 
 use self::body::Measure;
 use self::describe::describe;
-use self::pattern::CutOut;
+use self::pattern::{CutOut, Refused};
 use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_json};
@@ -34,7 +34,8 @@ pub(crate) struct CheckArguments {
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Draws the cut panels of a pattern (SVG), or a scene at its start (SVG or PNG): both sides of a
-    /// seam in one colour, with a dot at the first stitch and an arrowhead in its direction.
+    /// seam in one colour, with a dot at the first stitch and an arrowhead in its direction. Where the
+    /// check fails, what is wrong is red.
     #[arg(long, value_name = "SVG|PNG")]
     pub(crate) figure: Option<PathBuf>,
     /// Sets a key in place of its value in the files, as for `drape run`; may be given several times.
@@ -88,9 +89,18 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         }
         (Some(figure), [pattern]) => {
             input::expect(pattern, &[FileKind::Pattern, FileKind::Drawing, FileKind::Scene])?;
-            let cut = CutOut::read(pattern, spacing)?;
-            file::write(figure, cut.figure())?;
-            checked.add(pattern, Ok(cut.describe()))?;
+            let found = match CutOut::read_or_sketch(pattern, spacing) {
+                Ok(cut) => {
+                    start::write_flat(figure, Some(cut.figure()))?;
+                    Ok(cut.describe())
+                }
+                // What is wrong is drawn as well.
+                Err(Refused { mistakes, figure: drawn }) => {
+                    start::write_flat(figure, drawn)?;
+                    Err(mistakes)
+                }
+            };
+            checked.add(pattern, found)?;
         }
         (Some(_), _) => {
             return Err(Failure::Usage("--figure is for one pattern or scene at a time".into()));
@@ -166,6 +176,13 @@ impl Checked {
 
 /// Returns a mistake as JSON.
 fn as_json(mistake: &Diagnostic) -> Value {
-    let Diagnostic { file, line, column, message, help, .. } = mistake;
-    json!({ "file": file, "line": line, "column": column, "message": message, "help": help })
+    let Diagnostic { file, line, column, message, help, subject, edits, .. } = mistake;
+    let subject = subject.iter().flat_map(Subject::names);
+    let subject: Map<String, Value> =
+        subject.map(|(kind, name)| (kind.to_owned(), name.into())).collect();
+    let edit = |Edit { file, key, old, new }: &Edit| json!({ "file": file, "key": key, "old": old, "new": new });
+    json!({
+        "file": file, "line": line, "column": column, "message": message, "help": help,
+        "subject": subject, "edits": edits.iter().map(edit).collect::<Vec<Value>>(),
+    })
 }

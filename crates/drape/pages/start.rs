@@ -2,7 +2,8 @@
 //!
 //! Both sides of a seam have the colour that they have in the drawing of the pattern, with a ball at
 //! the first stitch and an arrowhead in the direction of the seam. Thin lines are its stitches: the
-//! straight ways along which its sides are drawn together.
+//! straight ways along which its sides are drawn together. Where something is wrong, it alone is
+//! marked, in red.
 
 use drape::dynamics::Snapshot;
 use drape::pattern::seam_colour;
@@ -29,29 +30,89 @@ const SIDES: usize = 6;
 /// Distance of two particles on a side, in spacings, beyond which the side goes on elsewhere.
 const GAP: f64 = 2.5;
 
-/// Draws a garment at its start with its seams, from the front, the side and the back.
-pub(crate) fn draw_start(snapshot: &Snapshot, seams: &[Seam]) -> Result<Picture, Failure> {
-    let mut marks = Marks::default();
-    let size = snapshot.spacing.min(SPACING_MAX);
-    for (number, seam) in seams.iter().enumerate() {
-        marks.colour = seam_colour(number);
-        marks.seam(snapshot, seam, size);
-    }
-    let Marks { positions, triangles, tints, .. } = &marks;
-    let marks = Surface::cloth(positions, triangles).with_tints(tints);
-    let marks = (!triangles.is_empty()).then_some(marks);
-    Pictures::with_marks(snapshot, marks)?.draw_round()
+/// Radius of lines that are wrong, in spacings.
+const LINE: f64 = 0.3;
+
+/// Colour of what is wrong.
+const RED: Colour = [209, 26, 26];
+
+/// What is wrong at a start.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Wrong {
+    /// Names of seams.
+    pub(crate) seams: Vec<String>,
+    /// Sides of triangles, by their particles.
+    pub(crate) sides: Vec<[u32; 2]>,
+    /// Corners of triangles that cross others, in m.
+    pub(crate) triangles: Vec<[[f64; 3]; 3]>,
 }
 
-/// Draws the same as SVG, with the names of the seams.
-pub(crate) fn start_svg(snapshot: &Snapshot, seams: &[Seam]) -> Result<String, Failure> {
-    let key = |(number, seam): (usize, &Seam)| SeamKey {
-        name: seam.name.clone(),
-        colour: seam_colour(number),
-    };
-    let keys: Vec<SeamKey> = seams.iter().enumerate().map(key).collect();
-    seams_svg(&draw_start(snapshot, seams)?, &keys)
-        .map_err(|error| Failure::Output(error.to_string()))
+impl Wrong {
+    fn is_empty(&self) -> bool {
+        self.seams.is_empty() && self.sides.is_empty() && self.triangles.is_empty()
+    }
+}
+
+/// Picture of a garment at its start with its seams, and with what is wrong in red.
+pub(crate) struct StartPicture<'a> {
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) seams: &'a [Seam],
+    pub(crate) wrong: &'a Wrong,
+}
+
+impl StartPicture<'_> {
+    /// Draws it from the front, the side and the back.
+    pub(crate) fn draw(&self) -> Result<Picture, Failure> {
+        let Self { snapshot, seams, wrong } = self;
+        let mut marks = Marks::default();
+        let size = snapshot.spacing.min(SPACING_MAX);
+        for (number, seam) in seams.iter().enumerate() {
+            marks.colour = self.colour(number);
+            // Where something is wrong, only that has its seams.
+            if wrong.is_empty() || wrong.seams.contains(&seam.name) {
+                marks.seam(snapshot, seam, size);
+            }
+        }
+        marks.colour = RED;
+        let place =
+            |particle: u32| [0, 1, 2].map(|axis| snapshot.positions[3 * particle as usize + axis]);
+        for side in &wrong.sides {
+            marks.rod(&Rod { ends: side.map(place), radii: [LINE * size; 2] });
+        }
+        for corners in &wrong.triangles {
+            for k in 0..3 {
+                let ends = [corners[k], corners[(k + 1) % 3]];
+                marks.rod(&Rod { ends, radii: [LINE * size; 2] });
+            }
+        }
+        let Marks { positions, triangles, tints, .. } = &marks;
+        let marks = Surface::cloth(positions, triangles).with_tints(tints);
+        let marks = (!triangles.is_empty()).then_some(marks);
+        Pictures::with_marks(snapshot, marks)?.draw_round()
+    }
+
+    /// Draws the same as SVG, with the names of the seams.
+    pub(crate) fn svg(&self) -> Result<String, Failure> {
+        let shown = self
+            .seams
+            .iter()
+            .enumerate()
+            .filter(|(_, seam)| self.wrong.is_empty() || self.wrong.seams.contains(&seam.name));
+        let key = |(number, seam): (usize, &Seam)| SeamKey {
+            name: seam.name.clone(),
+            colour: self.colour(number),
+        };
+        let keys: Vec<SeamKey> = shown.map(key).collect();
+        seams_svg(&self.draw()?, &keys).map_err(|error| Failure::Output(error.to_string()))
+    }
+
+    /// Returns the colour of a seam.
+    fn colour(&self, number: usize) -> Colour {
+        match self.wrong.seams.contains(&self.seams[number].name) {
+            true => RED,
+            false => seam_colour(number),
+        }
+    }
 }
 
 /// Marks in space, as triangles in colours.

@@ -11,10 +11,10 @@ mod stitches;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
-use drape_input::{Diagnostics, tidy};
+use drape_input::{Diagnostics, Subject, tidy};
 
 use crate::check::checker::Checker;
-use crate::error::Error;
+use crate::error::{Error, Refused};
 use crate::scene::Scene;
 use crate::scene::panel::Panel;
 use crate::surfaces::StartSurfaces;
@@ -30,11 +30,16 @@ use self::tangle::{Tangled, check_tangle};
 
 /// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
 /// layers.
-pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result<Scene, Error> {
+pub(crate) fn check_start(
+    checker: &mut Checker<'_>,
+    mut scene: Scene,
+) -> Result<Scene, Box<Refused>> {
     let Places { notes, advised } = check_places(checker, &scene);
     if advised {
         // Where it is advised to be, it is clear of the bodies that it crosses where it is.
-        checker.finish()?;
+        if let Err(mistakes) = checker.finish() {
+            return Err(Refused::with(mistakes, scene));
+        }
     }
     scene.source.contact_limits = contact_limits(&scene);
     scene.source.notes.extend([body_notes(&scene), notes].concat());
@@ -61,16 +66,17 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
         scene.source.notes.extend(notes);
     }
     let Err(mistakes) = checker.finish() else { return Ok(scene) };
-    Err(match tangle {
+    let error = match tangle {
         Some(Tangled { overlaps, mistake }) => Error::Tangled(Box::new(Tangle {
             mistakes,
             mistake,
-            folder: scene.output.folder,
+            folder: scene.output.folder.clone(),
             overlaps: overlaps.first,
             total: overlaps.total,
         })),
         None => Error::Input(mistakes),
-    })
+    };
+    Err(Refused::with(error, scene))
 }
 
 /// Mistake of a scene of which no contact can be made.
@@ -92,7 +98,10 @@ fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact,
             summary.inside, -summary.min_distance
         );
         let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
-        checker.fail(&key, message, help);
+        let mistake = checker.fail(&key, message, help);
+        if let Some(panel) = panel {
+            checker.about(mistake, Subject::Panel(panel.name.clone()));
+        }
     }
 }
 
@@ -103,7 +112,8 @@ fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, sce
             let message = format!("all of \"{}\" starts inside a body", panel.name);
             let help = "move or turn the panel so that it starts outside";
             let key = place_key(checker, scene, panel);
-            checker.fail(&key, message, help);
+            let mistake = checker.fail(&key, message, help);
+            checker.about(mistake, Subject::Panel(panel.name.clone()));
         }
     }
 }

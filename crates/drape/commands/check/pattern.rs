@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::input::{Diagnostic, Diagnostics};
-use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, figure};
+use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, Sketch, Wrong, figure};
 
 use crate::input;
 
@@ -14,26 +14,61 @@ pub(crate) struct CutOut {
     cut: CutPattern,
 }
 
+/// Mistakes of a pattern, with a drawing of its lines if it has some.
+pub(crate) struct Refused {
+    pub(crate) mistakes: Diagnostics,
+    pub(crate) figure: Option<String>,
+}
+
+impl Refused {
+    /// Returns the mistakes of a file with a drawing of what it holds.
+    pub(crate) fn new(path: &Path, mistakes: Diagnostics) -> Self {
+        let sketch = match input::is_standard(path) {
+            true => input::document(path).map(|document| Sketch::parse(&document)).ok(),
+            false => Some(Sketch::read(path)),
+        };
+        let sketch = sketch.filter(|sketch| !sketch.is_empty());
+        let subject = |mistake: &Diagnostic| {
+            mistake.subject.clone().map(|subject| Wrong { subject, at: None })
+        };
+        let wrong: Vec<Wrong> = mistakes.0.iter().filter_map(subject).collect();
+        let figure = sketch.map(|sketch| sketch.figure(&wrong, &mistakes.0));
+        Self { mistakes, figure }
+    }
+}
+
 impl CutOut {
     /// Reads a pattern and cuts it at a spacing, in m.
     pub(crate) fn read(path: &Path, spacing: f64) -> Result<Self, Diagnostics> {
+        Self::read_or_sketch(path, spacing).map_err(|refused| refused.mistakes)
+    }
+
+    /// Reads a pattern and cuts it at a spacing, in m; or returns its mistakes with a drawing of its
+    /// lines, in which they are red.
+    pub(crate) fn read_or_sketch(path: &Path, spacing: f64) -> Result<Self, Refused> {
         let shown = input::shown(path);
-        let mistakes = |error: Error| match error {
-            Error::Input(mistakes) => mistakes,
-            Error::Pattern(mistakes) => Diagnostics(
-                mistakes
-                    .iter()
-                    .map(|mistake| Diagnostic::new(shown, mistake.to_string()).help(mistake.help()))
-                    .collect(),
-            ),
-            other => Diagnostic::new(shown, other.to_string()).into(),
-        };
         let pattern = match input::is_standard(path) {
-            true => Pattern::parse(&input::document(path)?)?,
-            false => Pattern::read(path).map_err(mistakes)?,
+            true => input::document(path).and_then(|document| Pattern::parse(&document)),
+            false => Pattern::read(path).map_err(|error| match error {
+                Error::Input(mistakes) => mistakes,
+                other => Diagnostic::new(shown, other.to_string()).into(),
+            }),
         };
-        let cut = Cutter::new(spacing).cut(&pattern).map_err(mistakes)?;
-        Ok(Self { pattern, cut })
+        let pattern = pattern.map_err(|mistakes| Refused::new(path, mistakes))?;
+        match Cutter::new(spacing).cut(&pattern) {
+            Ok(cut) => Ok(Self { pattern, cut }),
+            Err(Error::Pattern(all)) => {
+                let wrong: Vec<Wrong> = all.iter().filter_map(Wrong::of).collect();
+                let mistakes = all.iter().map(|mistake| mistake.diagnostic(shown)).collect();
+                let mistakes = Diagnostics(mistakes);
+                let figure = Some(Sketch::of(&pattern).figure(&wrong, &mistakes.0));
+                Err(Refused { mistakes, figure })
+            }
+            Err(other) => {
+                let mistakes = Diagnostic::new(shown, other.to_string()).into();
+                Err(Refused { mistakes, figure: None })
+            }
+        }
     }
 
     /// Describes every panel with the quality of its cut, then the notes.
