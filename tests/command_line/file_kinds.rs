@@ -51,8 +51,8 @@ fn folder() -> TempDir {
     copy("crates/drape-pattern/patterns/skirt.json", "skirt.json");
     succeeds(path, &["new", "pattern"]);
     write("body.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-    write("loop.csv", "strain (%),force (gf/cm)\n0,0\n1,2\n");
-    write("book.xlsx", "PK");
+    write("loop.csv", "Symbol,Unit,Warp,Weft\nB,gf.cm2/cm,0.11,0.06\n2HB,gf.cm/cm,0.04,0.03\n");
+    book(&path.join("book.xlsx"));
     write(
         "study.toml",
         "scene = \"scene.toml\"\n[[axis]]\nkey = \"time.end\"\nvalues = [0.01, 0.02]\n",
@@ -63,6 +63,18 @@ fn folder() -> TempDir {
     succeeds(path, &["fabric", "export", "wool.toml", "-o", "wool.u3ma"]);
     succeeds(path, &["run", "scene.toml", "-o", "run"]);
     folder
+}
+
+/// Writes a workbook with a table of values.
+fn book(path: &Path) {
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let sheet = book.add_worksheet();
+    for (row, line) in ["Symbol,Unit,Warp,Weft", "B,gf.cm2/cm,0.11,0.06"].iter().enumerate() {
+        for (column, cell) in line.split(',').enumerate() {
+            sheet.write(row as u32, column as u16, cell).expect("a cell");
+        }
+    }
+    book.save(path).expect("a file");
 }
 
 /// Returns the commands in a message that name a file, without `drape`.

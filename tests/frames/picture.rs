@@ -132,7 +132,7 @@ fn what_cannot_be_drawn_is_refused_with_a_remedy_that_works() {
     refused(&picture(&["--map", "shear", "--range", "2,1"]), 2, "such as -2,2");
     refused(&picture(&["--map", "seam-gap"]), 2, "it has strain-warp, strain-weft, shear");
     refused(&picture(&["--turntable", "1"]), 2, "2..=360");
-    refused(&["picture", "scene.toml"], 3, "surfaces.json");
+    refused(&["picture", "scene.toml"], 3, "this is a scene, not a run");
     std::fs::remove_file(folder.join("run/frame-00002.npy")).expect("it is there");
     refused(&picture(&[]), 3, "frame-00002.npy");
     succeeds(folder, &["run", "scene.toml", "--no-picture", "--force"]);

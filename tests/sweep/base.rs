@@ -54,7 +54,7 @@ fn fits_of_a_study_are_those_of_the_command() {
         let density = &rows[row]["measures.quantities.mass per area.value"];
         assert!((density.parse::<f64>().unwrap() - 0.13).abs() < 1e-12, "{density}");
     }
-    let stiffness = "measures.laws.stretch 8 cm, warp.parameters.k_t.value";
+    let stiffness = "measures.laws.stretch 8 cm, warp.parameters.k_e.value";
     assert!(rows[0][stiffness].parse::<f64>().unwrap() > 1000.0);
     assert!(bench.sweep("2").0.contains("4 points: 0 run, 4 done before"));
 }

@@ -578,27 +578,3 @@ fn a_good_extension_is_not_turned() {
     let keys = "deformation = { column = 1, gauge = \"50 mm\" }\nload = { column = 2, width = \"200 mm\" }";
     assert_read("plain.csv", text.as_bytes(), keys);
 }
-
-#[test]
-fn times_of_the_points_are_read_where_a_column_has_them() {
-    for heading in ["Time (s)", "Zeit [s]", "時間(s)", "Time_min"] {
-        let line = |i: usize, p: Point| format!("{:.3},{},{}", p.time(i), p.percent(), p.newtons());
-        let text = format!("{heading},Strain (%),Force (N)\n{}", rows(line));
-        let sheet =
-            read("t.csv", text.as_bytes(), "load = { width = \"200 mm\" }").expect("a sheet");
-        let wanted: Vec<f64> = (0..curve().len()).map(|i| 0.25 * i as f64).collect();
-        assert_eq!(sheet.curves[0].time(), Some(&wanted[..]), "{heading}");
-    }
-}
-
-#[test]
-fn times_that_do_not_rise_or_are_no_numbers_cost_nothing() {
-    for time in ["12:00:01", "", "3"] {
-        let line = |_: usize, p: Point| format!("{time},{},{}", p.percent(), p.newtons());
-        let text = format!("Time,Strain (%),Force (N)\n{}", rows(line));
-        let sheet =
-            read("t.csv", text.as_bytes(), "load = { width = \"200 mm\" }").expect("a sheet");
-        assert_eq!(sheet.curves[0].time(), None, "{time}");
-        assert_eq!(sheet.curves[0].load().len(), curve().len());
-    }
-}

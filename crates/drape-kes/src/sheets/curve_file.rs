@@ -23,6 +23,9 @@ use crate::tables::number::Decimal;
 use crate::tables::series::Series;
 use crate::test::{Direction, Test};
 
+/// Largest number of bytes in the name of a file.
+const FILE_NAME_MAX: usize = 255;
+
 pub(crate) const CURVE_KEYS: [&str; 17] = [
     "name",
     "test",
@@ -179,8 +182,9 @@ impl CurveKeys {
         let curves = self.curves_of(file, findings);
         let test = format!("{} {}", self.test.name(), self.direction.name());
         let name = |mistake: &mut Diagnostic| {
-            // A mistake in the file itself has its name already.
-            let is_named = mistake.file.ends_with(file);
+            // A mistake in the file itself has its name already, and a name that no file can have is
+            // told once.
+            let is_named = mistake.file.ends_with(file) || file.len() > FILE_NAME_MAX;
             mistake.message +=
                 &if is_named { format!(" ({test})") } else { format!(" ({test}, {file})") };
         };
