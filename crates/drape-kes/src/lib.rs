@@ -44,6 +44,7 @@ pub use sheets::model::Model;
 #[cfg(feature = "schema")]
 pub use sheets::schema::sheet_schema;
 pub use sheets::sheet::Sheet;
+pub use sheets::test_record::TestRecord;
 pub use symbol::Symbol;
 pub use test::{Direction, Test};
 pub use values::Values;

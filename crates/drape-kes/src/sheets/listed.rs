@@ -141,6 +141,12 @@ impl Sheet {
         plausible::usual_range(symbol, direction, self.density())
     }
 
+    /// Returns where the range of [`Sheet::usual_range`] was published; `None` where there is none.
+    #[must_use]
+    pub fn usual_source(symbol: &str) -> Option<&'static str> {
+        plausible::usual_source(symbol)
+    }
+
     /// Returns the bending length of a direction, the cube root of rigidity over weight, in m; none
     /// without B or W.
     #[must_use]

@@ -76,6 +76,18 @@ pub fn sheet_schema() -> Value {
     let others = json!({
         "name": { "type": "string", "description": "Name of the fabric." },
         "source": { "type": "string", "description": "Source: who measured it, when, and under which licence." },
+        "customer": line("Customer for whom the fabric was tested, for the head of a report."),
+        "article": line("Article: the customer's number or name of the fabric, for the head of a report."),
+        "laboratory": line("Laboratory that tested it, for the head of a report."),
+        "date": {
+            "type": "string",
+            "pattern": r"^\d{4}(-\d{2}(-\d{2})?)?$",
+            "description": "Date of the tests, for the head of a report: 2026-03-14, 2026-03 or 2026.",
+        },
+        "specimens": {
+            "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "minLength": 1 }],
+            "description": "Specimens, for the head of a report: their number, or a text such as \"3 of 20 cm × 20 cm\".",
+        },
         "model": choice(&MODEL, "Law that bending and shear are fitted with; selected by the data if missing."),
         "warp": { "$ref": "#/$defs/Values", "description": "Values along the warp." },
         "weft": { "$ref": "#/$defs/Values", "description": "Values along the weft." },
@@ -158,6 +170,11 @@ fn values(in_list: impl Fn(&str) -> bool, top: bool) -> Keys {
         keys.properties.insert(key.into(), schema);
     }
     keys
+}
+
+/// Returns the schema of one line of text.
+fn line(description: &str) -> Value {
+    json!({ "type": "string", "minLength": 1, "description": description })
 }
 
 /// Returns the schema of a word among several.

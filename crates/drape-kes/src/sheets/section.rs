@@ -193,6 +193,19 @@ impl<'t> Section<'t> {
         }
     }
 
+    /// Returns a text, or a whole number or a date as text, if the key is there.
+    pub(crate) fn text_or_number(&self, key: &str, findings: &mut Findings<'_>) -> Option<String> {
+        match self.get(key)? {
+            DeValue::String(text) => Some(text.to_string()),
+            DeValue::Integer(number) => Some(number.as_str().to_owned()),
+            DeValue::Datetime(date) => Some(date.to_string()),
+            _ => {
+                self.wrong_kind(key, "text in quotes", findings);
+                None
+            }
+        }
+    }
+
     /// Returns one of several words, which must be there.
     pub(crate) fn required_choice<T: Copy>(
         &self,

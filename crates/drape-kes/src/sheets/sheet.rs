@@ -12,6 +12,7 @@ use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
 use crate::sheets::section::{Choice, Measured, Section};
+use crate::sheets::test_record::TestRecord;
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, repeats};
 use crate::symbol::Symbol;
@@ -22,8 +23,8 @@ use drape_input::Quantity;
 /// Name of the sheet in a folder.
 const SHEET_FILE: &str = "sheet.toml";
 
-pub(crate) const SHEET_KEYS: [&str; 26] = [
-    "name", "source", "model", "W", "T", "T0", "TM", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM",
+pub(crate) const SHEET_KEYS: [&str; 31] = [
+    "name", "source", "customer", "article", "laboratory", "date", "specimens", "model", "W", "T", "T0", "TM", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM",
     "B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "warp", "weft", "curve",
 ];
 pub(crate) const MODEL: Choice<'_, Model> =
@@ -56,6 +57,8 @@ pub struct Sheet {
     pub name: String,
     /// Source: who measured it, when, and under which licence.
     pub source: String,
+    /// Customer, article, laboratory, date and specimens, for the head of a report.
+    pub record: TestRecord,
     /// Law that bending and shear are to be fitted with; selected by the data unless set.
     pub model: Option<Model>,
     /// W, mass per area, in mg/cm².
@@ -129,6 +132,7 @@ impl Sheet {
         root.allow_values(&SHEET_KEYS, findings);
         let name = root.required_text("name", "\"cotton poplin\"", findings);
         let source = root.text("source", findings);
+        let record = TestRecord::read(root, findings);
         let model = root.choice(&MODEL, findings);
         let whole = WholeValues::read(root, findings);
         if let Some(w) = &whole.w {
@@ -152,6 +156,7 @@ impl Sheet {
         let sheet = Self {
             name: name.unwrap_or_default(),
             source: source.unwrap_or_default(),
+            record,
             model,
             w: laboratory(whole.w),
             t: laboratory(whole.t),

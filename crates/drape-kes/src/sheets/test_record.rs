@@ -1,0 +1,187 @@
+//! Record of a test, for the head of a report: for whom, of which article, when, where, on how many
+//! specimens.
+
+use drape_input::Diagnostic;
+
+use crate::sheets::findings::Findings;
+use crate::sheets::section::Section;
+
+/// Keys of the record in a sheet.
+pub(crate) const RECORD_KEYS: [&str; 5] =
+    ["customer", "article", "laboratory", "date", "specimens"];
+
+/// Remedy for a text that says nothing.
+const REMOVE: &str = "write it, or remove the line: what is not known stays blank";
+
+/// Remedy for a date in another order.
+const ORDER: &str = "write year, month and day as 2026-03-14, or as much of it as is known: 2026-03 or 2026";
+
+/// Record of a test: what a laboratory writes above its results. Nothing here changes a number.
+///
+/// ```
+/// use drape_input::Document;
+/// use drape_kes::Sheet;
+///
+/// let text = "name = \"poplin\"\ncustomer = \"Mill & Co\"\ndate = 2026-03-14\nspecimens = 5\nW = 12\n";
+/// let record = Sheet::from_document(&Document::new("sheet.toml", text))?.record;
+/// assert_eq!(record.customer.as_deref(), Some("Mill & Co"));
+/// assert_eq!((record.date.as_deref(), record.specimens.as_deref()), (Some("2026-03-14"), Some("5")));
+/// assert_eq!(record.article, None);
+/// # Ok::<(), drape_kes::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TestRecord {
+    /// Customer for whom the fabric was tested.
+    pub customer: Option<String>,
+    /// Article: the customer's number or name of the fabric.
+    pub article: Option<String>,
+    /// Laboratory that tested it.
+    pub laboratory: Option<String>,
+    /// Date of the tests: `2026-03-14`, `2026-03` or `2026`.
+    pub date: Option<String>,
+    /// Specimens: their number, or a text such as `3 of 20 cm × 20 cm`.
+    pub specimens: Option<String>,
+}
+
+impl TestRecord {
+    /// Reads the record of a sheet.
+    pub(crate) fn read(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
+        let mut line = |key: &str| {
+            let text = root.text_or_number(key, findings)?;
+            let checked = checked(key, &text);
+            if let Err(Fault { message, help }) = &checked {
+                findings.error(key, *message, *help);
+            }
+            checked.ok()
+        };
+        let [customer, article, laboratory, date, specimens] = RECORD_KEYS.map(&mut line);
+        Self { customer, article, laboratory, date, specimens }
+    }
+
+    /// Sets a line of the record by its key in a sheet, in place of what the sheet says.
+    ///
+    /// # Errors
+    /// There is no such key, the text is empty or not in one line, a date is none, or there are no
+    /// specimens.
+    pub fn set(&mut self, key: &str, text: &str) -> Result<(), Diagnostic> {
+        let fault = |Fault { message, help }| {
+            Diagnostic::new(format!("--{key}"), format!("{text}: {message}")).help(help)
+        };
+        let text = checked(key, text).map_err(fault)?;
+        let line = match key {
+            "customer" => &mut self.customer,
+            "article" => &mut self.article,
+            "laboratory" => &mut self.laboratory,
+            "date" => &mut self.date,
+            "specimens" => &mut self.specimens,
+            _ => {
+                let known = format!("known here: {}", RECORD_KEYS.join(", "));
+                return Err(Diagnostic::new(key, "there is no such key").help(known));
+            }
+        };
+        *line = Some(text);
+        Ok(())
+    }
+
+    /// Returns the lines with their titles, in the order of a report; what is not known is `None`.
+    #[must_use]
+    pub fn lines(&self) -> [(&'static str, Option<&str>); 5] {
+        [
+            ("Customer", self.customer.as_deref()),
+            ("Article", self.article.as_deref()),
+            ("Specimens", self.specimens.as_deref()),
+            ("Date of the tests", self.date.as_deref()),
+            ("Laboratory", self.laboratory.as_deref()),
+        ]
+    }
+}
+
+/// Reason why a line of a record is refused.
+struct Fault {
+    message: &'static str,
+    help: &'static str,
+}
+
+/// Returns the text of a line without blanks at its ends, checked.
+fn checked(key: &str, text: &str) -> Result<String, Fault> {
+    let text = text.trim();
+    if text.is_empty() {
+        return Err(Fault { message: "is empty", help: REMOVE });
+    }
+    if text.contains(char::is_control) {
+        return Err(Fault { message: "is not one line of text", help: "write it in one line" });
+    }
+    match key {
+        "date" if !is_date(text) => Err(Fault { message: "is not a date", help: ORDER }),
+        "specimens" if text.parse::<f64>().is_ok_and(|count| !is_count(count)) => Err(Fault {
+            message: "is not a number of specimens",
+            help: "write how many were tested, such as 5, or a text such as \"3 of 20 cm × 20 cm\"",
+        }),
+        _ => Ok(text.to_owned()),
+    }
+}
+
+/// Returns whether a number counts specimens.
+fn is_count(count: f64) -> bool {
+    count >= 1.0 && count.fract() == 0.0
+}
+
+/// Days of the months of a leap year.
+const DAYS: [u32; 12] = [31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+
+/// Returns whether a text is a year, a month of a year or a day of the calendar, as ISO 8601 writes them.
+fn is_date(text: &str) -> bool {
+    let parts: Vec<&str> = text.split('-').collect();
+    let lengths = [4, 2, 2];
+    let are_digits = |(part, length): (&&str, usize)| {
+        part.len() == length && part.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    if parts.len() > lengths.len() || !parts.iter().zip(lengths).all(are_digits) {
+        return false;
+    }
+    let number = |index: usize| parts.get(index).map_or(1, |part| part.parse().unwrap_or(0));
+    let [year, month, day] = [0, 1, 2].map(number);
+    let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = (month as usize).checked_sub(1).and_then(|index| DAYS.get(index));
+    days.is_some_and(|&days| {
+        let last = if month == 2 && !is_leap { days - 1 } else { days };
+        (1..=last).contains(&day)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for date in ["2026", "2026-03", "2026-03-14", "2024-02-29", "2000-02-29"] {
+            assert!(is_date(date), "{date}");
+        }
+        let none =
+            ["14.03.2026", "2026-3-1", "2026-13", "2025-02-29", "1900-02-29", "26", "2026-00-01", ""];
+        for date in none {
+            assert!(!is_date(date), "{date}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_says_nothing_is_refused_and_a_set_line_wins() {
+        let mut record = TestRecord { customer: Some("a".into()), ..TestRecord::default() };
+        record.set("customer", " Mill & Co ").expect("it is a name");
+        assert_eq!(record.customer.as_deref(), Some("Mill & Co"));
+        let refused = [
+            ("customer", "  ", "is empty"),
+            ("article", "a\nb", "is not one line of text"),
+            ("date", "14.03.2026", "is not a date"),
+            ("specimens", "0", "is not a number of specimens"),
+            ("specimens", "2.5", "is not a number of specimens"),
+            ("weaver", "a", "there is no such key"),
+        ];
+        for (key, text, message) in refused {
+            let mistake = record.set(key, text).expect_err(text).to_string();
+            assert!(mistake.contains(message), "{mistake}");
+        }
+        record.set("specimens", "3 of 20 cm × 20 cm").expect("it is a text");
+    }
+}
