@@ -12,6 +12,7 @@ use crate::commands::convert::{self, ConvertArguments};
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
+use crate::commands::report::{self, ReportArguments};
 use crate::commands::run::resume::{self, ResumeArguments};
 use crate::commands::run::{self, RunArguments};
 use crate::commands::schema::new::{self, NewArguments};
@@ -92,6 +93,8 @@ enum Command {
     /// Lists fabrics, shows one, compares several, writes one for other programs.
     #[command(subcommand)]
     Fabric(FabricCommand),
+    /// Writes the report on fabrics that a laboratory sends to its customer: head, values, loops, drape.
+    Report(ReportArguments),
     /// Simulates scenes: frames, a picture and summary.json of each.
     Run(RunArguments),
     /// Goes on with a run that was interrupted, from its last checkpoint, to the results that it would
@@ -154,6 +157,7 @@ impl Command {
             Self::New(arguments) => new::new(arguments),
             Self::Fit(arguments) => fit::fit(arguments),
             Self::Fabric(command) => fabric::fabric(command),
+            Self::Report(arguments) => report::report(arguments),
             Self::Run(arguments) => run::run(arguments),
             Self::Resume(arguments) => resume::resume(arguments),
             Self::Sweep(command) => sweep::sweep(command),

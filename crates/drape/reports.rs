@@ -5,6 +5,8 @@
 //! units of every number, `kes_value` those of KES values. Nothing here writes a file.
 
 mod compared;
+mod customer;
+mod drape_result;
 mod fabric;
 mod fit;
 mod instruments;
@@ -18,6 +20,8 @@ mod version;
 mod viewer;
 
 pub use compared::{ComparedFabric, compare_page};
+pub use customer::{CustomerSubject, customer_page};
+pub use drape_result::{DrapeEvaluation, DrapeResult, DrapeStart, laws_digest};
 pub use fabric::show_page;
 pub use fit::fit_page;
 pub use instruments::{TESTS, TestedLoop, instruments_page};

@@ -38,7 +38,7 @@ pub use curves::steady::SteadyPath;
 pub use curves::tensile_values::TensileValues;
 pub use error::Error;
 pub use exports::draft::SheetDraft;
-pub use scatter::Scatter;
+pub use scatter::{OtherScatter, Scatter};
 pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
 #[cfg(feature = "schema")]

@@ -26,6 +26,17 @@ pub struct Scatter {
     pub deviation: f64,
 }
 
+/// Standard deviation of a value that no law uses, as the sheet states it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OtherScatter {
+    /// Symbol of the value, such as `T` or `MIU`.
+    pub symbol: &'static str,
+    /// Direction of the value, where it has one.
+    pub direction: Option<Direction>,
+    /// Standard deviation, in the laboratory's unit.
+    pub deviation: f64,
+}
+
 /// Signs between a value and its standard deviation.
 const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
 

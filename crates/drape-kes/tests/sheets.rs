@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics};
+use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_kes::{Direction, Error, Model, Sheet, Test};
 
 const CURVE: &str = r#"
@@ -352,4 +352,54 @@ fn a_shear_curve_of_one_direction_takes_the_place_of_the_values_of_both() {
     let expected = [("LT", Some("traction")), ("G", None), ("2HG", None), ("B", Some("bending"))];
     let of_both: Vec<_> = expected.into_iter().flat_map(|one| [one, one]).collect();
     assert_eq!(uses, of_both);
+}
+
+#[test]
+fn a_sheet_keeps_the_scatter_of_values_that_no_law_uses() {
+    let text = "name = \"poplin\"\nT = \"0.5 ± 0.02 mm\"\nLC = \"0.3 ± 0.03\"\nRC = \"50 ± 2\"\n[warp]\nMIU = \"0.2 ± 0.01\"\nSMD = \"4 ± 0.5\"\nB = \"0.1 ± 0.01\"\n";
+    let sheet = Sheet::from_document(&Document::new("sheet.toml", text)).expect("it is right");
+    let of = |symbol: &str, direction: Option<Direction>| {
+        let own = sheet.other_scatter.iter();
+        let mut found = own.filter(|own| own.symbol == symbol && own.direction == direction);
+        found.next().map(|own| own.deviation).expect(symbol)
+    };
+    let warp = Some(Direction::Warp);
+    let expected = [
+        ("T", None, 0.02),
+        ("LC", None, 0.03),
+        ("RC", None, 2.0),
+        ("MIU", warp, 0.01),
+        ("SMD", warp, 0.5),
+    ];
+    for (symbol, direction, deviation) in expected {
+        let found = of(symbol, direction);
+        assert!((found / deviation - 1.0).abs() < 1e-12, "{symbol}: {found}");
+    }
+    assert_eq!(sheet.other_scatter.len(), expected.len(), "that of B gives an interval");
+}
+
+#[test]
+fn the_record_of_a_test_is_read_and_checked() {
+    let read = |text: &str| {
+        let text = format!("name = \"poplin\"\nW = 12\n{text}");
+        Sheet::from_document(&Document::new("sheet.toml", text)).map(|sheet| sheet.record)
+    };
+    let text = "customer = \"Mill\"\narticle = 4711\ndate = \"2026-03\"\nspecimens = \"3 of 20 cm × 20 cm\"\n";
+    let record = read(text).expect("it is right");
+    let lines = record.lines().map(|(_, text)| text);
+    assert_eq!(
+        lines,
+        [Some("Mill"), Some("4711"), Some("3 of 20 cm × 20 cm"), Some("2026-03"), None]
+    );
+    for (text, message) in [
+        ("date = \"14.03.2026\"\n", "date: is not a date"),
+        ("date = 2026-03-14T10:00:00\n", "date: is not a date"),
+        ("specimens = 0\n", "specimens: is not a number of specimens"),
+        ("customer = \"\"\n", "customer: is empty"),
+        ("laboratory = [1]\n", "laboratory: is a list where text in quotes is needed"),
+        ("costumer = \"Mill\"\n", "did you mean `customer`?"),
+    ] {
+        let mistake = read(text).expect_err(text).to_string();
+        assert!(mistake.contains(message), "{mistake}");
+    }
 }

@@ -14,6 +14,13 @@ pub enum Error {
     #[error("the scene has other shapes than the light was computed for; compute its own")]
     OtherShapes,
 
+    /// Bytes are no picture that can be shown.
+    #[error("not a PNG picture that can be shown: {reason}")]
+    NoPicture {
+        /// Reason, in words.
+        reason: String,
+    },
+
     /// A list of a surface has a wrong length.
     #[error("{surface}: {what} has {length} numbers, not {expected}")]
     BadLength {

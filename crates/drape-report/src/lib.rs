@@ -5,7 +5,7 @@
 //! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`];
 //! [`LitShapes`] draw several of the same shapes. The
 //! functions of [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`],
-//! [`ComparePage`], [`ValidationPage`] and [`StudyPage`] are reports that become HTML pages and text; a
+//! [`ComparePage`], [`CustomerPage`], [`ValidationPage`] and [`StudyPage`] are reports that become HTML pages and text; a
 //! [`Parameter`] is a number with its [`Units`] and its [`Interval`].
 //!
 //! Layers, lowest first: `error`, `check`, `text`, `parameter`, `picture`; the chapters `render`
@@ -29,10 +29,11 @@ mod page;
 
 pub use error::Error;
 pub use page::{
-    CaptionedPicture, ComparePage, Compared, ComparedNumber, ComparedValue, Difference,
-    EffectTable, Evidence, FabricName, FitPage, KesValue, LawReport, LawValue, Limits,
-    MeasureEffects, ModelScore, Quantity, Statistics, StudyPage, Trust, ValidationCase,
-    ValidationPage, ValidationRow, Verdict,
+    CaptionedPicture, ComparePage, Compared, ComparedNumber, ComparedValue, CustomerPage,
+    Difference, EffectTable, Evidence, FabricName, FitPage, KesValue, LawReport, LawValue, Limits,
+    MeasureEffects, ModelScore, Quantity, ReportedDrape, ReportedFabric, ReportedLoop,
+    ReportedNote, ReportedValue, Statistics, StudyPage, Trust, ValidationCase, ValidationPage,
+    ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};

@@ -1,7 +1,7 @@
-//! Pages: the reports of a fit, of a comparison, of a validation and of a study.
+//! Pages: the reports of a fit, of a comparison, to a customer, of a validation and of a study.
 //!
 //! A report is plain data in SI: [`FitPage`] with a [`LawReport`] for each law, [`ComparePage`],
-//! [`ValidationPage`], [`StudyPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or
+//! [`CustomerPage`], [`ValidationPage`], [`StudyPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or
 //! a text for the terminal; serialised, it is the report for programs. `shown` rounds quantities
 //! and writes them in both units, `assets` holds the style and the script, the templates are in
 //! `templates/page`. The chapter takes figures from `plot` and pictures from `render`.
@@ -9,6 +9,7 @@
 mod assets;
 mod compare_page;
 mod compared_value;
+mod customer;
 mod fit_html;
 mod fit_page;
 mod fit_text;
@@ -20,6 +21,9 @@ mod validation_page;
 
 pub use compare_page::{ComparePage, FabricName};
 pub use compared_value::{Compared, ComparedNumber, ComparedValue, Difference};
+pub use customer::{
+    CustomerPage, ReportedDrape, ReportedFabric, ReportedLoop, ReportedNote, ReportedValue,
+};
 pub use fit_page::{FitPage, KesValue, Quantity};
 pub use law_report::{Evidence, LawReport, Limits, ModelScore, Statistics, Trust, Verdict};
 pub use law_value::LawValue;

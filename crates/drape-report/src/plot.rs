@@ -6,7 +6,7 @@
 //!
 //! `axis` and `scale` map values to pixels, `margin`, `legend` and `chart` are the parts that all
 //! plots over two axes share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`,
-//! `uncertainty`, `strain_map` and `seam_key` have layouts of their own. `svg` writes path data, `style` holds
+//! `uncertainty`, `strain_map`, `seam_key` and `shadow` have layouts of their own. `svg` writes path data, `style` holds
 //! the style sheet. The templates are in `templates/plot`: pixel coordinates fill them, since plots
 //! need fractions of a pixel in print and classes that follow the colours of the page.
 
@@ -20,6 +20,7 @@ mod margin;
 mod overlay;
 mod scale;
 mod seam_key;
+mod shadow;
 mod strain_map;
 mod style;
 mod svg;
@@ -31,6 +32,7 @@ pub use graph::{GraphPlot, GraphSeries, Look, graph_svg};
 pub use loop_plot::{Branch, BranchKind, LoopPlot, Mark, Point, loop_svg};
 pub use overlay::{OverlayPlot, Trace, overlay_svg};
 pub use seam_key::{SeamKey, seams_svg};
+pub use shadow::{ShadowPlot, shadow_svg};
 pub use strain_map::{StrainMap, strain_svg};
 pub use uncertainty::{UncertaintyPlot, uncertainty_svg};
 
@@ -38,5 +40,6 @@ pub(crate) use correlation::{correlation_figure, correlation_side};
 pub(crate) use graph::graph_figure;
 pub(crate) use loop_plot::loop_figure;
 pub(crate) use overlay::{COLOURS, overlay_figure};
+pub(crate) use shadow::shadow_figure;
 pub(crate) use style::{Placement, STYLE};
 pub(crate) use uncertainty::uncertainty_figure;

@@ -10,6 +10,7 @@ mod instruments;
 
 pub(crate) use arguments::TestArguments;
 
+use crate::commands::drapes::check_spacing;
 use crate::commands::fabric;
 use crate::failure::Failure;
 use crate::input;
@@ -18,10 +19,7 @@ use crate::input;
 pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
     input::set(&arguments.set);
     let fabric = fabric::read(&arguments.fabric)?;
-    if let Some(spacing) = arguments.spacing.filter(|mm| !(*mm >= 0.5 && *mm <= 50.0)) {
-        let message = format!("--spacing {spacing} is not between 0.5 and 50 (mm)");
-        return Err(Failure::Usage(message));
-    }
+    check_spacing(arguments.spacing)?;
     if arguments.drape {
         drapemeter::drape(&fabric, arguments)
     } else {

@@ -38,7 +38,7 @@ impl ComparedFabric<'_> {
     }
 
     /// Returns the numbers of a KES value, in SI.
-    fn number(&self, direction: Direction, symbol: Symbol) -> ComparedNumber {
+    pub(super) fn number(&self, direction: Direction, symbol: Symbol) -> ComparedNumber {
         let unit = kes_value::units(symbol.name()).kes.map_or(1.0, |unit| unit.in_si);
         let laws = fabric_values(self.fabric, direction, &self.points());
         let law = laws.get(symbol).map(|law| law * unit);

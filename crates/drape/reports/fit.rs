@@ -25,7 +25,8 @@ pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> FitPage {
         origin: if value.is_some() { "sheet" } else { "assumed" }.into(),
     };
     let fabric = &fit.fabric;
-    let of_curves = sheet.curves.iter().zip(&fit.curves).map(|(c, f)| law(c, f));
+    let of_curves = sheet.curves.iter().zip(&fit.curves).map(|(c, f)| curve_law(c, f));
+    let of_values = value_laws(sheet, fit, settings).into_iter().map(|own| own.law);
     let SheetValues { values, warnings } = kes_value::of_sheet(sheet, fabric, settings);
     FitPage {
         name: sheet.name.clone(),
@@ -35,7 +36,7 @@ pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> FitPage {
             given("mass per area", sheet.density(), fabric.density, quantity::mass()),
             given("thickness", sheet.thickness(), fabric.thickness, quantity::thickness()),
         ],
-        laws: of_curves.chain(value_laws(sheet, fit, settings)).collect(),
+        laws: of_curves.chain(of_values).collect(),
         readings: sheet.readings().to_vec(),
         values,
         assumed: fit.assumed.clone(),
@@ -59,7 +60,8 @@ fn unusual_shear(sheet: &Sheet) -> Vec<String> {
     unusual.filter_map(CheckedValue::warning).collect()
 }
 
-fn law(curve: &Curve, fit: &CurveFit) -> LawReport {
+/// Returns the report of the law of a curve.
+pub(super) fn curve_law(curve: &Curve, fit: &CurveFit) -> LawReport {
     let model = fit.candidates.get(fit.chosen).map_or(String::new(), |c| c.law.clone());
     let criteria = fit.candidates.iter().filter_map(|candidate| {
         Some(ModelScore {

@@ -74,6 +74,13 @@ pub fn axes(test: Test) -> [Axis; 2] {
     }
 }
 
+/// Axes of a test's plots in the units of the laboratory: deformation, then load.
+pub fn laboratory_axes(test: Test) -> [Axis; 2] {
+    let [deformation, load] = axes(test);
+    let units = self::load(test).kes.map(|unit| Axis::new(&load.label, &unit.name, unit.in_si));
+    [deformation, units.unwrap_or(load)]
+}
+
 /// Units of the load of a test.
 fn load(test: Test) -> Units {
     if test == Test::Bending { moment() } else { tension() }

@@ -95,7 +95,9 @@ fn checked(sheet: &Sheet, listed: &SheetValue, units: &Units) -> CheckedValue {
         name,
         direction: direction.map(Direction::name),
         value,
-        deviation: direction.and_then(|direction| deviation(sheet, symbol, direction)),
+        deviation: direction
+            .and_then(|direction| deviation(sheet, symbol, direction))
+            .or_else(|| other_deviation(sheet, symbol, direction)),
         unit: unit.into(),
         si,
         si_unit: units.si.clone(),
@@ -111,4 +113,11 @@ pub(crate) fn deviation(sheet: &Sheet, symbol: &str, direction: Direction) -> Op
         scatter.symbol.name() == symbol && scatter.direction == direction
     };
     sheet.scatter.iter().find(is_of_value).map(|scatter| scatter.deviation)
+}
+
+/// Returns the standard deviation that a sheet states for a value that no law uses, in the laboratory's unit.
+fn other_deviation(sheet: &Sheet, symbol: &str, direction: Option<Direction>) -> Option<f64> {
+    let mut stated = sheet.other_scatter.iter();
+    let own = stated.find(|own| own.symbol == symbol && own.direction == direction);
+    own.map(|own| own.deviation)
 }

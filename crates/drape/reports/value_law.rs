@@ -20,15 +20,30 @@ struct ValueLaw<'a> {
     direction: Direction,
 }
 
+/// Law of a fit that no curve of the sheet gives.
+pub struct ValueLawReport {
+    pub test: Test,
+    pub direction: Direction,
+    /// Whether no value of the sheet says anything about it.
+    pub is_assumed: bool,
+    pub law: LawReport,
+}
+
 /// Returns the laws of a fit that no curve of the sheet gives.
-pub fn value_laws(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> Vec<LawReport> {
+pub fn value_laws(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> Vec<ValueLawReport> {
     let tests = [Test::Tensile, Test::Bending, Test::Shear];
     let laws = tests.into_iter().flat_map(|test| {
         // One law of shear for both directions.
         let directions = if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS[..] };
         directions.iter().map(move |&direction| ValueLaw { sheet, settings, test, direction })
     });
-    laws.filter(|law| !law.has_curve()).map(|law| law.report(fit)).collect()
+    let report = |own: ValueLaw<'_>| ValueLawReport {
+        test: own.test,
+        direction: own.direction,
+        is_assumed: own.given().is_empty(),
+        law: own.report(fit),
+    };
+    laws.filter(|law| !law.has_curve()).map(report).collect()
 }
 
 impl ValueLaw<'_> {
@@ -61,10 +76,15 @@ impl ValueLaw<'_> {
         }
     }
 
+    /// Returns the symbols of the values that the sheet has.
+    fn given(&self) -> Vec<&'static str> {
+        let given = self.symbols().iter().filter(|symbol| self.value(**symbol).is_some());
+        given.map(|symbol| symbol.name()).collect()
+    }
+
     fn report(&self, fit: &Fit) -> LawReport {
         let mut law = fabric::law(&fit.fabric, self.test, self.direction);
-        let given = self.symbols().iter().filter(|symbol| self.value(**symbol).is_some());
-        let given: Vec<&str> = given.map(|symbol| symbol.name()).collect();
+        let given = self.given();
         let assumed = given.is_empty();
         law.model = match assumed {
             true => "ASSUMED: no curve and no value of it is in the sheet".to_owned(),

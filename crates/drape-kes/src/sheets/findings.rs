@@ -1,5 +1,6 @@
 //! Errors and warnings about one sheet, collected while it is read.
 
+use crate::scatter::OtherScatter;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 /// File being read, with the errors and warnings so far.
@@ -11,6 +12,8 @@ pub(crate) struct Findings<'t> {
     pub(crate) readings: Vec<String>,
     /// Key paths of values whose standard deviations have no use.
     pub(crate) unused_scatter: Vec<String>,
+    /// Those standard deviations.
+    pub(crate) other_scatter: Vec<OtherScatter>,
 }
 
 impl<'t> Findings<'t> {
@@ -21,6 +24,7 @@ impl<'t> Findings<'t> {
             warnings: Vec::new(),
             readings: Vec::new(),
             unused_scatter: Vec::new(),
+            other_scatter: Vec::new(),
         }
     }
 

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
-use crate::scatter::Scatter;
+use crate::scatter::{OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
@@ -24,8 +24,37 @@ use drape_input::Quantity;
 const SHEET_FILE: &str = "sheet.toml";
 
 pub(crate) const SHEET_KEYS: [&str; 31] = [
-    "name", "source", "customer", "article", "laboratory", "date", "specimens", "model", "W", "T", "T0", "TM", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM",
-    "B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "warp", "weft", "curve",
+    "name",
+    "source",
+    "customer",
+    "article",
+    "laboratory",
+    "date",
+    "specimens",
+    "model",
+    "W",
+    "T",
+    "T0",
+    "TM",
+    "LC",
+    "WC",
+    "RC",
+    "MIU",
+    "MMD",
+    "SMD",
+    "FM",
+    "B",
+    "2HB",
+    "G",
+    "2HG",
+    "2HG5",
+    "LT",
+    "WT",
+    "RT",
+    "EM",
+    "warp",
+    "weft",
+    "curve",
 ];
 pub(crate) const MODEL: Choice<'_, Model> =
     Choice { key: "model", values: &Model::ALL, name: Model::name };
@@ -88,6 +117,8 @@ pub struct Sheet {
     pub shared: Vec<&'static str>,
     /// Standard deviations of the values, where the sheet states them.
     pub scatter: Vec<Scatter>,
+    /// Standard deviations of the values that no law uses, where the sheet states them.
+    pub other_scatter: Vec<OtherScatter>,
     /// Measured curves, in SI.
     pub curves: Vec<Curve>,
     warnings: Vec<Diagnostic>,
@@ -171,6 +202,7 @@ impl Sheet {
             weft,
             shared,
             scatter,
+            other_scatter: std::mem::take(&mut findings.other_scatter),
             curves,
             warnings: Vec::new(),
             readings: Vec::new(),

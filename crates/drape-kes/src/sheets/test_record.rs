@@ -14,7 +14,8 @@ pub(crate) const RECORD_KEYS: [&str; 5] =
 const REMOVE: &str = "write it, or remove the line: what is not known stays blank";
 
 /// Remedy for a date in another order.
-const ORDER: &str = "write year, month and day as 2026-03-14, or as much of it as is known: 2026-03 or 2026";
+const ORDER: &str =
+    "write year, month and day as 2026-03-14, or as much of it as is known: 2026-03 or 2026";
 
 /// Record of a test: what a laboratory writes above its results. Nothing here changes a number.
 ///
@@ -158,8 +159,16 @@ mod tests {
         for date in ["2026", "2026-03", "2026-03-14", "2024-02-29", "2000-02-29"] {
             assert!(is_date(date), "{date}");
         }
-        let none =
-            ["14.03.2026", "2026-3-1", "2026-13", "2025-02-29", "1900-02-29", "26", "2026-00-01", ""];
+        let none = [
+            "14.03.2026",
+            "2026-3-1",
+            "2026-13",
+            "2025-02-29",
+            "1900-02-29",
+            "26",
+            "2026-00-01",
+            "",
+        ];
         for date in none {
             assert!(!is_date(date), "{date}");
         }

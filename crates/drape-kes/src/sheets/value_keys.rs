@@ -1,6 +1,6 @@
 //! KES values of a sheet: by direction, or one for both, in any spelling.
 
-use crate::scatter::{self, Scatter};
+use crate::scatter::{self, OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
 use crate::sheets::section::{Measured, Section};
@@ -30,14 +30,18 @@ impl WholeValues {
         let t = positive(root, "T", Quantity::Length, findings);
         let t0 = positive(root, "T0", Quantity::Length, findings);
         let tm = pressed_thickness(root, t0.as_ref().or(t.as_ref()), findings);
-        let lc = LC.read(root, findings);
+        let lc = LC.measured(root, findings);
         let wc = positive(root, "WC", Quantity::WorkPerArea, findings);
         let rc = percentage(root, "RC", findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
-        for value in [&w, &t, &t0, &tm, &wc, &rc, &fm].into_iter().flatten() {
-            note_unused_scatter(value, findings);
+        let values =
+            [("W", &w), ("T", &t), ("T0", &t0), ("TM", &tm), ("WC", &wc), ("RC", &rc), ("FM", &fm)];
+        for (symbol, value) in values {
+            let value = value.as_ref().map(|value| (value, value.laboratory));
+            note_unused_scatter((symbol, None), value, findings);
         }
-        Self { w, t, t0, tm, lc, wc, rc, fm }
+        note_unused_scatter(("LC", None), lc.as_ref().map(|lc| (lc, lc.si)), findings);
+        Self { w, t, t0, tm, lc: lc.map(|lc| lc.si), wc, rc, fm }
     }
 }
 
@@ -167,11 +171,14 @@ fn values(
     let lt = source.read(Symbol::Lt, |section| LT.measured(section, findings));
     let rt = laboratory(source.read(Symbol::Rt, |s| percentage(s, "RT", findings)));
     let smd = source.find("SMD").and_then(|s| positive(&s, "SMD", Quantity::Roughness, findings));
-    if let Some(smd) = &smd {
-        note_unused_scatter(smd, findings);
+    let miu = source.find("MIU").and_then(|section| MIU.measured(&section, findings));
+    let mmd = source.find("MMD").and_then(|section| MMD.measured(&section, findings));
+    let rough = smd.as_ref().map(|smd| (smd, smd.laboratory));
+    note_unused_scatter(("SMD", Some(direction)), rough, findings);
+    for (symbol, ratio) in [("MIU", &miu), ("MMD", &mmd)] {
+        let value = ratio.as_ref().map(|ratio| (ratio, ratio.si));
+        note_unused_scatter((symbol, Some(direction)), value, findings);
     }
-    let miu = source.find("MIU").and_then(|section| MIU.read(&section, findings));
-    let mmd = source.find("MMD").and_then(|section| MMD.read(&section, findings));
     Values {
         b: laboratory(b),
         two_hb,
@@ -182,17 +189,29 @@ fn values(
         wt,
         rt,
         em,
-        miu,
-        mmd,
+        miu: miu.map(|miu| miu.si),
+        mmd: mmd.map(|mmd| mmd.si),
         smd: laboratory(smd),
     }
 }
 
-/// Notes that the standard deviation of a value has no use.
-fn note_unused_scatter(value: &Measured, findings: &mut Findings<'_>) {
-    if value.deviation.is_some() && !findings.unused_scatter.contains(&value.key) {
+/// Notes that no law uses the standard deviation of a value, and keeps it: the value's symbol and direction,
+/// and the value with its number in the unit of the sheet.
+fn note_unused_scatter(
+    (symbol, direction): (&'static str, Option<Direction>),
+    value: Option<(&Measured, f64)>,
+    findings: &mut Findings<'_>,
+) {
+    let Some((value, number)) = value else { return };
+    let Some(deviation) = value.deviation else { return };
+    if !findings.unused_scatter.contains(&value.key) {
         findings.unused_scatter.push(value.key.clone());
     }
+    findings.other_scatter.push(OtherScatter {
+        symbol,
+        direction,
+        deviation: deviation * number / value.si,
+    });
 }
 
 /// Value that is a ratio and not a percentage: a bare number is a ratio.
@@ -229,13 +248,7 @@ const MMD: Ratio = Ratio {
 };
 
 impl Ratio {
-    /// Reads the ratio; a standard deviation that stands with it has no use.
-    fn read(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
-        let value = self.measured(section, findings)?;
-        note_unused_scatter(&value, findings);
-        Some(value.si)
-    }
-
+    /// Reads the ratio.
     fn measured(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Measured> {
         let Self { key, limit, help } = *self;
         let mut value = positive(section, key, Quantity::Ratio, findings)?;

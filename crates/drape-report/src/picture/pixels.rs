@@ -5,6 +5,9 @@ use std::path::Path;
 use crate::error::Error;
 use crate::picture::Colour;
 
+/// Largest width and height of a picture that is read, in pixels.
+const SIDE_MAX: u32 = 8192;
+
 /// Picture: rows of pixels from the top, in sRGB.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
@@ -132,6 +135,28 @@ impl Picture {
         Ok(bytes)
     }
 
+    /// Returns the picture of a PNG file without transparency, eight bits a colour, as [`Picture::png`]
+    /// writes it.
+    ///
+    /// # Errors
+    /// Bytes that are no such file.
+    pub fn from_png(bytes: &[u8]) -> Result<Picture, Error> {
+        let failed = |reason: String| Error::NoPicture { reason };
+        let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        let mut reader = decoder.read_info().map_err(|error| failed(error.to_string()))?;
+        let kind = reader.output_color_type();
+        if kind != (png::ColorType::Rgb, png::BitDepth::Eight) {
+            return Err(failed("its pixels are not three bytes each".to_owned()));
+        }
+        let (width, height) = (reader.info().width, reader.info().height);
+        if width.max(height) > SIDE_MAX {
+            return Err(failed(format!("it has {width} × {height} pixels")));
+        }
+        let mut pixels = vec![0; 3 * width as usize * height as usize];
+        reader.next_frame(&mut pixels).map_err(|error| failed(error.to_string()))?;
+        Ok(Picture { width, height, pixels })
+    }
+
     /// Writes the picture to a PNG file.
     ///
     /// # Errors
@@ -148,6 +173,16 @@ impl Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_picture_comes_back_from_its_file_and_other_bytes_do_not() {
+        let picture = Picture::new(3, 2, (0..18).collect());
+        let mut file = picture.png().expect("it has pixels");
+        assert_eq!(Picture::from_png(&file), Ok(picture));
+        file.truncate(file.len() - 20);
+        assert!(matches!(Picture::from_png(&file), Err(Error::NoPicture { .. })));
+        assert!(matches!(Picture::from_png(b"GIF89a"), Err(Error::NoPicture { .. })));
+    }
 
     #[test]
     fn a_sheet_shows_every_picture_in_its_column_and_row() {

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use drape_dynamics::Simulation;
+use drape_dynamics::{Simulation, Snapshot};
 use drape_fabric::Fabric;
 use rayon::prelude::*;
 
@@ -119,6 +119,49 @@ impl Drapemeter {
         Ok(self.read(&simulation))
     }
 
+    /// Drapes a specimen as [`Drapemeter::drape`] does, and returns the cloth on its disc at the end, for a
+    /// picture.
+    ///
+    /// # Errors
+    /// Those of [`Drapemeter::drape`].
+    pub fn snapshot(
+        &self,
+        fabric: &Fabric,
+        spacing: f64,
+        seed: u64,
+    ) -> Result<Snapshot, ValidationError> {
+        let mut simulation = self.simulation(fabric, spacing, seed)?;
+        finish(&mut simulation)?;
+        Ok(simulation.snapshot())
+    }
+
+    /// Simulates the begin of a specimen's test for as long as `go_on` says, and returns the part of the
+    /// test that was simulated: from its duration that of a whole test can be told.
+    ///
+    /// # Errors
+    /// A simulation whose begin cannot be run.
+    pub fn begin(
+        &self,
+        fabric: &Fabric,
+        spacing: f64,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<f64, ValidationError> {
+        let mut simulation = self.simulation(fabric, spacing, 1)?;
+        let end = shaken(self.protocol.shake, self.sink() / self.protocol.sink_speed).end + REST;
+        loop {
+            let step = simulation.step()?;
+            if step.finished || !go_on() {
+                return Ok((step.time / end).min(1.0));
+            }
+        }
+    }
+
+    /// Returns how far the platform sinks, in m: a little more than the specimen can hang, shaken or not.
+    fn sink(&self) -> f64 {
+        let shake = self.protocol.shake.map_or(0.0, |shake| 2.0 * shake.amplitude);
+        1.1 * (self.specimen - self.disc) + shake
+    }
+
     fn simulation(
         &self,
         fabric: &Fabric,
@@ -127,8 +170,7 @@ impl Drapemeter {
     ) -> Result<Simulation, ValidationError> {
         let Self { disc, specimen, protocol } = self;
         let Protocol { sink_speed, shake, turn, step, unevenness } = protocol;
-        // A little more than the specimen can hang, shaken or not.
-        let sink = 1.1 * (specimen - disc) + shake.map_or(0.0, |shake| 2.0 * shake.amplitude);
+        let sink = self.sink();
         let grid = grid(seed).map(|part| part * spacing);
         let down = sink / sink_speed;
         let Strokes { keys, end } = shaken(*shake, down);

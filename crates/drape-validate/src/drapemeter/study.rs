@@ -54,6 +54,16 @@ impl Study {
         (squares.sum::<f64>() / (self.drapes.len() as f64 - 1.0)).sqrt()
     }
 
+    /// Returns the place of the drape whose coefficient is nearest to the mean.
+    #[must_use]
+    pub fn typical(&self) -> usize {
+        let mean = self.mean();
+        let far = |drape: &Drape| (drape.coefficient - mean).abs();
+        let places = self.drapes.iter().enumerate();
+        let nearest = places.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)));
+        nearest.map_or(0, |(place, _)| place)
+    }
+
     /// Returns the number of starts with each number of nodes.
     #[must_use]
     pub fn nodes(&self) -> BTreeMap<usize, usize> {

@@ -3,13 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use drape::input::{Diagnostic, Diagnostics};
+use drape::input::Diagnostics;
 use drape::kes::{Sheet, SheetDraft};
 
 use super::arguments::FitArguments;
 use crate::commands::sheets::{self, SHEET_FILE, drafted};
 use crate::failure::Failure;
-use crate::input;
 use drape::file;
 
 /// Sheet to be fitted.
@@ -140,15 +139,9 @@ impl Job {
 
     /// Reads the sheet.
     pub(crate) fn read(&self) -> Result<Sheet, Diagnostics> {
-        let Some(draft) = &self.draft else { return sheets::read(&self.sheet) };
-        if draft.curves + draft.values == 0 {
-            let notes = draft.notes.join("; ");
-            let message = format!("nothing in the tables can be fitted yet: {notes}");
-            let help =
-                format!("complete the sheet, and fit it: drape fit {}", self.sheet.display());
-            return Err(Diagnostic::new(&self.sheet, message).help(help).into());
+        match &self.draft {
+            Some(draft) => drafted::read(draft, &self.sheet),
+            None => sheets::read(&self.sheet),
         }
-        let document = input::with_settings(&self.sheet, &draft.text)?;
-        draft.read_document(document).map_err(|error| sheets::in_input(error, &self.sheet))
     }
 }

@@ -4,10 +4,12 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::kes::SheetDraft;
+use drape::input::{Diagnostic, Diagnostics};
+use drape::kes::{Sheet, SheetDraft};
 
 use crate::commands::sheets::in_input;
 use crate::failure::Failure;
+use crate::input;
 
 /// Letters of the name of a file at most.
 const NAME_MAX: usize = 80;
@@ -26,6 +28,18 @@ pub(crate) fn drafts(
             Ok(vec![chosen.map_err(|error| in_input(error, path))?])
         }
     }
+}
+
+/// Reads the sheet of a draft, which lies or will lie at a path.
+pub(crate) fn read(draft: &SheetDraft, sheet: &Path) -> Result<Sheet, Diagnostics> {
+    if draft.curves + draft.values == 0 {
+        let notes = draft.notes.join("; ");
+        let message = format!("nothing in the tables can be fitted yet: {notes}");
+        let help = format!("complete the sheet, and fit it: drape fit {}", sheet.display());
+        return Err(Diagnostic::new(sheet, message).help(help).into());
+    }
+    let document = input::with_settings(sheet, &draft.text)?;
+    draft.read_document(document).map_err(|error| in_input(error, sheet))
 }
 
 /// Refuses a single file for several fabrics.

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use drape::input::Setting;
+
+use crate::commands::drapes::DrapeArguments;
 
 #[derive(Args)]
 pub(crate) struct TestArguments {
@@ -15,46 +17,17 @@ pub(crate) struct TestArguments {
     /// Puts the fabric on a drapemeter instead: drape coefficient, nodes, harmonics.
     #[arg(long)]
     pub(crate) drape: bool,
-    /// The drapemeter.
-    #[arg(long, value_enum, default_value = "frl", requires = "drape")]
-    pub(crate) meter: Meter,
-    /// Shakes the specimen after it has been lowered.
-    #[arg(long, value_enum, requires = "drape")]
-    pub(crate) shake: Option<ShakeName>,
-    /// Specimens to drape, each from another start.
-    #[arg(long, value_name = "N", default_value_t = 10, requires = "drape")]
-    pub(crate) starts: u64,
+    #[command(flatten)]
+    pub(crate) drapes: DrapeArguments,
     /// Sets a key of the fabric or sheet in place of its value there, such as density=0.12; may be
     /// given several times. The key is a path of names and numbers, the value one of TOML.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Folder for a page with the loops overlaid.
+    /// Folder for a page with the loops overlaid; with --drape for the results as JSON, a picture and the
+    /// shadow of a specimen, from which drape report takes them.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,
     /// Prints the loops and values as JSON.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// Drapemeters, by the diameters of specimen and disc.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Meter {
-    /// 254 mm on 127 mm.
-    Frl,
-    /// Cusick's, 24 cm on 18 cm.
-    #[value(name = "cusick-24")]
-    Cusick24,
-    /// Cusick's, 30 cm on 18 cm.
-    #[value(name = "cusick-30")]
-    Cusick30,
-    /// Cusick's, 36 cm on 18 cm.
-    #[value(name = "cusick-36")]
-    Cusick36,
-}
-
-/// Motions that shake a draped specimen.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum ShakeName {
-    /// The disc moves up and down three times by ±10 mm, twice a second.
-    Bounce,
 }
