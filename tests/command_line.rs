@@ -9,6 +9,8 @@ mod file_kinds;
 mod grading;
 #[path = "command_line/material.rs"]
 mod material;
+#[path = "command_line/report.rs"]
+mod report;
 #[path = "command_line/resume.rs"]
 mod resume;
 #[path = "command_line/sheet_values.rs"]

@@ -2,7 +2,7 @@
 //! what was assumed.
 
 use crate::fabric::{Fabric, Provenance};
-use crate::fit::{Fit, FitSettings};
+use crate::fit::{Fit, FitSettings, fabric_values};
 use crate::kes::{Direction, Sheet, Symbol, Test, TestRecord};
 use crate::report::{
     ComparedNumber, ComparedValue, CustomerPage, LawReport, ReportedDrape, ReportedFabric,
@@ -14,12 +14,15 @@ use super::compared::ComparedFabric;
 use super::fabric::{TESTS, directions, law};
 use super::fit::curve_law;
 use super::quantity::DIRECTIONS;
-use super::sheet_value::{CheckedValue, sheet_values};
+use super::sheet_value::{CheckedValue, brief, sheet_values};
 use super::value_law::value_laws;
 use super::{kes_value, quantity};
 
 /// Values that no law has, in the order of the page.
 const OTHERS: [&str; 12] = ["W", "T", "T0", "TM", "c", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM"];
+
+/// Deformation at which a law is read, over the largest that was measured, above which the law is continued.
+const BEYOND: f64 = 1.05;
 
 /// Fabric of a report.
 pub struct CustomerSubject<'a> {
@@ -56,7 +59,53 @@ impl CustomerSubject<'_> {
         let number = compared.number(direction, symbol);
         let provenance = self.fabric.provenance.as_ref().filter(|_| self.measured.is_none());
         let is_assumed = provenance.is_some_and(|own| was_assumed(own, direction, symbol));
-        ComparedNumber { is_assumed: number.is_assumed || is_assumed, ..number }
+        let is_extrapolated = number.measured.is_none() && self.is_beyond(direction, symbol);
+        ComparedNumber { is_assumed: number.is_assumed || is_assumed || is_extrapolated, ..number }
+    }
+
+    /// Returns whether the law is read for a value beyond all that was measured of it.
+    fn is_beyond(&self, direction: Direction, symbol: Symbol) -> bool {
+        let points =
+            FitSettings::default().evaluation_points(self.sheet().unwrap_or(&Sheet::default()));
+        let (key, deformation) = match symbol {
+            Symbol::Lt | Symbol::Wt | Symbol::Rt | Symbol::Em => {
+                let values = fabric_values(self.fabric, direction, &points);
+                ("traction", values.tensile_extension())
+            }
+            Symbol::B => ("bending", Some(points.bending.slope[1])),
+            Symbol::TwoHb => ("bending", Some(points.bending.width)),
+            Symbol::G => ("shear", Some(points.shear.slope[1].sin())),
+            Symbol::TwoHg => ("shear", Some(points.shear.width.sin())),
+            Symbol::TwoHg5 => ("shear", Some(points.shear.wide.sin())),
+        };
+        let key = match key {
+            "shear" => key.to_owned(),
+            key => format!("{}.{key}", direction.name()),
+        };
+        let measured = self.fabric.provenance.as_ref().and_then(|own| own.measured_range.get(&key));
+        measured.zip(deformation).is_some_and(|(measured, read)| read > BEYOND * measured)
+    }
+
+    /// Returns a note for each law that is read beyond what was measured.
+    fn extrapolated(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for direction in DIRECTIONS {
+            let is_read = |symbol: &Symbol| {
+                let compared = ComparedFabric { fabric: self.fabric, sheet: self.sheet() };
+                compared.number(direction, *symbol).measured.is_none()
+                    && self.is_beyond(direction, *symbol)
+            };
+            let beyond: Vec<&str> =
+                Symbol::ALL.iter().filter(|own| is_read(own)).map(|own| own.name()).collect();
+            if !beyond.is_empty() {
+                notes.push(format!(
+                    "{} {}: no curve reaches so far, the law is continued beyond what was measured",
+                    beyond.join(", "),
+                    direction.name()
+                ));
+            }
+        }
+        notes
     }
 
     /// Returns the values that no law has, of the sheet or as far as the fabric keeps them.
@@ -158,13 +207,33 @@ impl CustomerSubject<'_> {
             Some((_, fit)) => &fit.assumed[..],
             None => self.fabric.provenance.as_ref().map_or(&[][..], |own| &own.assumed),
         };
-        assumed.iter().map(|note| note.replace('_', " ")).collect()
+        let assumed = assumed.iter().map(|note| note.replace('_', " "));
+        assumed.chain(self.extrapolated()).collect()
     }
 
     /// Returns warnings on the sheet and further notes.
     fn notes(&self) -> Vec<String> {
         let warnings = self.sheet().map_or(&[][..], Sheet::warnings).iter();
-        warnings.map(|warning| warning.message.clone()).chain(self.notes.iter().cloned()).collect()
+        // Standard deviations that no law uses are on the page.
+        let of_sheet = warnings.map(|warning| warning.message.clone());
+        let of_sheet =
+            of_sheet.filter(|message| !message.contains("standard deviation is not used"));
+        of_sheet.chain(self.tensile_load()).chain(self.notes.iter().cloned()).collect()
+    }
+}
+
+impl CustomerSubject<'_> {
+    /// Returns the load to which the values of the tensile test belong, where it is not that of the standard
+    /// test.
+    fn tensile_load(&self) -> Option<String> {
+        let sheet = self.sheet()?;
+        let unit = quantity::tension().kes?;
+        let [load, standard] = [sheet.maximum_tension(), Sheet::default().maximum_tension()];
+        let is_other = (load / standard - 1.0).abs() > 0.01;
+        let load = brief(load / unit.in_si);
+        is_other.then(|| {
+            format!("LT, WT, RT and EM are values at a load of {load} {}, not of 500", unit.name)
+        })
     }
 }
 

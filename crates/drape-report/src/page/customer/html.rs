@@ -11,7 +11,7 @@ use crate::page::law_report::{Limits, Trust};
 use crate::page::shown::{Marked, ShownValue};
 use crate::plot::{COLOURS, LoopPlot, Placement, STYLE, loop_figure, shadow_figure};
 use crate::text::base64::encode;
-use crate::text::number::{percent, signed_percent, typeset};
+use crate::text::number::{percent, typeset};
 
 /// Style of this page beside that of all pages.
 const CUSTOMER_STYLE: &str = include_str!("../../../templates/page/customer.css");
@@ -220,7 +220,7 @@ fn value_row<'a>(value: &'a ReportedValue, fabrics: &[usize], limits: &Limits) -
             measured,
             law: law.map(|law| if number.is_assumed { format!("({law})") } else { law }),
             difference: difference.map(|own| Marked {
-                text: typeset(&signed_percent(own.ratio)),
+                text: typeset(&in_tenths(own.ratio)),
                 apart: own.ratio.abs() > limits.difference && !is_within_scatter,
             }),
             is_within_scatter,
@@ -231,6 +231,12 @@ fn value_row<'a>(value: &'a ReportedValue, fabrics: &[usize], limits: &Limits) -
         unit: units.kes.as_ref().map_or(&units.si, |unit| &unit.name),
         cells: fabrics.iter().map(cell).collect(),
     }
+}
+
+/// Returns a difference in tenths of a per cent, finer than any instrument repeats.
+fn in_tenths(ratio: f64) -> String {
+    let percent = 100.0 * ratio;
+    if percent.abs() < 0.05 { "0.0 %".to_owned() } else { format!("{percent:+.1} %") }
 }
 
 /// Returns the loops row by row: of each test and direction those of all fabrics.
