@@ -5,10 +5,9 @@
 //! and the pages of [`pages`](crate::pages). No command computes physics, and only `main` turns a
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!
-//! [`sheets`] is shared by the commands that read sheets, [`drapes`] by those that drape fabrics. Of the
-//! commands, [`test`] reads its
+//! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
 //! fabric through [`fabric`], which stores its page through [`fit`], [`export`] has the options of
-//! pictures of [`show`], no other knows another.
+//! pictures of [`show`], and the report of [`fabric`] takes the drapes of [`test`]; no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;
@@ -16,7 +15,6 @@ pub(crate) mod convert;
 pub(crate) mod export;
 pub(crate) mod fabric;
 pub(crate) mod fit;
-pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod shell;
@@ -25,5 +23,4 @@ pub(crate) mod sweep;
 pub(crate) mod test;
 pub(crate) mod validate;
 
-mod drapes;
 mod sheets;

@@ -7,6 +7,7 @@
 //!
 //! * `test`, `symbol`, `values`, `scatter`: the KES values of one direction, in laboratory units and
 //!   in SI, and their standard deviations.
+//! * `test_record`: [`TestRecord`], for whom, when and where a fabric was tested.
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
 //! * `tables`: the files of instruments and spreadsheets, made into columns of numbers.
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
@@ -17,6 +18,7 @@ mod error;
 mod scatter;
 mod symbol;
 mod test;
+mod test_record;
 mod values;
 // Curves, and the values read off them.
 mod curves;
@@ -44,7 +46,7 @@ pub use sheets::model::Model;
 #[cfg(feature = "schema")]
 pub use sheets::schema::sheet_schema;
 pub use sheets::sheet::Sheet;
-pub use sheets::test_record::TestRecord;
 pub use symbol::Symbol;
 pub use test::{Direction, Test};
+pub use test_record::TestRecord;
 pub use values::Values;

@@ -16,7 +16,7 @@
 //! * `schema`: JSON Schema of all that.
 //! * `checks`: values and curves that cannot be right, and the load of the tensile test.
 //! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `repeats`: curves of specimens.
-//! * `model`, `test_record`, `sheet`: the sheet.
+//! * `model`, `sheet`: the sheet.
 
 pub(crate) mod axis;
 pub(crate) mod checks;
@@ -32,5 +32,4 @@ pub(crate) mod schema;
 pub(crate) mod section;
 pub(crate) mod sheet;
 pub(crate) mod spelling;
-pub(crate) mod test_record;
 pub(crate) mod value_keys;

@@ -4,7 +4,7 @@
 //! dark on white. The pages hold the same figures, where they follow the light or dark colours of
 //! the page.
 //!
-//! `axis` and `scale` map values to pixels, `margin`, `legend` and `chart` are the parts that all
+//! `axis` and `scale` map values to pixels, `legend` and `chart` are the parts that all
 //! plots over two axes share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`,
 //! `uncertainty`, `strain_map`, `seam_key` and `shadow` have layouts of their own. `svg` writes path data, `style` holds
 //! the style sheet. The templates are in `templates/plot`: pixel coordinates fill them, since plots
@@ -16,7 +16,6 @@ mod correlation;
 mod graph;
 mod legend;
 mod loop_plot;
-mod margin;
 mod overlay;
 mod scale;
 mod seam_key;

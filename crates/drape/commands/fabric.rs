@@ -4,6 +4,7 @@ mod compare;
 mod export;
 mod list;
 mod read;
+pub(crate) mod report;
 
 use std::path::{Path, PathBuf};
 

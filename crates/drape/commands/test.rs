@@ -6,11 +6,12 @@
 
 mod arguments;
 mod drapemeter;
+pub(crate) mod drapes;
 mod instruments;
 
 pub(crate) use arguments::TestArguments;
 
-use crate::commands::drapes::check_spacing;
+use self::drapes::check_spacing;
 use crate::commands::fabric;
 use crate::failure::Failure;
 use crate::input;

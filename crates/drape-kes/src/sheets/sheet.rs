@@ -12,11 +12,11 @@ use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
 use crate::sheets::section::{Choice, Measured, Section};
-use crate::sheets::test_record::TestRecord;
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, repeats};
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
+use crate::test_record::{Fault, RECORD_KEYS, TestRecord};
 use crate::values::Values;
 use drape_input::Quantity;
 
@@ -125,6 +125,18 @@ pub struct Sheet {
     readings: Vec<String>,
 }
 
+/// Reads the record of a test.
+fn record(root: &Section<'_>, findings: &mut Findings<'_>) -> TestRecord {
+    let mut record = TestRecord::default();
+    for key in RECORD_KEYS {
+        let Some(text) = root.text_or_number(key, findings) else { continue };
+        if let Err(Fault { message, help }) = record.put(key, &text) {
+            findings.error(key, message, help);
+        }
+    }
+    record
+}
+
 impl Sheet {
     /// Reads a sheet and the curves that it names; a folder means the `sheet.toml` in it.
     ///
@@ -163,7 +175,7 @@ impl Sheet {
         root.allow_values(&SHEET_KEYS, findings);
         let name = root.required_text("name", "\"cotton poplin\"", findings);
         let source = root.text("source", findings);
-        let record = TestRecord::read(root, findings);
+        let record = record(root, findings);
         let model = root.choice(&MODEL, findings);
         let whole = WholeValues::read(root, findings);
         if let Some(w) = &whole.w {

@@ -1,9 +1,22 @@
-//! Axis of a plot: its quantity and its unit, as plain data.
+//! Axis of a plot: its quantity and its unit, as plain data; and the pixels across, which frame and legend
+//! share.
 
 use serde::Serialize;
 
 use crate::check;
 use crate::error::Error;
+
+/// Width of a plot, in px.
+pub(crate) const WIDTH: f64 = 720.0;
+
+/// Room for the labels left of a frame, in px.
+pub(crate) const LEFT: f64 = 68.0;
+
+/// Room right of a frame, in px.
+pub(crate) const RIGHT: f64 = 14.0;
+
+/// First and last pixel across a frame.
+pub(crate) const ACROSS: [f64; 2] = [LEFT, WIDTH - RIGHT];
 
 /// Axis of a plot: quantity and unit.
 ///

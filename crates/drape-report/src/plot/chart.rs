@@ -4,9 +4,8 @@
 //! `loop_plot`, `graph` and `overlay` build a [`Plane`] of their values, take frames and pixels
 //! from it, and put a [`Chart`] into their template.
 
-use super::axis::Axis;
+use super::axis::{ACROSS, Axis, LEFT, RIGHT, WIDTH};
 use super::legend::{Legend, LegendEntry};
-use super::margin::{ACROSS, LEFT, RIGHT, WIDTH};
 use super::scale::{Scale, Tick};
 use super::style::Placement;
 use super::svg::px;

@@ -3,10 +3,9 @@
 use askama::Template;
 use serde::Serialize;
 
-use super::axis::Axis;
+use super::axis::{ACROSS, Axis};
 use super::chart::{Chart, Frame, Heading, Plane};
 use super::legend::{Legend, LegendItem, Sign};
-use super::margin::ACROSS;
 use super::scale::{Scale, Tick};
 use super::style::Placement;
 use super::svg::{dots, line, marks, px};

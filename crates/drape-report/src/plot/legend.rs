@@ -1,6 +1,6 @@
 //! Legend of a plot: the entries above its frame.
 
-use super::margin::{LEFT, RIGHT, WIDTH};
+use super::axis::{LEFT, RIGHT, WIDTH};
 use super::svg::px;
 
 /// Height of a row of the legend, in px.

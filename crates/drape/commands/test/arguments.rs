@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use drape::input::Setting;
 
-use crate::commands::drapes::DrapeArguments;
+use super::drapes::DrapeArguments;
 
 #[derive(Args)]
 pub(crate) struct TestArguments {

@@ -4,7 +4,7 @@ use drape::fabric::Fabric;
 use drape::reports::DrapeEvaluation;
 
 use super::arguments::TestArguments;
-use crate::commands::drapes::stored::{Written, store};
+use super::drapes::stored::{Written, store};
 use crate::commands::sheets;
 use crate::console::note;
 use crate::failure::Failure;

@@ -1,7 +1,8 @@
 //! Chart of values over the ranges that were published: an axis for each value that has a range, the
 //! figure alone for the others.
 
-use super::{CustomerPage, ReportedValue};
+use super::report::CustomerPage;
+use super::values::ReportedValue;
 use crate::page::compared_value::ComparedNumber;
 use crate::page::shown::ShownValue;
 use crate::plot::COLOURS;

@@ -3,7 +3,9 @@
 //! A row is a line of the head, a value, a drape or a point of a loop, in the laboratory's units; columns
 //! that a row has no number for are empty. Numbers have a decimal point and at most ten digits.
 
-use super::{CustomerPage, ReportedDrape, ReportedLoop, ReportedValue};
+use super::drape::ReportedDrape;
+use super::report::{CustomerPage, ReportedLoop};
+use super::values::ReportedValue;
 use crate::error::Error;
 use crate::page::compared_value::ComparedNumber;
 

@@ -4,7 +4,9 @@ use askama::Template;
 
 use super::chart::{LANE, ValueChart};
 use super::csv::{Detail, table};
-use super::{CustomerPage, ReportedDrape, ReportedLoop, ReportedNote, ReportedValue};
+use super::drape::ReportedDrape;
+use super::report::{CustomerPage, ReportedLoop, ReportedNote};
+use super::values::ReportedValue;
 use crate::error::Error;
 use crate::page::assets::{PAGE_SCRIPT, PAGE_STYLE};
 use crate::page::law_report::{Limits, Trust};

@@ -14,8 +14,8 @@ use drape::reports::{CustomerSubject, customer_page, laws_digest};
 
 pub(crate) use self::arguments::ReportArguments;
 use self::tested::Tested;
-use super::drapes::stored::{Stored, picture, read, store};
-use super::drapes::{DrapeRequest, check_spacing};
+use crate::commands::test::drapes::stored::{Stored, picture, read, store};
+use crate::commands::test::drapes::{DrapeRequest, check_spacing};
 use crate::console::{Console, note, tell};
 use crate::failure::Failure;
 use crate::input;

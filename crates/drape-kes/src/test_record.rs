@@ -3,9 +3,6 @@
 
 use drape_input::Diagnostic;
 
-use crate::sheets::findings::Findings;
-use crate::sheets::section::Section;
-
 /// Keys of the record in a sheet.
 pub(crate) const RECORD_KEYS: [&str; 5] =
     ["customer", "article", "laboratory", "date", "specimens"];
@@ -45,20 +42,6 @@ pub struct TestRecord {
 }
 
 impl TestRecord {
-    /// Reads the record of a sheet.
-    pub(crate) fn read(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
-        let mut line = |key: &str| {
-            let text = root.text_or_number(key, findings)?;
-            let checked = checked(key, &text);
-            if let Err(Fault { message, help }) = &checked {
-                findings.error(key, *message, *help);
-            }
-            checked.ok()
-        };
-        let [customer, article, laboratory, date, specimens] = RECORD_KEYS.map(&mut line);
-        Self { customer, article, laboratory, date, specimens }
-    }
-
     /// Sets a line of the record by its key in a sheet, in place of what the sheet says.
     ///
     /// # Errors
@@ -68,7 +51,12 @@ impl TestRecord {
         let fault = |Fault { message, help }| {
             Diagnostic::new(format!("--{key}"), format!("{text}: {message}")).help(help)
         };
-        let text = checked(key, text).map_err(fault)?;
+        self.put(key, text).map_err(fault)
+    }
+
+    /// Sets a line of the record by its key; a key that there is not is a fault, too.
+    pub(crate) fn put(&mut self, key: &str, text: &str) -> Result<(), Fault> {
+        let text = checked(key, text)?;
         let line = match key {
             "customer" => &mut self.customer,
             "article" => &mut self.article,
@@ -76,8 +64,8 @@ impl TestRecord {
             "date" => &mut self.date,
             "specimens" => &mut self.specimens,
             _ => {
-                let known = format!("known here: {}", RECORD_KEYS.join(", "));
-                return Err(Diagnostic::new(key, "there is no such key").help(known));
+                let help = "known here: customer, article, laboratory, date, specimens";
+                return Err(Fault { message: "there is no such key", help });
             }
         };
         *line = Some(text);
@@ -98,9 +86,9 @@ impl TestRecord {
 }
 
 /// Reason why a line of a record is refused.
-struct Fault {
-    message: &'static str,
-    help: &'static str,
+pub(crate) struct Fault {
+    pub(crate) message: &'static str,
+    pub(crate) help: &'static str,
 }
 
 /// Returns the text of a line without blanks at its ends, checked.

@@ -6,7 +6,7 @@ use clap::Args;
 use drape::kes::TestRecord;
 
 use super::tested::Tested;
-use crate::commands::drapes::DrapeArguments;
+use crate::commands::test::drapes::DrapeArguments;
 use crate::failure::Failure;
 
 #[derive(Args)]
