@@ -164,8 +164,8 @@ fn the_head_and_the_scatter_come_from_the_sheet_and_loops_have_their_fit() {
     assert!(number(value(&rows, "cupro", "B", "warp"), "law") > 0.0);
 
     // Laws alone: no measured loops, and the page says so.
-    let laws = format!("{}/fabric.toml", shipped("cupro-weave"));
-    succeeds(folder, &["report", &laws, "-o", "laws.html"]);
+    succeeds(folder, &["fit", &shipped("cupro-weave"), "-o", "laws.toml"]);
+    succeeds(folder, &["report", "laws.toml", "-o", "laws.html"]);
     let laws = text(&page(folder, "laws.html"));
     assert!(laws.contains("no measured loops and no measured values are at hand"), "{laws}");
 }
