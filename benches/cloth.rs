@@ -44,7 +44,7 @@ fn exponential() -> TractionLaw {
     };
     let friction = ProportionalFriction { ratio: 0.3, plateau: 0.5, length: 0.001 };
     TractionLaw {
-        buckling: Buckling { strain: friction.buckling_strain(&toe) },
+        buckling: Buckling { strain: friction.buckling_strain(&toe), ..Buckling::default() },
         backbone: TractionBackbone::Exponential(toe),
         friction: TractionFriction::Proportional(friction),
     }
