@@ -1,7 +1,7 @@
 //! Record of a test, for the head of a report: for whom, of which article, when, where, on how many
 //! specimens.
 
-use drape_input::Diagnostic;
+use drape_input::{Diagnostic, Diagnostics};
 
 /// Keys of the record in a sheet.
 pub(crate) const RECORD_KEYS: [&str; 5] =
@@ -47,9 +47,9 @@ impl TestRecord {
     /// # Errors
     /// There is no such key, the text is empty or not in one line, a date is none, or there are no
     /// specimens.
-    pub fn set(&mut self, key: &str, text: &str) -> Result<(), Diagnostic> {
+    pub fn set(&mut self, key: &str, text: &str) -> Result<(), Diagnostics> {
         let fault = |Fault { message, help }| {
-            Diagnostic::new(format!("--{key}"), format!("{text}: {message}")).help(help)
+            Diagnostic::new(format!("--{key}"), format!("{text}: {message}")).help(help).into()
         };
         self.put(key, text).map_err(fault)
     }

@@ -98,11 +98,12 @@ def test_a_constant_force_is_a_fall_in_its_direction(towel):
     forces = push(simulation, [0.0, 1.0, 3.0])
     for _ in range(50):
         simulation.step(forces=forces)
-    # The sums of triangles give the masses only on the whole: the mean falls as a point.
+    # The sums of triangles give the masses only on the whole: the mean falls as a point, and is pushed
+    # aside by less than a thousandth of its fall.
     t = simulation.time
     masses = np.linalg.norm(forces, axis=1)
     moved = np.average(simulation.positions - start, axis=0, weights=masses)
-    assert moved == pytest.approx([0, 0.5 * t * t, 1.5 * t * t], rel=0.03, abs=1e-6)
+    assert moved == pytest.approx([0, 0.5 * t * t, 1.5 * t * t], rel=0.03, abs=1e-5)
     energy = simulation.energy()
     assert energy["work_in"] == pytest.approx(energy["kinetic"], rel=0.05)
     assert abs(energy["remainder"]) < 1e-4 * energy["kinetic"]

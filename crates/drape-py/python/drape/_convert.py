@@ -7,8 +7,7 @@ from pathlib import Path
 
 from . import _drape
 from ._errors import UsageError
-from ._fit import StrPath
-from ._given import path_of
+from ._given import StrPath, path_of
 
 # Name of a sheet in its folder.
 _SHEET = "sheet.toml"

@@ -22,7 +22,7 @@ def refuse(call: str, wanted: str, given: object, advice: str) -> UsageError:
     shown = repr(os.fspath(given)) if isinstance(given, str | os.PathLike) else repr(given)
     short = shown if len(shown) <= _LETTERS else shown[: _LETTERS - 1] + "…"
     kind = type(given).__name__
-    return UsageError(f"{call} takes {wanted}, not {short} ({kind}): {advice.format(short)}")
+    return UsageError(f"{call} takes {wanted}, not {short} ({kind}): {advice.replace('{}', short)}")
 
 
 def expect(call: str, wanted: type[Any], given: object, advice: tuple[str, str]) -> None:
