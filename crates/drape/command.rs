@@ -180,7 +180,7 @@ impl Command {
     }
 }
 
-/// Refuses what `drape convert` has nothing to make of: what is of the project already.
+/// Refuses a file that `drape convert` cannot convert: `drape` reads the file as it is.
 fn convertible(from: &Path) -> Result<(), Failure> {
     let wanted = [
         FileKind::Drawing,

@@ -30,7 +30,8 @@ pub struct Problem {
     pub meant: Option<String>,
 }
 
-/// Returns a number with a unit of a thousandth in which it would be within its range.
+/// Returns the number with `unit`, the thousandth of the SI unit, where the number in that unit is within
+/// `range`; `None` where it is not.
 fn meant(value: f64, range: &RangeInclusive<f64>, unit: &str) -> Option<String> {
     range.contains(&(1e-3 * value)).then(|| format!("{} {unit}", figure(value)))
 }

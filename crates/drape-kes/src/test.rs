@@ -31,6 +31,41 @@ impl Test {
             Self::LoopBending => "loop-bending",
         }
     }
+
+    /// Largest curvature of the standard bending test (KES-FB2), in 1/m: 2.5 1/cm.
+    pub const LARGEST_CURVATURE: f64 = 250.0;
+    /// Largest angle of the standard shear test (KES-FB1), in rad: 8°.
+    pub const LARGEST_ANGLE: f64 = 8.0 * std::f64::consts::PI / 180.0;
+
+    /// Returns the largest deformation of the standard test to each side. `None` where the test ends
+    /// at a load, or no standard test exists.
+    ///
+    /// ```
+    /// assert_eq!(drape_kes::Test::Bending.standard_deformation(), Some(250.0));
+    /// ```
+    #[must_use]
+    pub fn standard_deformation(self) -> Option<f64> {
+        match self {
+            Self::Bending => Some(Self::LARGEST_CURVATURE),
+            Self::Shear => Some(Self::LARGEST_ANGLE),
+            Self::Tensile | Self::LoopBending => None,
+        }
+    }
+
+    /// Returns a deformation of the test in the unit in which laboratories print it: percent, degrees
+    /// or 1/cm.
+    ///
+    /// ```
+    /// assert_eq!(drape_kes::Test::Bending.describe(250.0), "2.50 1/cm");
+    /// ```
+    #[must_use]
+    pub fn describe(self, deformation: f64) -> String {
+        match self {
+            Self::Tensile | Self::LoopBending => format!("{:.2} %", 100.0 * deformation),
+            Self::Shear => format!("{:.2}°", deformation.to_degrees()),
+            Self::Bending => format!("{:.2} 1/cm", 0.01 * deformation),
+        }
+    }
 }
 
 /// Yarns along which a strip was cut and loaded.

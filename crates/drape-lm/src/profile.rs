@@ -37,7 +37,7 @@ const FIT_TOLERANCE: f64 = 1e-10;
 pub struct ProfileSettings {
     /// Probability that an interval contains the true value, 0 to 1.
     pub level: f64,
-    /// MinimiserSettings with which the fit was made.
+    /// Settings with which the fit was made.
     pub minimiser: MinimiserSettings,
 }
 

@@ -10,13 +10,7 @@ use crate::error::Error;
 /// flat, a larger one that of a fabric that has folded.
 const COMPRESSION_STRAIN: f64 = -0.01;
 
-/// Largest strain at which a law may have a load, a ratio.
-const LARGEST_STRAIN: f64 = 10.0;
-
-/// Bisections for the strain at a load: the bits of a double.
-const BISECTIONS: usize = 60;
-
-/// Stretch of a fabric by a load, on its first stretching: friction adds to it.
+/// Strain of a fabric that a load stretches for the first time, against the friction of the fabric.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
     /// Load per width, in N/m.
@@ -30,21 +24,8 @@ pub struct Stretch {
 impl Stretch {
     /// Returns the stretch of a law by a load, in N/m.
     pub(crate) fn of(law: &TractionLaw, direction: &'static str, load: f64) -> Result<Self, Error> {
-        let virgin = law.virgin();
-        let is_below = |strain: f64| law.respond(&virgin, strain).load < load;
-        let (mut low, mut high) = (0.0, LARGEST_STRAIN);
-        if is_below(high) {
-            return Err(Error::NoStretch { direction, load });
-        }
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            if is_below(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        Ok(Self { load, strain: high, stiffness: load / high })
+        let strain = law.strain_at(load).ok_or(Error::NoStretch { direction, load })?;
+        Ok(Self { load, strain, stiffness: load / strain })
     }
 }
 

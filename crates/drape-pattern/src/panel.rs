@@ -183,8 +183,8 @@ impl Panel {
         None
     }
 
-    /// Returns the panel with open darts cut into one of its edges, in the order of their mouths. The
-    /// parts of the edge are numbered after its name.
+    /// Returns the panel with open darts cut into one edge of the panel, in the order of the mouths of the
+    /// darts. The darts part the edge; each part has the name of the edge and a number.
     ///
     /// # Errors
     /// The edge has no such name, mouths overlap or lie beyond its ends, or the outline then meets

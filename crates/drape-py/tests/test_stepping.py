@@ -92,18 +92,18 @@ def push(simulation, acceleration):
 
 def test_a_constant_force_is_a_fall_in_its_direction(towel):
     text = towel.read_text().replace('pin = [{ panel = "towel", edge = "top" }]', "gravity = [0, 0, 0]")
-    towel.write_text(text + "[air]\ndensity = 0\n")
+    # What the solver leaves in a step pushes the cloth aside: it leaves little here.
+    towel.write_text(text + "solver.tolerance = 1e-6\n[air]\ndensity = 0\n")
     simulation = drape.Simulation(drape.Scene.read(towel))
     start = simulation.positions
     forces = push(simulation, [0.0, 1.0, 3.0])
     for _ in range(50):
         simulation.step(forces=forces)
-    # The sums of triangles give the masses only on the whole: the mean falls as a point, and is pushed
-    # aside by less than a thousandth of its fall.
+    # The sums of triangles give the masses only on the whole: the mean falls as a point.
     t = simulation.time
     masses = np.linalg.norm(forces, axis=1)
     moved = np.average(simulation.positions - start, axis=0, weights=masses)
-    assert moved == pytest.approx([0, 0.5 * t * t, 1.5 * t * t], rel=0.03, abs=1e-5)
+    assert moved == pytest.approx([0, 0.5 * t * t, 1.5 * t * t], rel=0.03, abs=1e-6)
     energy = simulation.energy()
     assert energy["work_in"] == pytest.approx(energy["kinetic"], rel=0.05)
     assert abs(energy["remainder"]) < 1e-4 * energy["kinetic"]

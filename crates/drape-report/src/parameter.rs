@@ -44,6 +44,17 @@ impl Units {
         Units { kes, ..self }
     }
 
+    /// Returns the name and the size, in SI units, of the unit of the laboratory, or of the SI unit
+    /// where there is none.
+    pub(crate) fn first(&self) -> (&str, f64) {
+        self.kes.as_ref().map_or((&self.si, 1.0), |unit| (&unit.name, unit.in_si))
+    }
+
+    /// Returns the name of the SI unit where the first unit is another.
+    pub(crate) fn second(&self) -> Option<&str> {
+        self.kes.as_ref().map(|_| self.si.as_str())
+    }
+
     /// Refuses names that cannot be shown and a size out of range.
     pub(crate) fn check(&self) -> Result<(), Error> {
         check::text("the name of a unit", &self.si)?;

@@ -105,9 +105,9 @@ impl SeamBending {
     /// of a dart, and at the breaks of a seam, nothing bends between them.
     ///
     /// # Errors
-    /// When a seam has fewer than two pairs, a particle does not exist, other neighbours on a side
-    /// are not neighbours on the outline, a particle is tied to others than those of the other side, or
-    /// stiffness or angle are out of range.
+    /// When a seam has fewer than two pairs, a particle does not exist, neighbours on a side of the
+    /// seam are not neighbours on the outline of the panel, a particle is tied to particles that are not
+    /// on the other side of the seam, or a stiffness or an angle is out of range.
     pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, Error> {
         let builder = SeamBuilder::of(panels);
         let mut connectors = Vec::new();

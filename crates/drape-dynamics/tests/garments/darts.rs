@@ -6,7 +6,7 @@ use drape_dynamics::{Simulation, Status};
 use drape_input::Document;
 use drape_scene::Scene;
 
-/// Fabric without friction, so that its shape at rest does not depend on the way there.
+/// Fabric without friction: its shape at rest does not depend on the motion before.
 const FABRIC: &str = r#"name = "elastic"
 density = 0.15
 thickness = 0.0003
@@ -85,8 +85,11 @@ fn a_tube_with_closed_darts_has_the_girth_that_they_leave() {
     for height in [0.06, 0.09, 0.12, 0.15, 0.18] {
         let open = 1.0 - (height - 0.12_f64).abs() / 0.1;
         let expected = width - 4.0 * intake * open;
-        let found = girth(&tube, height);
-        assert!((found / expected - 1.0).abs() < 0.02, "{found} m at {height} m for {expected} m");
+        let measured = girth(&tube, height);
+        assert!(
+            (measured / expected - 1.0).abs() < 0.02,
+            "{measured} m at {height} m for {expected} m"
+        );
     }
     // Above and below the darts the tube keeps its width.
     for name in ["top", "bottom"] {

@@ -84,6 +84,48 @@ pub enum TractionFriction {
     Proportional(ProportionalFriction),
 }
 
+/// Largest strain at which a law may carry a load, a ratio.
+const LARGEST_STRAIN: f64 = 10.0;
+/// Bisections for the strain at a load: the bits of a double.
+const BISECTIONS: usize = 60;
+
+impl TractionLaw {
+    /// Returns the strain at which a virgin fabric carries a `load`, in N/m, with its friction; `None`
+    /// where the fabric does not carry the load at any strain up to ten.
+    ///
+    /// ```
+    /// use drape_fabric::{BlimanSorine, Buckling, Primed, TractionBackbone, TractionLaw};
+    ///
+    /// let toe = Primed { stiffness: 4000.0, toe_ratio: 0.7, toe_strain: 0.01, toe_strain_after: 0.01 };
+    /// let law = TractionLaw {
+    ///     backbone: TractionBackbone::Primed(toe),
+    ///     friction: BlimanSorine::none().into(),
+    ///     buckling: Buckling::default(),
+    /// };
+    /// let strain = law.strain_at(toe.toe_load()).expect("the fabric carries the load of its toe");
+    /// assert!((strain - 0.01).abs() < 1e-12);
+    /// assert_eq!(law.strain_at(1e6), None);
+    /// ```
+    #[must_use]
+    pub fn strain_at(&self, load: f64) -> Option<f64> {
+        let virgin = self.virgin();
+        let is_below = |strain: f64| self.respond(&virgin, strain).load < load;
+        let (mut low, mut high) = (0.0, LARGEST_STRAIN);
+        if is_below(high) {
+            return None;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if is_below(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(high)
+    }
+}
+
 impl From<BlimanSorine> for TractionFriction {
     fn from(friction: BlimanSorine) -> Self {
         Self::Plateau(friction)

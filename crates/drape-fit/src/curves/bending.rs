@@ -42,8 +42,8 @@ use crate::values::of_law::bending_values;
 /// let moment = drive(&law, law.virgin(), &curvature);
 /// let curve = Curve::new(Test::Bending, Direction::Weft, curvature, moment).expect("it moves");
 ///
-/// let found = identify_bending(&curve, &FitSettings::default())?.law;
-/// assert!((found.friction.plateau() / 6e-4 - 1.0).abs() < 1e-9);
+/// let law = identify_bending(&curve, &FitSettings::default())?.law;
+/// assert!((law.friction.plateau() / 6e-4 - 1.0).abs() < 1e-9);
 /// # Ok::<(), drape_fit::Error>(())
 /// ```
 ///

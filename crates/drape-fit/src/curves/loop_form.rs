@@ -103,8 +103,8 @@ impl LoopForm {
         Box::new(LoopForward { history, path, form: self })
     }
 
-    /// Returns the law with parameters in the order of `MeasuredLoop::starts`: those of the elastic
-    /// load, the zero, the growth if there is one, and those of the friction.
+    /// Returns the law with the parameters `p`, in the order of `MeasuredLoop::starts`: the parameters
+    /// of the elastic load, the zero, the growth if there is one, and the parameters of the friction.
     pub(crate) fn law(self, p: &[f64]) -> LoopLaw {
         let (elastic, rest) = p.split_at(self.elastic_count());
         let backbone = match *elastic {

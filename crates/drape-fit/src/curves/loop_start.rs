@@ -324,11 +324,11 @@ mod tests {
                     .into_iter()
                     .min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
                     .expect("a guess");
-                let found = [&best.elastic[..], &[best.zero], &best.friction].concat();
+                let start = [&best.elastic[..], &[best.zero], &best.friction].concat();
                 let ratio = lengths[fast] / lengths[slow];
                 let exact = [1e-5, 2e-4, 3e-4, lengths[slow], part, ratio];
-                for (found, exact) in found.iter().zip(exact) {
-                    assert!((found / exact - 1.0).abs() < 1e-6, "{found} is not {exact}");
+                for (start, exact) in start.iter().zip(exact) {
+                    assert!((start / exact - 1.0).abs() < 1e-6, "{start} is not {exact}");
                 }
                 assert!((best.growth - growth).abs() < 1e-6 * 0.002, "{}", best.growth);
             }

@@ -58,8 +58,8 @@ fn departure(fit: &CurveFit) -> String {
          and {}, where it lies {side} by {:.1} % of the range",
         100.0 * Candidate::FOLLOWS,
         branch + 1,
-        deformation(fit.test, from),
-        deformation(fit.test, to),
+        fit.test.describe(from),
+        fit.test.describe(to),
         100.0 * departure.abs() / span
     )
 }
@@ -73,15 +73,6 @@ struct Part {
     to: f64,
     /// Mean load of the law less the mean measured load.
     departure: f64,
-}
-
-/// Returns a deformation in the unit in which laboratories print it.
-fn deformation(test: Test, value: f64) -> String {
-    match test {
-        Test::Tensile | Test::LoopBending => format!("{:.2} %", 100.0 * value),
-        Test::Shear => format!("{:.2}°", value.to_degrees()),
-        Test::Bending => format!("{:.2} 1/cm", 0.01 * value),
-    }
 }
 
 /// Returns what it means that a parameter lies at its bound.

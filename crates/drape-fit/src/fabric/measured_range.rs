@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 
 use drape_kes::{Curve, Direction, Sheet, Test};
 
-use crate::values::of_law::{LARGEST_ANGLE, LARGEST_CURVATURE};
-
 /// Returns the largest measured deformation of each law by its key path: a strain, a curvature in
 /// 1/m, the sine of a shear angle.
 ///
@@ -26,10 +24,10 @@ pub(crate) fn measured_range(sheet: &Sheet) -> BTreeMap<String, f64> {
         let name = direction.name();
         let tensile = of(Test::Tensile, direction).or(values.tensile_extension());
         deformations.extend(tensile.map(|strain| (format!("{name}.traction"), strain)));
-        let from_values = values.bending_rigidity().map(|_| LARGEST_CURVATURE);
+        let from_values = values.bending_rigidity().map(|_| Test::LARGEST_CURVATURE);
         let bending = of(Test::Bending, direction).or(from_values);
         deformations.extend(bending.map(|curvature| (format!("{name}.bending"), curvature)));
-        let from_values = values.shear_stiffness().map(|_| LARGEST_ANGLE);
+        let from_values = values.shear_stiffness().map(|_| Test::LARGEST_ANGLE);
         if let Some(angle) = of(Test::Shear, direction).or(from_values) {
             let most = deformations.entry("shear".into()).or_insert(0.0_f64);
             *most = most.max(angle.sin());

@@ -35,8 +35,8 @@ impl Candidate {
     /// loops, because its length is free to fit the noise; with this lead it is one in a hundred.
     pub const LEAD: f64 = 6.0;
 
-    /// Part of the misfit of a law below which the misfit of another law is smaller beyond doubt,
-    /// as long as both are larger than the noise of the load.
+    /// Ratio of the misfits of two laws below which the law with the smaller misfit is certainly the
+    /// better one, as long as both misfits are larger than the noise of the load.
     ///
     /// The laws compared have one or two parameters more or less, each of which reduces the misfit
     /// of a curve of a hundred points by half a per cent if it fits nothing but noise. A fifth is
@@ -69,8 +69,8 @@ pub enum Choice {
     /// It is the first, in the order of preference, whose criterion is within [`Candidate::LEAD`] of
     /// the smallest, of those that predict better than all before them.
     Supported,
-    /// Its misfit is smaller than [`Candidate::SMALLER`] of that of the law that the criterion
-    /// supports, and larger than the noise.
+    /// Its misfit is larger than the noise, and less than [`Candidate::SMALLER`] times the misfit of
+    /// the law that the criterion supports.
     Closer,
     /// It is the first that follows the curve, [`Candidate::follows`].
     Follows,

@@ -5,16 +5,8 @@ use drape_kes::{BendingPoints, Curve, Direction, EvaluationPoints, ShearPoints, 
 
 use crate::values::traction::cycle_values;
 
-/// Largest curvature of the bending test, in 1/m.
-pub(crate) const LARGEST_CURVATURE: f64 = 250.0;
-/// Largest angle of the shear test, in rad: 8°.
-pub(crate) const LARGEST_ANGLE: f64 = 8.0 * std::f64::consts::PI / 180.0;
 /// Deformation of the tip of a cycle, at least, over the outermost deformation that is read.
 const TIP: f64 = 1.1;
-/// Largest strain at which a law may have the largest load of the tensile test, a ratio.
-const LARGEST_STRAIN: f64 = 10.0;
-/// Bisections for the strain at a load: the bits of a double.
-const BISECTIONS: usize = 60;
 
 /// KES value of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +19,7 @@ pub(crate) struct LawValue {
 /// Returns LT, WT, RT and EM of a traction law, for an exact cycle up to the load `maximum`, in N/m,
 /// and back to zero load.
 pub(crate) fn tensile_values(law: &TractionLaw, maximum: f64) -> Vec<LawValue> {
-    let extension = strain_at(law, maximum);
+    let extension = law.strain_at(maximum);
     let values = extension.map(|extension| {
         let [load, work, recovered] = cycle_values(law, extension);
         [work / (0.5 * load * extension), work, recovered / work, extension]
@@ -40,25 +32,6 @@ pub(crate) fn tensile_values(law: &TractionLaw, maximum: f64) -> Vec<LawValue> {
     symbols.into_iter().enumerate().map(value).collect()
 }
 
-/// Returns the strain at which a virgin fabric carries a load; `None` where it never does.
-fn strain_at(law: &TractionLaw, load: f64) -> Option<f64> {
-    let virgin = law.virgin();
-    let below = |strain: f64| law.respond(&virgin, strain).load < load;
-    let (mut low, mut high) = (0.0, LARGEST_STRAIN);
-    if below(high) {
-        return None;
-    }
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (low + high);
-        if below(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(high)
-}
-
 /// Returns B and 2HB of a bending law, for a test to ±`largest`, in 1/m.
 pub(crate) fn bending_values(
     law: &BendingLaw,
@@ -66,7 +39,7 @@ pub(crate) fn bending_values(
     largest: f64,
 ) -> Vec<LawValue> {
     let [low, high] = points.slope;
-    let path = cycle(&[low, high, points.width], largest, LARGEST_CURVATURE);
+    let path = cycle(&[low, high, points.width], largest, Test::LARGEST_CURVATURE);
     let load = drive(law, law.virgin(), &path);
     let points =
         EvaluationPoints { maximum_tension: 0.0, bending: *points, shear: ShearPoints::default() };
@@ -96,7 +69,7 @@ fn read(test: Test, path: Vec<f64>, load: Vec<f64>, points: &EvaluationPoints) -
 /// Returns the angles of a shear test to ±`largest` that passes the evaluation points.
 pub(crate) fn shear_angles(points: &ShearPoints, largest: f64) -> Vec<f64> {
     let [low, high] = points.slope;
-    cycle(&[low, high, points.width, points.wide], largest, LARGEST_ANGLE)
+    cycle(&[low, high, points.width, points.wide], largest, Test::LARGEST_ANGLE)
 }
 
 /// Returns a cycle from rest to one side, the other, and back, with a point wherever a value is

@@ -9,7 +9,7 @@ use drape_kes::{Curve, Direction, ShearPoints, ShearValues, Test};
 use crate::forward::friction_path::{FrictionPath, UnitFriction};
 use crate::values::assumed::SHEAR_FRICTION_LENGTH;
 use crate::values::matched::Matched;
-use crate::values::of_law::{LARGEST_ANGLE, shear_angles};
+use crate::values::of_law::shear_angles;
 
 /// Largest length of shear friction, a sine: that of the whole test. A longer one is a stiffness.
 const LARGEST_LENGTH: f64 = 0.139;
@@ -102,7 +102,7 @@ struct UnitValues<'a> {
 
 impl<'a> UnitValues<'a> {
     fn new(points: &'a ShearPoints) -> Self {
-        let angles = shear_angles(points, LARGEST_ANGLE);
+        let angles = shear_angles(points, Test::LARGEST_ANGLE);
         let sines: Vec<f64> = angles.iter().map(|angle| angle.sin()).collect();
         Self { points, path: FrictionPath::new(&sines), angles, sines }
     }

@@ -1,11 +1,9 @@
 //! KES values of a fabric's laws, from simulated KES tests.
 
 use drape_fabric::Fabric;
-use drape_kes::{Direction, EvaluationPoints, Values};
+use drape_kes::{Direction, EvaluationPoints, Test, Values};
 
-use crate::values::of_law::{
-    LARGEST_ANGLE, LARGEST_CURVATURE, bending_values, shear_values, tensile_values,
-};
+use crate::values::of_law::{bending_values, shear_values, tensile_values};
 
 /// Returns the KES values of one direction of a fabric, in the laboratory's units.
 ///
@@ -36,8 +34,8 @@ pub fn fabric_values(fabric: &Fabric, direction: Direction, points: &EvaluationP
     };
     let mut values = Values::default();
     let tensile = tensile_values(&laws.traction, points.maximum_tension);
-    let bending = bending_values(&laws.bending, &points.bending, LARGEST_CURVATURE);
-    let shear = shear_values(&fabric.shear, &points.shear, LARGEST_ANGLE);
+    let bending = bending_values(&laws.bending, &points.bending, Test::LARGEST_CURVATURE);
+    let shear = shear_values(&fabric.shear, &points.shear, Test::LARGEST_ANGLE);
     for read in tensile.into_iter().chain(bending).chain(shear) {
         *values.get_mut(read.symbol) = read.value;
     }

@@ -108,12 +108,12 @@ impl<'a> Reader<'a> {
         self.fault_of(message, help, meant);
     }
 
-    /// Writes down a mistake in the value.
+    /// Records a mistake in the value.
     fn fault(&self, message: String, help: String) {
         self.fault_of(message, help, None);
     }
 
-    /// Writes down a mistake in the value, which another value, in TOML, remedies.
+    /// Records a mistake in the value, with `meant`: the TOML text of the value that is right, if it is known.
     fn fault_of(&self, message: String, help: String, meant: Option<String>) {
         let mut state = self.state.borrow_mut();
         if let Some((path, address)) = self.path.keyed() {

@@ -35,10 +35,6 @@ const FLAT_START: f64 = 0.15;
 const REACHED: f64 = 0.9;
 /// Largest deformation to one side, over that to the other side, of half a loop.
 const HALF: f64 = 0.1;
-/// Largest curvature of the standard bending test, in 1/m.
-const BENDING_TEST: f64 = 250.0;
-/// Largest angle of the standard shear test, in rad: 8°.
-const SHEAR_TEST: f64 = 8.0 * std::f64::consts::PI / 180.0;
 
 impl Curve {
     /// Returns the curve as a law is fitted to it, with what was done and found.
@@ -122,12 +118,10 @@ impl Curve {
         if let Some(path) = path {
             remarks.push(path.describe(self.deformation_range().span()));
         }
-        match self.test {
-            Test::Tensile if !zero_is_given => remarks.extend(tensile_remark(self)),
-            Test::Bending => remarks.extend(loop_remark(self, BENDING_TEST, inverse_centimetres)),
-            Test::Shear => remarks.extend(loop_remark(self, SHEAR_TEST, degrees)),
-            Test::Tensile | Test::LoopBending => {}
+        if self.test == Test::Tensile && !zero_is_given {
+            remarks.extend(tensile_remark(self));
         }
+        remarks.extend(loop_remark(self));
         remarks
     }
 
@@ -182,14 +176,6 @@ fn rupture(curve: &Curve) -> Option<Rupture> {
     None
 }
 
-fn inverse_centimetres(curvature: f64) -> String {
-    format!("{:.2} 1/cm", 0.01 * curvature)
-}
-
-fn degrees(angle: f64) -> String {
-    format!("{:.2}°", angle.to_degrees())
-}
-
 /// Returns a remark on the zero of strain of a tensile curve.
 fn tensile_remark(curve: &Curve) -> Option<String> {
     if curve.slack {
@@ -218,7 +204,8 @@ fn tensile_remark(curve: &Curve) -> Option<String> {
 }
 
 /// Returns a remark on a loop that is half a loop, or smaller than the loop of the standard test.
-fn loop_remark(curve: &Curve, standard: f64, words: fn(f64) -> String) -> Option<String> {
+fn loop_remark(curve: &Curve) -> Option<String> {
+    let standard = curve.test.standard_deformation()?;
     let range = curve.deformation_range();
     let (most, least) = (range.high.max(-range.low), range.high.min(-range.low));
     let to_one_side = least < HALF * most;
@@ -227,7 +214,7 @@ fn loop_remark(curve: &Curve, standard: f64, words: fn(f64) -> String) -> Option
     if !to_one_side && !short {
         return None;
     }
-    let (reach, standard) = (words(reaches), words(standard));
+    let (reach, standard) = (curve.test.describe(reaches), curve.test.describe(standard));
     let what = if to_one_side { "half a loop, to one side" } else { "a loop" };
     let goes = if short {
         format!("; it ends at {reach}, where the standard test goes on to {standard}")

@@ -314,9 +314,6 @@ mod tests {
                 let errors = path.iter().zip(&truth).map(|(a, b)| (a - b).powi(2));
                 let rms = (errors.sum::<f64>() / truth.len() as f64).sqrt();
                 let worst = path.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                println!(
-                    "{points} points, noise {noise}: rms {rms:.1e}, worst {worst:.1e} {done:?}"
-                );
                 assert!(rms < 1.1 * noise, "{points} points, noise {noise}: rms {rms}");
                 // A turn is known to a few times the noise of a window.
                 assert!(worst < 4.0 * noise, "{points} points, noise {noise}: {worst}");

@@ -154,6 +154,14 @@ pub(crate) fn moments(numbers: &[f64]) -> (f64, Option<f64>) {
     (mean, (numbers.len() > 1).then(|| (squares / (count - 1.0)).sqrt()))
 }
 
+/// Returns the root of the mean square of standard deviations; `None` where one is missing.
+fn pooled(deviations: impl ExactSizeIterator<Item = Option<f64>>) -> Option<f64> {
+    let count = deviations.len() as f64;
+    let square = |deviation: Option<f64>| deviation.map(|deviation| deviation.powi(2));
+    let squares = deviations.map(square).sum::<Option<f64>>()?;
+    (count > 0.0).then(|| (squares / count).sqrt())
+}
+
 /// Averages the readings of one item and direction.
 fn average(
     item: Item,
@@ -201,9 +209,7 @@ fn average(
         averaged.deviation = if specimens.len() > 1 && (are_tagged || specimens.len() > 2) {
             deviation.filter(|deviation| *deviation > 0.0)
         } else {
-            let own: Vec<f64> = specimens.iter().filter_map(|s| s.deviation).collect();
-            let squares = own.iter().map(|deviation| deviation.powi(2)).sum::<f64>();
-            (own.len() == specimens.len()).then(|| (squares / own.len() as f64).sqrt())
+            pooled(specimens.iter().map(|specimen| specimen.deviation))
         };
         // Means of face and back stand for one.
         let of_table: Vec<f64> = means.iter().map(|mean| own(mean, mean.number)).collect();
@@ -282,14 +288,8 @@ fn specimens(readings: &[&Reading], own: impl Fn(&Reading, f64) -> f64) -> Vec<S
     }
     let joined = |parts: Vec<&Reading>| {
         let numbers: Vec<f64> = parts.iter().map(|part| own(part, part.number)).collect();
-        let deviations: Vec<f64> =
-            parts.iter().filter_map(|part| Some(own(part, part.deviation?))).collect();
-        let squares = deviations.iter().map(|deviation| deviation.powi(2)).sum::<f64>();
-        let whole = !deviations.is_empty() && deviations.len() == parts.len();
-        Specimen {
-            number: moments(&numbers).0,
-            deviation: whole.then(|| (squares / deviations.len() as f64).sqrt()),
-        }
+        let deviation = |part: &&Reading| Some(own(part, part.deviation?));
+        Specimen { number: moments(&numbers).0, deviation: pooled(parts.iter().map(deviation)) }
     };
     let mut specimens: Vec<Specimen> = parts.into_values().map(joined).collect();
     // A value without a direction that stands under both is one value.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::results::average::moments;
 use crate::results::item::Item;
 use crate::results::label::letters::half_width;
 use crate::results::label::{Axis, Cut, Statistic};
@@ -139,9 +140,8 @@ fn are_alike(readings: &[Reading]) -> bool {
         }
     }
     let variation = |numbers: &Vec<f64>| {
-        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-        let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
-        (squares / (numbers.len() - 1).max(1) as f64).sqrt() / mean.abs()
+        let (mean, deviation) = moments(numbers);
+        deviation.unwrap_or(0.0) / mean.abs()
     };
     let of_body =
         |item: &Item| matches!(item, Item::Key("W" | "T" | "T0" | "TM") | Item::Thickness(_));

@@ -315,7 +315,7 @@ impl Label {
         self.unit = unit.map(|text| WrittenUnit { text, is_known: false });
     }
 
-    /// Removes a unit that is of the load or the pressure of the test, and not of the item: `Thickness at 2 gf/cm²`.
+    /// Removes the unit of a load or a pressure at which the item was measured: `Thickness at 2 gf/cm²`.
     fn drop_condition(&mut self) {
         const CONDITIONS: [Quantity; 3] =
             [Quantity::Pressure, Quantity::ForcePerWidth, Quantity::Angle];
@@ -342,7 +342,7 @@ fn is_plain_symbol(text: &str) -> bool {
     text.split_whitespace().count() <= 2 && text.chars().count() <= 9
 }
 
-/// Returns whether a symbol among words is one of an item: beside at most three other words.
+/// Returns whether a text is so short, four words at most, that a symbol in it is the symbol of an item.
 fn is_alone_enough(words: &str) -> bool {
     words.split_whitespace().count() <= 4
 }

@@ -3,11 +3,13 @@
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
+use crate::check;
+use crate::error::Error;
 use crate::parameter::Units;
 
-/// Standard deviations within which two measured values are not told apart: 95 of 100 that are the
-/// same are.
-const SCATTER: f64 = 1.96;
+/// Standard deviations within which two numbers are not told apart: 95 of 100 measurements of one
+/// value are as close.
+pub(super) const SCATTER: f64 = 1.96;
 
 /// Value of several fabrics, in SI.
 ///
@@ -107,6 +109,21 @@ impl ComparedValue {
         let both = first.deviation.zip(other.deviation).filter(|_| of == Compared::Measured);
         let is_within = |(a, b): (f64, f64)| (two - one).abs() <= SCATTER * a.hypot(b);
         Some(Difference { ratio, of, is_within_scatter: both.map(is_within) })
+    }
+
+    /// Returns the symbol and the direction.
+    pub(super) fn title(&self) -> String {
+        format!("{} {}", self.symbol, self.direction)
+    }
+
+    /// Refuses texts that cannot be shown, and units and numbers out of range.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        for text in [&self.symbol, &self.name, &self.direction] {
+            check::text("a text of a compared value", text)?;
+        }
+        self.units.check()?;
+        let numbers = self.numbers.iter().flat_map(|own| [own.measured, own.deviation, own.law]);
+        numbers.flatten().try_for_each(|number| check::number(|| self.title(), number))
     }
 
     /// Returns the differences of all fabrics from the first.

@@ -184,12 +184,7 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
     });
     let models = law.models.iter().zip(law.evidence());
     LawView {
-        class: match verdict.trust {
-            Trust::Unjudged => "unjudged",
-            Trust::Good => "good",
-            Trust::Doubtful => "doubtful",
-            Trust::Poor => "poor",
-        },
+        class: verdict.trust.class(),
         verdict,
         plots: law
             .plots
@@ -231,15 +226,11 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
 }
 
 fn law_value_row<'a>(value: &'a LawValue, limits: &Limits) -> LawValueRow<'a> {
-    LawValueRow {
-        shown: ShownLawValue::new(value),
-        is_wide: value.relative_error().is_none_or(|error| error > limits.difference),
-    }
+    LawValueRow { shown: ShownLawValue::new(value), is_wide: limits.is_uncertain(value) }
 }
 
 fn value_row<'a>(value: &'a KesValue, limits: &Limits) -> ValueRow<'a> {
     let cell = |number: Option<f64>| Some(ShownValue::new(number?, &value.units));
-    let kes = value.units.kes.as_ref();
     ValueRow {
         value,
         cells: [value.sheet, value.curve, value.law].map(cell),
@@ -249,7 +240,7 @@ fn value_row<'a>(value: &'a KesValue, limits: &Limits) -> ValueRow<'a> {
                 Marked { text: typeset(&signed_percent(ratio)), apart }
             })
         }),
-        unit: kes.map_or(&value.units.si, |unit| &unit.name),
-        si_unit: kes.map(|_| value.units.si.as_str()),
+        unit: value.units.first().0,
+        si_unit: value.units.second(),
     }
 }

@@ -4,7 +4,6 @@ use super::fit_page::{FitPage, KesValue};
 use super::law_report::{LawReport, Limits, Statistics, Trust};
 use super::shown::{Shown, ShownLawValue, ShownParameter, ShownValue};
 use crate::error::Error;
-use crate::parameter::Units;
 use crate::text::number::{percent, signed_percent, significant};
 use crate::text::table::Table;
 
@@ -186,7 +185,7 @@ fn law_values(law: &LawReport, limits: &Limits) -> Vec<String> {
     let mut table = Table::new(&head, &[2, 3, 5, 6]);
     for value in &law.values {
         let shown = ShownLawValue::new(value);
-        let is_wide = value.relative_error().is_none_or(|error| error > limits.difference);
+        let is_wide = limits.is_uncertain(value);
         table.row(vec![
             value.symbol.clone(),
             value.name.clone(),
@@ -246,7 +245,7 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
             value.symbol.clone(),
             value.direction.clone(),
             value.name.clone(),
-            unit(&value.units),
+            value.units.first().0.to_owned(),
             shown(value.sheet),
             shown(value.curve),
             difference(differences[0]),
@@ -258,11 +257,6 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
         ]);
     }
     table.lines(2)
-}
-
-/// Returns the unit of the laboratory, or SI where there is none.
-fn unit(units: &Units) -> String {
-    units.kes.as_ref().map_or(&units.si, |unit| &unit.name).clone()
 }
 
 #[cfg(test)]

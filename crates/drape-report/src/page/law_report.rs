@@ -87,6 +87,14 @@ pub struct Limits {
     pub correlation: f64,
 }
 
+impl Limits {
+    /// Returns whether the value of a law has a larger relative error than a known value has, or none
+    /// that can be told.
+    pub(super) fn is_uncertain(&self, value: &LawValue) -> bool {
+        value.relative_error().is_none_or(|error| error > self.difference)
+    }
+}
+
 impl Default for Limits {
     /// Returns the usual limits.
     ///
@@ -118,6 +126,16 @@ impl Trust {
     pub fn name(self) -> &'static str {
         match self {
             Self::Unjudged => "not judged",
+            Self::Good => "good",
+            Self::Doubtful => "doubtful",
+            Self::Poor => "poor",
+        }
+    }
+
+    /// Returns the class of the judgement in the style sheets.
+    pub(super) fn class(self) -> &'static str {
+        match self {
+            Self::Unjudged => "unjudged",
             Self::Good => "good",
             Self::Doubtful => "doubtful",
             Self::Poor => "poor",

@@ -160,8 +160,7 @@ impl<'a> ShownLawValue<'a> {
             interval: &value.interval,
             is_positive: true,
         };
-        let kes = value.units.kes.as_ref();
-        let (in_si, unit) = kes.map_or((1.0, &value.units.si), |unit| (unit.in_si, &unit.name));
+        let (unit, in_si) = value.units.first();
         let Scaled { shown, interval } = estimate.scaled(in_si, unit);
         ShownLawValue {
             value,

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::error::Error;
 use crate::picture::Colour;
 
-/// Largest width and height of a picture that is read, in pixels.
+/// Largest width and largest height, in pixels, of a picture that the reader accepts.
 const SIDE_MAX: u32 = 8192;
 
 /// Picture: rows of pixels from the top, in sRGB.

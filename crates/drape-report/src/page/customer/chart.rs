@@ -100,8 +100,7 @@ fn shown(number: &ComparedNumber) -> Option<f64> {
 /// Returns the row of a value, if a fabric has one.
 fn row(value: &ReportedValue, count: usize) -> Option<ChartRow<'_>> {
     let units = &value.value.units;
-    let kes = units.kes.as_ref();
-    let in_si = kes.map_or(1.0, |unit| unit.in_si);
+    let (unit, in_si) = units.first();
     let numbers: Vec<ComparedNumber> = (0..count).map(|fabric| value.number(fabric)).collect();
     if numbers.iter().all(|number| shown(number).is_none()) {
         return None;
@@ -129,7 +128,7 @@ fn row(value: &ReportedValue, count: usize) -> Option<ChartRow<'_>> {
     };
     Some(ChartRow {
         value,
-        unit: kes.map_or(&units.si, |unit| &unit.name),
+        unit,
         axis: ends.map(|ends| axis(ends, &ranges, in_si)),
         lanes: numbers.iter().enumerate().map(lane).collect(),
         source: 0,

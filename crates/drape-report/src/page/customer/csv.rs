@@ -149,15 +149,13 @@ pub(super) fn table(page: &CustomerPage, detail: Detail) -> String {
 fn value_row(value: &ReportedValue, fabric: usize) -> Option<Row> {
     let ComparedNumber { measured, deviation, law, is_assumed } = value.number(fabric);
     measured.or(law)?;
-    let units = &value.value.units;
-    let kes = units.kes.as_ref();
-    let in_si = kes.map_or(1.0, |unit| unit.in_si);
+    let (unit, in_si) = value.value.units.first();
     let scaled = |number: Option<f64>| number.map(|number| number / in_si);
     Some(Row {
         part: "value",
         item: value.value.symbol.clone(),
         direction: value.value.direction.clone(),
-        unit: kes.map_or(&units.si, |unit| &unit.name).clone(),
+        unit: unit.to_owned(),
         measured: scaled(measured),
         deviation: scaled(deviation),
         law: scaled(law),

@@ -9,7 +9,7 @@ use super::report::{CustomerPage, ReportedLoop, ReportedNote};
 use super::values::ReportedValue;
 use crate::error::Error;
 use crate::page::assets::{PAGE_SCRIPT, PAGE_STYLE};
-use crate::page::law_report::{Limits, Trust};
+use crate::page::law_report::Limits;
 use crate::page::shown::{Marked, ShownValue};
 use crate::plot::{COLOURS, LoopPlot, Placement, STYLE, loop_figure, shadow_figure};
 use crate::text::base64::encode;
@@ -228,11 +228,7 @@ fn value_row<'a>(value: &'a ReportedValue, fabrics: &[usize], limits: &Limits) -
             is_within_scatter,
         }
     };
-    ValueRow {
-        value,
-        unit: units.kes.as_ref().map_or(&units.si, |unit| &unit.name),
-        cells: fabrics.iter().map(cell).collect(),
-    }
+    ValueRow { value, unit: units.first().0, cells: fabrics.iter().map(cell).collect() }
 }
 
 /// Returns a difference in tenths of a per cent, finer than any instrument repeats.
@@ -272,12 +268,7 @@ fn loop_view<'a>(own: &'a ReportedLoop, limits: &Limits) -> LoopView<'a> {
         title: &own.law.title,
         model: &own.law.model,
         trust: trust.name(),
-        class: match trust {
-            Trust::Unjudged => "unjudged",
-            Trust::Good => "good",
-            Trust::Doubtful => "doubtful",
-            Trust::Poor => "poor",
-        },
+        class: trust.class(),
         misfit: misfit.map_or_else(String::new, |misfit| format!("misfit {misfit} of the range")),
         figures: own.law.plots.iter().map(figure).collect(),
     }

@@ -4,10 +4,7 @@ use serde::Serialize;
 
 use crate::check;
 use crate::error::Error;
-use crate::page::compared_value::{ComparedNumber, ComparedValue};
-
-/// Standard deviations within which a law and a measured value are not told apart.
-const SCATTER: f64 = 1.96;
+use crate::page::compared_value::{ComparedNumber, ComparedValue, SCATTER};
 
 /// Value of every fabric of a report, in SI, with the range that other fabrics have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,17 +48,10 @@ impl ReportedValue {
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {
-        let ComparedValue { symbol, name, direction, units, numbers, .. } = &self.value;
-        for text in [symbol, name, direction, &self.source] {
-            check::text("a text of a value", text)?;
-        }
-        units.check()?;
-        let numbers = numbers.iter().flat_map(|own| [own.measured, own.deviation, own.law]);
+        self.value.check()?;
+        check::text("the source of published ranges", &self.source)?;
         let ends = self.ranges.iter().flatten().flatten();
-        numbers
-            .flatten()
-            .chain(ends.copied())
-            .try_for_each(|number| check::number(|| format!("{symbol} {direction}"), number))
+        ends.copied().try_for_each(|end| check::number(|| self.value.title(), end))
     }
 }
 
