@@ -287,8 +287,11 @@ fn a_body_that_is_open_is_reported_repaired_and_then_taken() {
         [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0], [0.0, 2.0, 0.0]];
     let vertices = vertices.map(|vertex| vertex.map(|x| 0.01 * x));
     write_obj(&folder.join("tent.obj"), &vertices, &[[0, 4, 1], [1, 4, 2], [2, 4, 3], [0, 3, 4]]);
-    let report = succeeds(folder, &["check", "tent.obj", "--scale", "1"]);
+    let tent = ["check", "tent.obj", "--scale", "1"];
+    let report = String::from_utf8(drape(folder, &tent).stdout).expect("text");
     assert!(report.contains("not closed") && report.contains("hole: 4 edges"), "{report}");
+    let said = fails(folder, &tent, 3);
+    assert!(said.contains("a scene refuses it as well"), "{said}");
 
     let text = std::fs::read_to_string(folder.join("moving.toml")).expect("a scene");
     let ball = text.find("[[collider.sphere]]").expect("a ball");

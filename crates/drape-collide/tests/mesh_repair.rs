@@ -59,12 +59,16 @@ fn a_ball_has_its_size_area_and_volume() {
 fn holes_wrong_sides_twins_and_slivers_are_found_and_repaired() {
     let whole = ball(0.2, [0.0; 3], 40);
     let mut broken = whole.clone();
-    // A hole of six edges around a vertex, ten triangles turned, one twice, one without area.
+    // A hole of six edges around a vertex, ten triangles turned, one twice, one without area, one that
+    // names a vertex twice.
     let center = 800;
     broken.triangles.retain(|triangle| !triangle.contains(&center));
     broken.triangles[100..110].iter_mut().for_each(|triangle| triangle.swap(0, 1));
     broken.triangles.push(broken.triangles[300]);
     broken.triangles.push([5, 5, 6]);
+    let last = whole.vertices.len() as u32 - 1;
+    broken.vertices.push([0.0, 0.05, 0.0]);
+    broken.triangles.push([0, last, last + 1]);
     assert!(Mesh::new(&broken.vertices, &broken.triangles).is_err());
     let found = MeshInspection::new(&broken);
     assert!(!found.is_closed());
@@ -82,7 +86,7 @@ fn holes_wrong_sides_twins_and_slivers_are_found_and_repaired() {
     let lost = 1.0 - inspection.volume / MeshInspection::new(&whole).volume;
     assert!((0.0..1e-3).contains(&lost), "volume lost: {lost}");
     let notes = &repaired.notes;
-    assert!(notes.contains(&RepairNote::Dropped { triangles: 2 }), "{notes:?}");
+    assert!(notes.contains(&RepairNote::Dropped { triangles: 3 }), "{notes:?}");
     assert!(notes.contains(&RepairNote::Turned { triangles: 10 }), "{notes:?}");
     let closed = |note: &RepairNote| matches!(note, RepairNote::Closed { edges: 6, .. });
     assert!(notes.iter().any(closed), "{notes:?}");
@@ -116,8 +120,10 @@ fn a_surface_that_is_inside_out_is_turned() {
 fn corners_of_their_own_are_merged() {
     let ball = ball(0.1, [0.0; 3], 20);
     let corners = ball.triangles.iter().flatten().map(|vertex| ball.vertices[*vertex as usize]);
+    let corners: Vec<[f64; 3]> = corners.collect();
+    let noise = |k: usize| 1e-9 * (k as f64).sin();
     let soup = Triangulation {
-        vertices: corners.map(|corner| corner.map(|x| x + 1e-9 * x.sin())).collect(),
+        vertices: corners.iter().enumerate().map(|(k, c)| c.map(|x| x + noise(k))).collect(),
         triangles: (0..ball.triangles.len() as u32)
             .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
             .collect(),
@@ -129,6 +135,104 @@ fn corners_of_their_own_are_merged() {
         (mesh.vertices.len(), mesh.triangles.len()),
         (ball.vertices.len(), ball.triangles.len())
     );
+    // Corners at the very same positions, as in an STL file, are a closed body.
+    let same = Triangulation { vertices: corners, triangles: soup.triangles };
+    let inspection = MeshInspection::new(&same);
+    assert!(inspection.is_closed() && inspection.parts == 1, "{inspection:?}");
+    assert_eq!(inspection.vertices, ball.vertices.len());
+    assert!(Mesh::new(&same.vertices, &same.triangles).is_ok());
+}
+
+/// Returns several meshes as one.
+fn together(meshes: &[Triangulation]) -> Triangulation {
+    let mut all = Triangulation { vertices: Vec::new(), triangles: Vec::new() };
+    for mesh in meshes {
+        let first = all.vertices.len() as u32;
+        all.vertices.extend(&mesh.vertices);
+        all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|vertex| first + vertex)));
+    }
+    all
+}
+
+#[test]
+fn a_part_that_is_there_twice_is_no_closed_body_until_it_is_there_once() {
+    let one = ball(0.1, [0.0; 3], 20);
+    let mut turned = one.clone();
+    turned.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    let beside = ball(0.05, [0.3, 0.0, 0.0], 12);
+    for twice in [vec![one.clone(), one.clone(), beside.clone()], vec![beside, turned, one]] {
+        let twice = together(&twice);
+        let inspection = MeshInspection::new(&twice);
+        assert!(!inspection.is_closed() && inspection.branching_edges.count > 0);
+        assert!(Mesh::new(&twice.vertices, &twice.triangles).is_err());
+        let mesh = repair(&twice, &RepairSettings::for_spacing(0.001)).mesh;
+        Mesh::new(&mesh.vertices, &mesh.triangles).expect("a body");
+        assert_eq!(MeshInspection::new(&mesh).parts, 2);
+    }
+}
+
+#[test]
+fn sheets_that_nearly_touch_stay_apart_in_bodies_that_are_right_and_in_torn_ones() {
+    // Two balls whose poles, and all around them, are less apart than vertices are that are merged.
+    let low = ball(0.1, [0.0; 3], 20);
+    let gap = 4e-7;
+    let mut high = low.clone();
+    for vertex in &mut high.vertices {
+        vertex[1] = 0.2 + gap - vertex[1];
+    }
+    high.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    let mut whole = together(&[low.clone(), high]);
+    // They are flat where they touch, so that whole edges nearly touch.
+    for vertex in &mut whole.vertices {
+        let [_, y, _] = vertex;
+        let (is_low, top) = (*y <= 0.1, low.vertices[1][1]);
+        *y = if is_low { y.min(top) } else { y.max(0.2 + gap - top) - 0.2 + 2.0 * top };
+    }
+    assert!(Mesh::new(&whole.vertices, &whole.triangles).is_ok());
+    let settings = RepairSettings { thinning_distance: 0.0, ..RepairSettings::for_spacing(0.02) };
+    let repaired = repair(&whole, &settings);
+    assert!(repaired.notes.is_empty(), "{:?}", repaired.notes);
+    assert_eq!(repaired.mesh.vertices.len(), whole.vertices.len());
+    // The same with corners of their own.
+    let corners = whole.triangles.iter().flatten().map(|vertex| whole.vertices[*vertex as usize]);
+    let corners = corners.enumerate().map(|(k, c)| c.map(|x| x + 1e-9 * (k as f64).sin()));
+    let torn = Triangulation {
+        vertices: corners.collect(),
+        triangles: (0..whole.triangles.len() as u32)
+            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+            .collect(),
+    };
+    let mesh = repair(&torn, &settings).mesh;
+    Mesh::new(&mesh.vertices, &mesh.triangles).expect("a body");
+    assert_eq!(mesh.vertices.len(), whole.vertices.len());
+}
+
+#[test]
+fn no_repair_leaves_a_worse_body() {
+    // Faults of all kinds at places that a simple generator of numbers chooses.
+    let mut seed: u64 = 7;
+    let mut next = move |below: usize| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 33) as usize % below
+    };
+    for round in 0..12 {
+        let mut mesh = together(&[
+            ball(0.1, [0.0; 3], 10),
+            ball(0.1, [0.19 + 1e-7 * round as f64, 0.0, 0.0], 10),
+        ]);
+        for _ in 0..next(6) {
+            let [a, b] = [next(mesh.vertices.len()), next(mesh.vertices.len())];
+            mesh.vertices[a] = mesh.vertices[b].map(|x| x + 5e-7);
+        }
+        for _ in 0..next(8) {
+            mesh.triangles.remove(next(mesh.triangles.len()));
+            mesh.triangles.push(mesh.triangles[next(mesh.triangles.len())]);
+        }
+        let before = MeshInspection::new(&mesh);
+        let repaired = repair(&mesh, &RepairSettings::for_spacing(0.02));
+        let after = MeshInspection::new(&repaired.mesh);
+        assert!(!after.is_worse_than(&before), "round {round}: {:?}", repaired.notes);
+    }
 }
 
 #[test]

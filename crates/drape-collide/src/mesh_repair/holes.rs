@@ -8,7 +8,8 @@ use super::edges::Edges;
 /// Hole of a mesh: a closed line of edges with a triangle on one side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole {
-    /// Numbers of the vertices, in the direction in which new triangles run along them.
+    /// Numbers of the vertices, in the direction in which new triangles run along them; of vertices at one
+    /// position the first one counts.
     pub vertices: Vec<u32>,
     /// Length of the line, in m.
     pub length: f64,

@@ -6,6 +6,7 @@ use crate::vector::{norm, subtract};
 use super::edges::{Edges, volume_six};
 use super::holes::{Hole, find_holes};
 use super::intersection::intersections;
+use super::merge::merge_coincident;
 
 /// Number of places that are kept of each kind.
 const PLACES: usize = 5;
@@ -66,7 +67,7 @@ pub struct EdgeLengths {
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshInspection {
-    /// Number of vertices.
+    /// Number of vertices at positions of their own.
     pub vertices: usize,
     /// Number of triangles.
     pub triangles: usize,
@@ -95,13 +96,14 @@ pub struct MeshInspection {
 }
 
 impl MeshInspection {
-    /// Inspects a mesh. Triangles that name a vertex that is not there are left out.
+    /// Inspects a mesh as [`Mesh`](crate::Mesh) takes it: vertices at one position are one vertex, and
+    /// triangles that lose a corner by it are left out. Triangles that name a vertex that is not there are
+    /// left out too.
     #[must_use]
     pub fn new(mesh: &Triangulation) -> MeshInspection {
-        let count = mesh.vertices.len() as u32;
-        let is_there = |triangle: &[u32; 3]| triangle.iter().all(|vertex| *vertex < count);
-        let triangles: Vec<[u32; 3]> = mesh.triangles.iter().copied().filter(is_there).collect();
-        let mesh = &Triangulation { vertices: mesh.vertices.clone(), triangles };
+        let mut merged = mesh.clone();
+        merge_coincident(&mut merged);
+        let mesh = &merged;
         let point = |vertex: u32| mesh.vertices[vertex as usize];
         let edges = Edges::new(&mesh.triangles);
         let middle = |[a, b]: [u32; 2]| -> [f64; 3] {
@@ -174,5 +176,21 @@ impl MeshInspection {
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.holes.is_empty() && self.branching_edges.count == 0 && self.opposed_edges.count == 0
+    }
+
+    /// Returns the number of faults of the surface for which a body is refused: open edges, edges with
+    /// more than two triangles, edges on which the triangles disagree, and triangles without area.
+    #[must_use]
+    pub fn faults(&self) -> usize {
+        let open: usize = self.holes.iter().map(|hole| hole.vertices.len()).sum();
+        open + self.branching_edges.count + self.opposed_edges.count + self.flat_triangles.count
+    }
+
+    /// Returns whether the mesh is a worse body than another: one whose surface has more faults, or as
+    /// many and more intersections with itself.
+    #[must_use]
+    pub fn is_worse_than(&self, other: &MeshInspection) -> bool {
+        let rank = |own: &MeshInspection| (own.faults(), own.intersections.count);
+        rank(self) > rank(other)
     }
 }

@@ -1,19 +1,49 @@
-//! Merging of vertices that are close to each other, and removal of triangles without area.
+//! Merging of vertices at one position or close to each other, and removal of triangles without area.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::mesh_io::{Triangulation, doubled_area};
 use crate::vector::{norm, subtract};
 
-/// Merges vertices closer than a distance, in m, each with the first one near it, and returns the
-/// number of those that were merged.
+use super::edges::Edges;
+
+/// Merges vertices at the very same position, as a body is made, leaves out triangles that lose a
+/// corner by it or name a vertex that is not there, and returns the number of vertices that were merged.
+pub(crate) fn merge_coincident(mesh: &mut Triangulation) -> usize {
+    let mut at: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+    let mut kept = Vec::new();
+    let mut numbers = Vec::with_capacity(mesh.vertices.len());
+    for &position in &mesh.vertices {
+        // Adding zero makes -0 the same position as 0.
+        let key = position.map(|value| (value + 0.0).to_bits());
+        numbers.push(*at.entry(key).or_insert_with(|| {
+            kept.push(position);
+            kept.len() as u32 - 1
+        }));
+    }
+    renumber(mesh, kept, &numbers)
+}
+
+/// Merges vertices closer than a distance, in m, each with the first one near it, where that joins
+/// what is torn: two vertices at open edges, or the two ends of an edge. Returns the number of those
+/// that were merged.
+///
+/// Two sheets that nearly touch, such as lips, stay apart.
 pub(crate) fn merge_vertices(mesh: &mut Triangulation, distance: f64) -> usize {
     let cell = distance.max(f64::MIN_POSITIVE);
     let key = |position: [f64; 3]| position.map(|value| (value / cell).floor() as i64);
-    let mut kept: Vec<[f64; 3]> = Vec::new();
+    let edges = Edges::new(&mesh.triangles);
+    let torn = edges.iter().filter(|(_, sides)| sides.len() == 1);
+    let at_tear: BTreeSet<u32> = torn.flat_map(|(edge, _)| edge).collect();
+    let joins = |one: u32, other: u32| {
+        (at_tear.contains(&one) && at_tear.contains(&other))
+            || !edges.sides([one, other]).is_empty()
+    };
+    // Vertices that are kept, by their numbers before and after.
+    let mut kept: Vec<u32> = Vec::new();
     let mut at: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
     let mut numbers = Vec::with_capacity(mesh.vertices.len());
-    for &position in &mesh.vertices {
+    for (number, &position) in mesh.vertices.iter().enumerate() {
         let [x, y, z] = key(position);
         let around =
             (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
@@ -23,14 +53,25 @@ pub(crate) fn merge_vertices(mesh: &mut Triangulation, distance: f64) -> usize {
             })
             .flatten()
             .copied()
-            .filter(|&other| norm(subtract(kept[other as usize], position)) <= distance)
+            .filter(|&other| {
+                let other = kept[other as usize];
+                norm(subtract(mesh.vertices[other as usize], position)) <= distance
+                    && joins(other, number as u32)
+            })
             .min();
         numbers.push(near.unwrap_or_else(|| {
-            kept.push(position);
+            kept.push(number as u32);
             at.entry([x, y, z]).or_default().push(kept.len() as u32 - 1);
             kept.len() as u32 - 1
         }));
     }
+    let kept = kept.into_iter().map(|number| mesh.vertices[number as usize]).collect();
+    renumber(mesh, kept, &numbers)
+}
+
+/// Gives a mesh the vertices that were kept, by the number of each among them, without triangles that
+/// lost a corner; returns the number of vertices that were merged.
+fn renumber(mesh: &mut Triangulation, kept: Vec<[f64; 3]>, numbers: &[u32]) -> usize {
     let merged = mesh.vertices.len() - kept.len();
     mesh.vertices = kept;
     let count = numbers.len() as u32;
@@ -38,18 +79,16 @@ pub(crate) fn merge_vertices(mesh: &mut Triangulation, distance: f64) -> usize {
     for vertex in mesh.triangles.iter_mut().flatten() {
         *vertex = numbers[*vertex as usize];
     }
+    mesh.triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
     merged
 }
 
-/// Removes triangles that have lost a corner, that have no area, or that are there twice, and
-/// returns their number.
+/// Removes triangles that have no area, or that are there twice, and returns their number.
 pub(crate) fn drop_degenerate(mesh: &mut Triangulation) -> usize {
     let before = mesh.triangles.len();
     let point = |vertex: u32| mesh.vertices[vertex as usize];
-    let has_area = |&[a, b, c]: &[u32; 3]| {
-        a != b && b != c && c != a && doubled_area([a, b, c].map(point)).is_ok()
-    };
-    let mut seen = std::collections::BTreeSet::new();
+    let has_area = |triangle: &[u32; 3]| doubled_area(triangle.map(point)).is_ok();
+    let mut seen = BTreeSet::new();
     let mut triangles = std::mem::take(&mut mesh.triangles);
     triangles.retain(|triangle| {
         let mut key = *triangle;

@@ -3,8 +3,9 @@
 use std::fmt;
 
 use super::edges::Edges;
-use super::holes::{close, find_holes};
-use super::merge::{drop_degenerate, drop_unused, merge_vertices};
+use super::holes::{Hole, close, find_holes};
+use super::inspection::MeshInspection;
+use super::merge::{drop_degenerate, drop_unused, merge_coincident, merge_vertices};
 use super::orientation::orient;
 use super::thinning::{ThinningLimits, thin};
 use crate::body::Mesh;
@@ -111,7 +112,7 @@ impl fmt::Display for RepairNote {
             }
             Self::Left { edges, length, place } => write!(
                 f,
-                "a hole of {edges} edges, {:.1} mm long, at {} is larger than those that are closed",
+                "a hole of {edges} edges, {:.1} mm long, at {} is larger than those that are closed, or a lid does not close it",
                 1e3 * length,
                 at(*place)
             ),
@@ -137,7 +138,8 @@ pub struct Repaired {
 /// turned outside, small holes closed, and fine meshes thinned.
 ///
 /// What it leaves (larger holes, edges with more than two triangles, intersections), an inspection
-/// of the result says.
+/// of the result says. A step that would leave a worse body is not taken
+/// ([`MeshInspection::is_worse_than`]).
 ///
 /// ```
 /// use drape_collide::{Mesh, RepairSettings, Triangulation, repair};
@@ -153,33 +155,81 @@ pub struct Repaired {
 pub fn repair(mesh: &Triangulation, settings: &RepairSettings) -> Repaired {
     let mut mesh = mesh.clone();
     let mut notes = Vec::new();
-    let vertices = merge_vertices(&mut mesh, settings.merge_distance);
+    let (vertices, triangles) = (mesh.vertices.len(), mesh.triangles.len());
+    // First as a body is made, so that what is right already stays as it is.
+    merge_coincident(&mut mesh);
+    for part in MERGE_PARTS {
+        no_worse(&mut mesh, |mesh| merge_vertices(mesh, part * settings.merge_distance));
+    }
+    let vertices = vertices - mesh.vertices.len();
     if vertices > 0 {
         notes.push(RepairNote::Merged { vertices });
     }
-    let triangles = drop_degenerate(&mut mesh);
+    no_worse(&mut mesh, drop_degenerate);
+    let triangles = triangles - mesh.triangles.len();
     if triangles > 0 {
         notes.push(RepairNote::Dropped { triangles });
     }
     drop_unused(&mut mesh);
-    let turned = orient(&mut mesh);
-    for hole in find_holes(&mesh, &Edges::new(&mesh.triangles)) {
-        let (edges, length, place) = (hole.vertices.len(), hole.length, hole.place);
-        if length > settings.hole_length {
-            notes.push(RepairNote::Left { edges, length, place });
-            continue;
-        }
-        let lid = close(&mesh, &hole);
-        mesh.triangles.extend(lid);
-        notes.push(RepairNote::Closed { edges, length, place });
-    }
+    let turned = no_worse(&mut mesh, orient).unwrap_or_default();
+    notes.extend(close_holes(&mut mesh, settings.hole_length));
     // With its holes closed a part has a volume, which decides about its outside.
-    let triangles = turned.max(orient(&mut mesh));
+    let triangles = turned.max(no_worse(&mut mesh, orient).unwrap_or_default());
     if triangles > 0 {
         notes.push(RepairNote::Turned { triangles });
     }
-    notes.extend(thinned(&mut mesh, settings));
+    notes.extend(no_worse(&mut mesh, |mesh| thinned(mesh, settings)).flatten());
     Repaired { mesh, notes }
+}
+
+/// Parts of the distance of merging that are tried one after the other: what joins at a small one needs no
+/// large one, at which sheets that nearly touch are joined as well.
+const MERGE_PARTS: [f64; 3] = [0.01, 0.1, 1.0];
+
+/// Closes the holes of a mesh up to a length, in m; returns a note on each hole.
+fn close_holes(mesh: &mut Triangulation, length_max: f64) -> Vec<RepairNote> {
+    let holes = find_holes(mesh, &Edges::new(&mesh.triangles));
+    let (short, long): (Vec<&Hole>, Vec<&Hole>) =
+        holes.iter().partition(|hole| hole.length <= length_max);
+    let close_all = |mesh: &mut Triangulation, holes: &[&Hole]| {
+        let lids: Vec<[u32; 3]> = holes.iter().flat_map(|hole| close(mesh, hole)).collect();
+        mesh.triangles.extend(lids);
+    };
+    let all_closed = no_worse(mesh, |mesh| close_all(mesh, &short)).is_some();
+    let left = long.into_iter().map(|hole| hole.left());
+    let mut notes: Vec<RepairNote> = left.collect();
+    for hole in short {
+        // Of lids that do not close all together, those are kept that close alone.
+        let is_closed = all_closed || no_worse(mesh, |mesh| close_all(mesh, &[hole])).is_some();
+        notes.push(if is_closed { hole.closed() } else { hole.left() });
+    }
+    notes
+}
+
+impl Hole {
+    fn closed(&self) -> RepairNote {
+        let (edges, length, place) = (self.vertices.len(), self.length, self.place);
+        RepairNote::Closed { edges, length, place }
+    }
+
+    fn left(&self) -> RepairNote {
+        let (edges, length, place) = (self.vertices.len(), self.length, self.place);
+        RepairNote::Left { edges, length, place }
+    }
+}
+
+/// Takes a step of a repair and returns its result; or undoes it where it leaves a worse body.
+fn no_worse<T>(mesh: &mut Triangulation, step: impl FnOnce(&mut Triangulation) -> T) -> Option<T> {
+    let before = mesh.clone();
+    let done = step(mesh);
+    if *mesh == before {
+        return Some(done);
+    }
+    let is_worse = MeshInspection::new(mesh).is_worse_than(&MeshInspection::new(&before));
+    if is_worse {
+        *mesh = before;
+    }
+    (!is_worse).then_some(done)
 }
 
 /// Number of attempts to thin a mesh, each with half the distance of the one before.

@@ -4,12 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::collide::{
-    MeshInspection, Places, RepairSettings, Triangulation, read_mesh_within, repair,
+    Mesh, MeshInspection, Places, RepairSettings, Triangulation, read_mesh_within, repair,
 };
 use drape::input::{Diagnostic, Diagnostics};
 use drape::scene::MESH_LIMIT;
 
 use crate::failure::Failure;
+use crate::input;
 use drape::file;
 
 /// Heights of persons and dress forms, in m, by which the unit of a file is guessed.
@@ -68,8 +69,14 @@ fn read(path: &Path, measure: Measure) -> Result<ReadMesh, Diagnostics> {
     Ok(ReadMesh { mesh: mesh.scaled(scale), scale, guessed })
 }
 
-/// Reads a mesh and describes it.
-pub(crate) fn describe(path: &Path, measure: Measure) -> Result<String, Diagnostics> {
+/// Body as it was found: in words, and what a scene refuses of it.
+pub(crate) struct Found {
+    pub(crate) text: String,
+    pub(crate) mistakes: Vec<Diagnostic>,
+}
+
+/// Reads a mesh, describes it, and judges it as a scene does.
+pub(crate) fn describe(path: &Path, measure: Measure) -> Result<Found, Diagnostics> {
     let ReadMesh { mesh, scale, guessed } = read(path, measure)?;
     let inspection = MeshInspection::new(&mesh);
     let mut text = report(&inspection, measure.spacing);
@@ -81,15 +88,21 @@ pub(crate) fn describe(path: &Path, measure: Measure) -> Result<String, Diagnost
              scale = {scale}"
         );
     }
-    if !inspection.is_closed() || inspection.flat_triangles.count > 0 {
-        let _ = writeln!(
-            text,
-            "  note: a scene refuses it; `drape check {0} --repair {1}` mends what is safe",
+    let mut mistakes = Vec::new();
+    if let Some(fault) = fault(&mesh) {
+        let help = format!(
+            "a scene refuses it as well; `drape check {} --repair {}` mends what is safe",
             path.display(),
             repaired_name(path)
         );
+        mistakes.push(Diagnostic::new(input::shown(path), fault).help(help));
     }
-    Ok(text)
+    Ok(Found { text, mistakes })
+}
+
+/// Returns the reason for which a scene refuses a mesh, in m, if there is one.
+fn fault(mesh: &Triangulation) -> Option<String> {
+    Mesh::new(&mesh.vertices, &mesh.triangles).err().map(|error| error.to_string())
 }
 
 /// Returns the name that is advised for a repaired file.
@@ -98,19 +111,43 @@ fn repaired_name(path: &Path) -> String {
     path.with_file_name(format!("{stem}-repaired.obj")).display().to_string()
 }
 
-/// Repairs a mesh, writes it as OBJ in the unit of its file, and describes what was done.
+/// Repairs a mesh, writes it as OBJ in the unit of its file, and describes what was done. A repair that
+/// leaves a worse body than it was is not written.
 pub(crate) fn mend(path: &Path, measure: Measure, to: &Path) -> Result<String, Failure> {
     let ReadMesh { mesh, scale, .. } = read(path, measure)?;
+    let before = MeshInspection::new(&mesh);
     let repaired = repair(&mesh, &RepairSettings::for_spacing(measure.spacing));
-    let mut text = String::from("repaired\n");
+    let inspection = MeshInspection::new(&repaired.mesh);
+    let [was_refused, is_refused] = [&mesh, &repaired.mesh].map(fault);
+    if inspection.is_worse_than(&before) || (was_refused.is_none() && is_refused.is_some()) {
+        let message = format!(
+            "the repair is not written: it leaves {} faults of the surface and {} edges through it, and the body \
+             has {} and {}",
+            inspection.faults(),
+            inspection.intersections.count,
+            before.faults(),
+            before.intersections.count
+        );
+        let help = "mend it where it was made, in a modelling program";
+        return Err(
+            Diagnostics::from(Diagnostic::new(input::shown(path), message).help(help)).into()
+        );
+    }
+    let mut text = String::from(match (&was_refused, &is_refused) {
+        (_, Some(_)) => "repaired in part\n",
+        (None, None) if repaired.notes.is_empty() => "sound\n",
+        _ => "repaired\n",
+    });
     for note in &repaired.notes {
         let _ = writeln!(text, "  {note}");
     }
     if repaired.notes.is_empty() {
         text.push_str("  nothing was to be done\n");
     }
-    let inspection = MeshInspection::new(&repaired.mesh);
     text.push_str(&report(&inspection, measure.spacing));
+    if let Some(fault) = is_refused {
+        let _ = writeln!(text, "  note: a scene still refuses it: {fault}");
+    }
     file::write(to, obj(&repaired.mesh, scale))?;
     let _ = writeln!(text, "  written to {}", to.display());
     Ok(text)
@@ -132,7 +169,11 @@ fn obj(mesh: &Triangulation, unit: f64) -> String {
 fn report(inspection: &MeshInspection, spacing: f64) -> String {
     let [x, y, z] = inspection.size();
     let lengths = inspection.edge_lengths;
-    let closed = if inspection.is_closed() { "closed" } else { "not closed" };
+    let closed = match (inspection.is_closed(), inspection.holes.is_empty()) {
+        (true, _) => "closed",
+        (false, false) => "not closed",
+        (false, true) => "no holes, but not one closed surface",
+    };
     let mut text = format!(
         "body, {} vertices, {} triangles, {x:.3} × {y:.3} × {z:.3} m, {:.4} m², {:.4} l, {} part{}, \
          {closed}\n  edges: {:.2} to {:.2} mm, half of them below {:.2} mm; the spacing is {} mm\n",
