@@ -1,6 +1,7 @@
 //! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in
 //! order.
 
+mod apart;
 mod bodies;
 pub(crate) mod girth;
 mod layers;
@@ -20,8 +21,9 @@ use crate::scene::panel::Panel;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
+use self::apart::{leave_bodies, part_panels};
 use self::bodies::{body_notes, contact_limits};
-use self::girth::check_girths;
+use self::girth::girth_notes;
 use self::layers::check_layers;
 use self::place_key::place_key;
 use self::placing::{Places, check_places};
@@ -34,6 +36,8 @@ pub(crate) fn check_start(
     checker: &mut Checker<'_>,
     mut scene: Scene,
 ) -> Result<Scene, Box<Refused>> {
+    let moved = leave_bodies(&mut scene);
+    scene.source.notes.extend(moved);
     let Places { notes, advised } = check_places(checker, &scene);
     if advised {
         // Where it is advised to be, it is clear of the bodies that it crosses where it is.
@@ -43,8 +47,12 @@ pub(crate) fn check_start(
     }
     scene.source.contact_limits = contact_limits(&scene);
     scene.source.notes.extend([body_notes(&scene), notes].concat());
-    let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(&scene)).transpose();
-    let mut surfaces = surfaces.map_err(|error| mistake(checker, "contact.surfaces", &error))?;
+    let mut surfaces = surfaces(checker, &scene)?;
+    let moved = surfaces.as_mut().map(|surfaces| part_panels(&mut scene, surfaces));
+    if let Some(moved) = moved.filter(|moved| !moved.is_empty()) {
+        scene.source.notes.extend(moved);
+        surfaces = self::surfaces(checker, &scene)?;
+    }
     let tangle = surfaces.as_mut().and_then(|surfaces| check_tangle(checker, surfaces, &scene));
     let particles = scene.particle_contact();
     let particles = particles.map_err(|error| mistake(checker, "collider", &error))?;
@@ -53,12 +61,9 @@ pub(crate) fn check_start(
         _ => check_particles_outside(checker, &particles, &scene),
     }
     if tangle.is_none() {
-        let notes = [
-            stitches_through_bodies(&scene),
-            stitches_through_panels(&scene),
-            check_girths(checker, &scene),
-        ]
-        .concat();
+        let notes =
+            [stitches_through_bodies(&scene), stitches_through_panels(&scene), girth_notes(&scene)]
+                .concat();
         scene.source.notes.extend(notes);
     }
     if tangle.is_none() {
@@ -77,6 +82,15 @@ pub(crate) fn check_start(
         None => Error::Input(mistakes),
     };
     Err(Refused::with(error, scene))
+}
+
+/// Makes the surfaces of a scene where they are kept apart.
+fn surfaces(
+    checker: &mut Checker<'_>,
+    scene: &Scene,
+) -> Result<Option<StartSurfaces>, Diagnostics> {
+    let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(scene)).transpose();
+    surfaces.map_err(|error| mistake(checker, "contact.surfaces", &error))
 }
 
 /// Mistake of a scene of which no contact can be made.

@@ -7,21 +7,23 @@
 //! G \ge (H + 2\pi d)\,\frac{n}{\pi}\tan\frac{\pi}{n}
 //! ```
 //!
-//! with the limbs of the body of which it encloses at least half. What is missing it has to stretch. A garment that would pull harder than the tensile test of a
-//! fabric does is refused; one that stretches less is told.
+//! with the limbs of the body of which it encloses at least half. What is missing it has to stretch, which
+//! is told: the body at the start is not that which the cloth lies on when it is sewn, so that only the
+//! sewing shows whether it closes. A place at which the garment would pull harder than the tensile test of
+//! a fabric does is not advised.
 
 use std::f64::consts::{PI, TAU};
 
 use drape_collide::{Shape, Triangulation};
 
-use crate::check::checker::Checker;
 use crate::scene::Scene;
+use crate::scene::garment::Garment;
 use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 
 use super::rings::{Ring, RingFinder, openings};
 
 /// Load of the tensile test, 500 gf/cm, in N/m: no garment is worn so tight, and seams that are to
-/// close against it do not.
+/// close against it hardly do.
 const PULL_MAX: f64 = 490.3325;
 
 /// Stretch from which on it is told.
@@ -120,26 +122,19 @@ impl<'a> Girths<'a> {
     }
 }
 
-/// Checks the girths of the garments of a scene; returns notes on those that stretch.
-pub(crate) fn check_girths(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
-    let mut notes = Vec::new();
+/// Returns notes on the garments of a scene that have to stretch.
+pub(crate) fn girth_notes(scene: &Scene) -> Vec<String> {
     if scene.sewing.is_none() {
-        return notes;
+        return Vec::new();
     }
-    for (number, garment) in scene.garments.iter().enumerate() {
+    let note = |(number, garment): (usize, &Garment)| {
         let girths = Girths::new(scene, number);
         let all: Vec<&Ring> = girths.rings.iter().collect();
-        let Some(worst) = girths.tightest(&all, [0.0; 3]) else { continue };
+        let worst = girths.tightest(&all, [0.0; 3])?;
         let pull = pull(scene, &worst);
-        let fault = describe(&garment.name, &worst, pull);
-        let help = remedy(&worst);
-        if pull > PULL_MAX {
-            checker.fail(&format!("garment[{number}].pattern"), fault, &help);
-        } else {
-            notes.push(format!("{fault}; {help}"));
-        }
-    }
-    notes
+        Some(format!("{}; {}", describe(&garment.name, &worst, pull), remedy(&worst)))
+    };
+    scene.garments.iter().enumerate().filter_map(note).collect()
 }
 
 /// Returns the heights at which panels are cut, in m.
@@ -203,18 +198,33 @@ fn pull(scene: &Scene, tight: &TightRing) -> f64 {
 /// Describes a garment that is too narrow.
 fn describe(garment: &str, tight: &TightRing, pull: f64) -> String {
     let TightRing { ring, hull, with_offset, needed } = tight;
+    let limit = match pull > PULL_MAX {
+        true => ", more than the tensile test has: its seams may stay open",
+        false => "",
+    };
     format!(
-        "\"{garment}\" is too narrow at a height of {:.2} m: {} measure {:.0} mm round, and the body's hull {:.0} mm there, \
+        "\"{garment}\" is too narrow at a height of {:.2} m: {}{} measure {:.0} mm round, and the body's hull {:.0} mm there, \
          {:.0} mm with contact.offset, {:.0} mm for its particles at this spacing; it would stretch by {:.1} % and pull \
-         with {pull:.0} N/m",
+         with {pull:.0} N/m{limit}",
         ring.plane.height(),
         ring.parts.join(" + "),
+        seams(ring),
         1e3 * ring.girth,
         1e3 * hull,
         1e3 * with_offset,
         1e3 * needed,
         100.0 * tight.stretch()
     )
+}
+
+/// Names the seams across a ring.
+fn seams(ring: &Ring) -> String {
+    let named: Vec<String> = ring.seams.iter().map(|seam| format!("\"{seam}\"")).collect();
+    match &named[..] {
+        [] => String::new(),
+        [one] => format!(" with seam {one}"),
+        several => format!(" with seams {}", several.join(", ")),
+    }
 }
 
 /// Returns the remedy for a garment that is too narrow.

@@ -70,7 +70,7 @@ const SLIDE: f64 = 0.12;
 
 /// Distance from bodies that all particles of a garment have at a place that is advised, in m, and
 /// distance beyond which those are that the search around it need not look at.
-const CLEAR: f64 = 0.002;
+pub(crate) const CLEAR: f64 = 0.002;
 const NEAR: f64 = 0.12;
 
 /// Number of the best places around which a search begins where none is clear of the bodies: of all

@@ -8,7 +8,7 @@
 //! arms do not. A panel stands upright if the mean of the gradient of the height over its cloth has
 //! a length near 1: on a cylinder whose axis is tilted by `$\theta$` it is `$\cos\theta$`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use drape_collide::equivalence_classes;
 
@@ -24,6 +24,8 @@ const UPRIGHT: f64 = 0.86;
 pub(crate) struct Ring {
     /// Edges of an opening, or panels of a cut.
     pub(crate) parts: Vec<String>,
+    /// Seams that it goes across, by their names.
+    pub(crate) seams: Vec<String>,
     /// Index of a panel that it goes through.
     pub(crate) panel: usize,
     /// Length before deformation, in m.
@@ -45,13 +47,16 @@ impl Ring {
 /// Cloth of a scene, prepared to be cut.
 pub(crate) struct RingFinder<'a> {
     scene: &'a Scene,
-    /// Numbers of the seams of each particle.
-    seams: Vec<Vec<usize>>,
+    /// Sides of seams that each particle is on.
+    seams: Vec<Vec<SeamSide>>,
     /// Triangles of each panel.
     triangles: Vec<Vec<[u32; 3]>>,
     /// Whether each panel stands upright.
     upright: Vec<bool>,
 }
+
+/// Side of a seam: the number of the seam, and whether it is the other side.
+type SeamSide = (usize, bool);
 
 /// Side of a triangle, by its ends in rising order.
 type Side = [u32; 2];
@@ -71,9 +76,15 @@ impl<'a> RingFinder<'a> {
         let mut seams = vec![Vec::new(); scene.cloth.particles()];
         let all = scene.sewing.iter().flat_map(|sewing| &sewing.seams);
         for (number, seam) in all.enumerate() {
-            let sewn = seam.pairs.pairs.iter().flatten();
-            for &particle in sewn.chain(seam.pairs.ties.iter().map(|tie| &tie.particle)) {
-                seams[particle as usize].push(number);
+            for [one, other] in &seam.pairs.pairs {
+                seams[*one as usize].push((number, false));
+                seams[*other as usize].push((number, true));
+            }
+            // A tied particle is not on the side that it is tied to.
+            let others = seam.pairs.pairs.iter().map(|[_, other]| *other);
+            let others: BTreeSet<u32> = others.collect();
+            for tie in &seam.pairs.ties {
+                seams[tie.particle as usize].push((number, !others.contains(&tie.ends[0])));
             }
         }
         let mut triangles = vec![Vec::new(); scene.panels.len()];
@@ -89,21 +100,26 @@ impl<'a> RingFinder<'a> {
     pub(crate) fn at_height(&self, panels: &[usize], height: f64) -> Vec<Ring> {
         let cuts: Vec<Cut> = panels.iter().flat_map(|&panel| self.cuts(panel, height)).collect();
         // Cuts that end at each seam.
-        let mut joints: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        let mut joints: BTreeMap<usize, Vec<(usize, bool)>> = BTreeMap::new();
         let mut is_open = vec![false; cuts.len()];
         for (number, cut) in cuts.iter().enumerate() {
             for &end in &cut.ends {
                 match self.seam_of(end) {
-                    Some(seam) => joints.entry(seam).or_default().push(number),
+                    Some((seam, side)) => joints.entry(seam).or_default().push((number, side)),
                     None => is_open[number] = true,
                 }
             }
         }
         let mut pairs = Vec::new();
-        for joint in joints.values() {
+        let mut seams: Vec<(usize, usize)> = Vec::new();
+        for (seam, joint) in &joints {
             match joint[..] {
-                [one, other] => pairs.push([one as u32, other as u32]),
-                _ => joint.iter().for_each(|&cut| is_open[cut] = true),
+                // Cuts that end on the same side, such as those on both sides of a waist, do not meet.
+                [(one, side), (other, other_side)] if side != other_side => {
+                    pairs.push([one as u32, other as u32]);
+                    seams.push((one, *seam));
+                }
+                _ => joint.iter().for_each(|&(cut, _)| is_open[cut] = true),
             }
         }
         let class = equivalence_classes(cuts.len(), &pairs);
@@ -119,6 +135,11 @@ impl<'a> RingFinder<'a> {
                 .iter()
                 .map(|&cut| self.scene.panels[cuts[cut].panel].name.clone())
                 .collect(),
+            seams: seams
+                .iter()
+                .filter(|(cut, _)| ring.contains(cut))
+                .map(|&(_, seam)| self.seam_name(seam))
+                .collect(),
             panel: cuts[ring[0]].panel,
             girth: ring.iter().map(|&cut| cuts[cut].length).sum(),
             points: ring.iter().flat_map(|&cut| cuts[cut].points.iter().copied()).collect(),
@@ -127,10 +148,15 @@ impl<'a> RingFinder<'a> {
         closed.map(ring).collect()
     }
 
-    /// Returns the seam of a side of a triangle.
-    fn seam_of(&self, [a, b]: Side) -> Option<usize> {
+    /// Returns the side of a seam that a side of a triangle is on.
+    fn seam_of(&self, [a, b]: Side) -> Option<SeamSide> {
         let [a, b] = [a, b].map(|particle| &self.seams[particle as usize]);
         a.iter().find(|seam| b.contains(seam)).copied()
+    }
+
+    fn seam_name(&self, seam: usize) -> String {
+        let mut seams = self.scene.sewing.iter().flat_map(|sewing| &sewing.seams);
+        seams.nth(seam).map_or_else(String::new, |seam| seam.name.clone())
     }
 
     fn place(&self, particle: u32) -> [f64; 3] {
@@ -205,6 +231,7 @@ struct FreeEdge {
 
 /// Returns the openings of the garments of a scene.
 pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
+    let finder = RingFinder::new(scene);
     let none = Vec::new();
     let pairs = scene.sewing.as_ref().map_or(&none, |sewing| &sewing.pairs.pairs);
     let class = equivalence_classes(scene.cloth.particles(), pairs);
@@ -231,14 +258,18 @@ pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
             row.push(edge);
         }
         if end == start {
-            rings.extend(opening(scene, &row));
+            rings.extend(opening(&finder, &row));
         }
     }
     rings
 }
 
 /// Returns the ring of a closed row of edges.
-fn opening(scene: &Scene, row: &[FreeEdge]) -> Option<Ring> {
+fn opening(finder: &RingFinder<'_>, row: &[FreeEdge]) -> Option<Ring> {
+    let scene = finder.scene;
+    let ends = row.iter().flat_map(|edge| [edge.particles.first(), edge.particles.last()]);
+    let sides = ends.flatten().flat_map(|&particle| &finder.seams[particle as usize]);
+    let seams: BTreeSet<usize> = sides.map(|(seam, _)| *seam).collect();
     let coordinates = scene.cloth.coordinates();
     let length = |pair: &[u32]| {
         let [[a, b], [c, d]] = [pair[0], pair[1]].map(|particle| coordinates[particle as usize]);
@@ -250,6 +281,7 @@ fn opening(scene: &Scene, row: &[FreeEdge]) -> Option<Ring> {
         row.iter().flat_map(|edge| edge.particles.iter().map(place)).collect();
     Some(Ring {
         parts: row.iter().map(|edge| edge.name.clone()).collect(),
+        seams: seams.into_iter().map(|seam| finder.seam_name(seam)).collect(),
         panel: row.first()?.panel,
         girth: row.iter().flat_map(|edge| edge.particles.windows(2).map(length)).sum(),
         plane: SectionPlane::through(&points)?,

@@ -120,7 +120,11 @@ pub(crate) struct Overlaps {
 
 /// Finds the pairs of triangles of a surface that cross or are nearer than their minimum
 /// separation, with the names of its groups.
-fn overlaps(contact: &mut SurfaceContact, positions: &[f64], names: &[String]) -> Overlaps {
+pub(crate) fn overlaps(
+    contact: &mut SurfaceContact,
+    positions: &[f64],
+    names: &[String],
+) -> Overlaps {
     let found = contact.intersections(positions).map(<[_]>::to_vec).unwrap_or_default();
     let contact = &*contact;
     let surface = contact.surface();
