@@ -4,6 +4,8 @@
 mod bodies;
 #[path = "start/figures.rs"]
 mod figures;
+#[path = "start/proposals.rs"]
+mod proposals;
 
 use std::collections::BTreeSet;
 use std::path::Path;

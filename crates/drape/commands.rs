@@ -7,7 +7,8 @@
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
 //! fabric through [`fabric`], which stores its page through [`fit`], [`export`] has the options of
-//! pictures of [`show`], and the report of [`fabric`] takes the drapes of [`test`]; no other knows another.
+//! pictures of [`show`], the report of [`fabric`] takes the drapes of [`test`], and [`run`] has places tried as
+//! [`check`] does; no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;

@@ -3,13 +3,15 @@
 //!
 //! [`describe`] says in SI what a file holds, [`pattern`] how a pattern is cut, [`start`] draws where
 //! a garment starts, [`body`] says what a mesh is and how it is repaired; [`frames`] reads the
-//! folders of runs by `drape::verify`, which shares no code with the simulation; [`pace`] says how long a run takes.
+//! folders of runs by `drape::verify`, which shares no code with the simulation; [`pace`] says how long a run takes,
+//! [`proposal`] tries the places that mistakes advise.
 
 mod body;
 mod describe;
 mod frames;
 mod pace;
 mod pattern;
+pub(crate) mod proposal;
 mod start;
 mod values;
 
@@ -58,6 +60,10 @@ pub(crate) struct CheckArguments {
     /// Makes the first steps of scenes, for two seconds, and says how long a run takes at their pace.
     #[arg(long)]
     pub(crate) time: bool,
+    /// Proposes no other place for a garment that is not about its body. Without it a place is looked for,
+    /// and tried by a sewing at 30 mm of at most 10 s before it is printed.
+    #[arg(long)]
+    pub(crate) quick: bool,
     /// Prints what was found as JSON: of each file its mistakes, of each run its frames.
     #[arg(long)]
     pub(crate) json: bool,
@@ -85,7 +91,9 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     }
     match (&arguments.figure, &files[..]) {
         (Some(figure), [scene]) if describe::is_scene(scene) => {
-            checked.add(scene, start::draw(scene, figure)?)?;
+            let found = start::draw(scene, figure)?;
+            let found = found.map_err(|mistakes| proposal::tried(scene, mistakes, arguments.quick));
+            checked.add(scene, found)?;
         }
         (Some(figure), [pattern]) => {
             input::expect(pattern, &[FileKind::Pattern, FileKind::Drawing, FileKind::Scene])?;
@@ -107,10 +115,13 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         }
         (None, files) => {
             for file in files {
-                let found = match body::is_mesh(file) {
-                    true => body::describe(file, measure),
-                    false => describe(file, spacing),
-                };
+                if body::is_mesh(file) {
+                    checked.add_body(file, body::describe(file, measure))?;
+                    continue;
+                }
+                let found = describe(file, spacing);
+                let found =
+                    found.map_err(|mistakes| proposal::tried(file, mistakes, arguments.quick));
                 let is_right = found.is_ok();
                 checked.add(file, found)?;
                 if arguments.time && is_right && describe::is_scene(file) {
@@ -142,15 +153,36 @@ struct Checked {
 impl Checked {
     /// Adds what was found in a file, and says it.
     fn add(&mut self, file: &Path, found: Result<String, Diagnostics>) -> Result<(), Failure> {
+        match found {
+            Ok(text) => self.add_found(file, Some(text), Vec::new()),
+            Err(mistakes) => self.add_found(file, None, mistakes.0),
+        }
+    }
+
+    /// Adds what was found of a body, which is described even where a scene refuses it, and says it.
+    fn add_body(
+        &mut self,
+        file: &Path,
+        found: Result<body::Found, Diagnostics>,
+    ) -> Result<(), Failure> {
+        match found {
+            Ok(body::Found { text, mistakes }) => self.add_found(file, Some(text), mistakes),
+            Err(mistakes) => self.add_found(file, None, mistakes.0),
+        }
+    }
+
+    /// Adds the description of a file and its mistakes, and says the description.
+    fn add_found(
+        &mut self,
+        file: &Path,
+        text: Option<String>,
+        mistakes: Vec<Diagnostic>,
+    ) -> Result<(), Failure> {
         let file = input::shown(file);
-        let (text, mistakes) = match found {
-            Ok(text) => (Some(text), Vec::new()),
-            Err(mistakes) => (None, mistakes.0),
-        };
         if self.json {
             let values = describe::values_of(file);
+            let holds = text.is_some() && mistakes.is_empty();
             let mistakes: Vec<Value> = mistakes.iter().map(as_json).collect();
-            let holds = text.is_some();
             let mut found =
                 json!({ "file": file, "holds": holds, "text": text, "mistakes": mistakes });
             if let Some(values) = values {
