@@ -8,8 +8,8 @@ use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
-use drape_cloth::{Cloth, Lattice, Reference, State, Trial, Workspace};
-use drape_fabric::{
+use drape::cloth::{Cloth, Lattice, Reference, State, Trial, Workspace};
+use drape::fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Buckling, ExponentialToe, Fabric, Locking, Primed,
     ProportionalFriction, SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone,
     TractionFriction, TractionLaw, YarnLaws,

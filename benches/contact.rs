@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use drape_collide::{
+use drape::collide::{
     Body, CcdFilter, ContactDistances, Detector, Gap, Pose, Shape, Surface, SurfaceParts,
     intersections,
 };

@@ -6,14 +6,14 @@ use std::time::Duration;
 
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use drape_fabric::{
+use drape::fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Primed, ShearBackbone, ShearLaw,
     TractionBackbone, TractionLaw, drive,
 };
-use drape_fit::{
+use drape::fit::{
     FitSettings, FrictionOrder, LoopModel, Plateau, Toe, TractionModel, identify_with,
 };
-use drape_kes::{Curve, Direction, Sheet, Test};
+use drape::kes::{Curve, Direction, Sheet, Test};
 use rustix::time::{ClockId, clock_gettime};
 
 /// Points of each curve.

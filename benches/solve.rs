@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use drape_dynamics::{Scheme, Simulation};
-use drape_implicit::{InitialMatrix, LinearSolver, Method, Settings};
-use drape_scene::Scene;
+use drape::dynamics::{Scheme, Simulation};
+use drape::implicit::{InitialMatrix, LinearSolver, Method, Settings};
+use drape::scene::Scene;
 
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use drape::dynamics::Step;
 use drape::input::Document;
-use drape::keep::{Keeping, KeptRun, RunRequest, Watcher, end_at};
+use drape::run::{FolderRun, RunOptions, RunRequest, Watcher, end_at};
 
 use serde_json::Value;
 
@@ -256,11 +256,12 @@ fn a_run_whose_program_panics_goes_on_to_the_same_bytes() {
     let named = ["run", scene.to_str().unwrap(), "--until", "0.1", "--no-picture", "-o"];
     ran(&[&named[..], &[whole.to_str().unwrap()]].concat(), 5);
 
-    let mut read = drape::scene_of(&Document::read(&scene).unwrap()).unwrap();
+    let mut read = drape::run::scene_of(&Document::read(&scene).unwrap()).unwrap();
     end_at(&mut read, 0.1).unwrap();
     let request = RunRequest::new(&scene, Some(0.1), 0.0);
     let program = PathBuf::from(env!("CARGO_BIN_EXE_drape"));
-    let run = KeptRun::begin(read, &out, &request, &Keeping { program, ..Keeping::default() });
+    let run =
+        FolderRun::begin(read, &out, &request, &RunOptions { program, ..RunOptions::default() });
     let run = run.unwrap();
     let panicked = catch_unwind(AssertUnwindSafe(|| run.run(&mut Panicking(3)).map(drop)));
     assert!(panicked.is_err());

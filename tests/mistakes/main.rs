@@ -22,7 +22,7 @@ fn read(path: &Path) -> Result<(), Diagnostics> {
             drape::kes::Error::Input(mistakes) => mistakes,
             other => panic!("{other}"),
         }),
-        _ => drape::read_scene(path).map(|_| ()).map_err(|error| match error {
+        _ => drape::run::read_scene(path).map(|_| ()).map_err(|error| match error {
             drape::scene::Error::Input(mistakes) => mistakes,
             drape::scene::Error::Tangled(tangle) => tangle.mistakes,
             other => panic!("{other}"),

@@ -293,7 +293,7 @@ fn a_shirt_of_another_program_crosses_no_hand_at_the_centre_that_is_advised() {
 fn read(path: &Path, text: String) -> Result<(), String> {
     let root = [PathBuf::from(env!("CARGO_MANIFEST_DIR"))];
     let document = Document::new(path, text).allowing(&root);
-    drape::scene_of(&document).map(|_| ()).map_err(|error| error.to_string())
+    drape::run::scene_of(&document).map(|_| ()).map_err(|error| error.to_string())
 }
 
 /// Returns the line that a message advises to write.

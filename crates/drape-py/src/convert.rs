@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::file::FileKind;
 use drape::input::Diagnostic;
 use drape::kes::SheetDraft;
 use drape::pattern::{Error, Paper, Pattern, Request, Unit};
-use drape::reports::VERSION;
+use drape::run::file::FileKind;
+use drape::run::reports::VERSION;
 use pyo3::prelude::*;
 
 use crate::error::{Kind, failure, input, mistake};

@@ -117,8 +117,8 @@ pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
 }
 
 /// Returns the exception of a run that cannot begin, go on or be kept, with a remedy in Python.
-pub(crate) fn of_run(error: drape::keep::Error) -> PyErr {
-    use drape::keep::Error;
+pub(crate) fn of_run(error: drape::run::Error) -> PyErr {
+    use drape::run::Error;
     let message = match error {
         Error::Input(mistakes) => return input(&mistakes),
         Error::Dynamics(error) => return of_dynamics(error),

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
-use drape::file::FileKind;
 use drape::fit::{
     FitSettings, FittedSheet, FrictionOrder, Intervals, LoopModel, TractionModel, identify_all,
     identify_with, parameter_key,
@@ -12,7 +11,8 @@ use drape::input::{Diagnostic, Document};
 use drape::kes::SheetDraft;
 use drape::material::Material;
 use drape::report::FitPage;
-use drape::reports::fit_page;
+use drape::run::file::FileKind;
+use drape::run::reports::fit_page;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use drape::reports::{VIEWER_SIZE_MAX, ViewerPage};
+use drape::run::reports::{VIEWER_SIZE_MAX, ViewerPage};
 use drape::verify::Verifier;
 use pyo3::prelude::*;
 

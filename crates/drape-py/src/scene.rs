@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
-use drape::file::FileKind;
 use drape::input::Document;
-use drape::keep::{Goal, Keeping, KeptRun, Limits, RunRequest, RunToResume, Watcher, end_at};
+use drape::run::file::FileKind;
+use drape::run::{FolderRun, Goal, Limits, ResumableRun, RunOptions, RunRequest, Watcher, end_at};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -111,13 +111,13 @@ impl Progress for Unkept<'_> {
 }
 
 impl RunSettings {
-    fn keeping(&self, detached: &Detached) -> PyResult<Keeping> {
+    fn run_options(&self, detached: &Detached) -> PyResult<RunOptions> {
         if !(self.checkpoint_every >= 0.0 && self.checkpoint_every <= 1e9) {
             let message =
                 format!("checkpoint_every={}: give a time from 0 to 1e9 s", self.checkpoint_every);
             return Err(failure(Kind::Usage, message));
         }
-        Ok(Keeping {
+        Ok(RunOptions {
             limits: Limits { max_wall: self.max_wall, ..Limits::default() },
             program: self.program.clone(),
             replace: self.replace,
@@ -130,7 +130,7 @@ impl RunSettings {
         &self,
         py: Python<'_>,
         detached: &Detached,
-        run: impl FnOnce(Reporter<'_>) -> Result<Summary, drape::keep::Error> + Send,
+        run: impl FnOnce(Reporter<'_>) -> Result<Summary, drape::run::Error> + Send,
     ) -> PyResult<String> {
         let (steps, frames) = (self.progress.is_some(), self.on_frame.is_some());
         let work = |outbox: &Outbox<Event>| run(Reporter { outbox, detached, steps, frames });
@@ -156,7 +156,7 @@ impl RunSettings {
 
 impl Scene {
     fn new(document: Document, others: Vec<Document>, file: Option<PathBuf>) -> PyResult<Self> {
-        let scene = drape::scene_of_documents(&document, &others).map_err(of_scene)?;
+        let scene = drape::run::scene_of_documents(&document, &others).map_err(of_scene)?;
         let panels = scene.panels.iter().map(|panel| {
             let range = panel.particles();
             (panel.name.clone(), range.start, range.end)
@@ -179,7 +179,9 @@ impl Scene {
         let checked = self.checked.lock().ok().and_then(|mut checked| checked.take());
         let mut scene = match checked {
             Some(scene) => scene,
-            None => drape::scene_of_documents(&self.document, &self.others).map_err(of_scene)?,
+            None => {
+                drape::run::scene_of_documents(&self.document, &self.others).map_err(of_scene)?
+            }
         };
         if let Some(end) = until {
             // A scene that is refused is checked still.
@@ -242,7 +244,7 @@ impl Scene {
     /// Runs the scene; returns its summary as JSON.
     fn run(&self, py: Python<'_>, settings: RunSettings) -> PyResult<String> {
         let detached = Detached::new(settings.threads)?;
-        let keeping = settings.keeping(&detached)?;
+        let run_options = settings.run_options(&detached)?;
         let scene = self.take(settings.until)?;
         let Some(folder) = &settings.output else {
             let mut simulation = Simulation::new(scene).map_err(of_dynamics)?;
@@ -260,7 +262,7 @@ impl Scene {
             state_hash: settings.state_hash,
             ..RunRequest::new(file, settings.until, settings.checkpoint_every)
         };
-        let run = KeptRun::begin(scene, folder, &request, &keeping).map_err(of_run)?;
+        let run = FolderRun::begin(scene, folder, &request, &run_options).map_err(of_run)?;
         settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))
     }
 }
@@ -274,7 +276,7 @@ pub(crate) fn resume(
     settings: RunSettings,
 ) -> PyResult<String> {
     let detached = Detached::new(settings.threads)?;
-    let resumed = RunToResume::open(&folder, settings.extend).map_err(of_run)?;
+    let resumed = ResumableRun::open(&folder, settings.extend).map_err(of_run)?;
     let own = match scene {
         Some(scene) => scene.get().take(resumed.request.until)?,
         None if resumed.request.has_no_file() => {
@@ -285,7 +287,7 @@ pub(crate) fn resume(
             Scene::read(resumed.request.scene.clone(), Vec::new())?.take(resumed.request.until)?
         }
     };
-    let (run, notes) = resumed.go_on(own, &settings.keeping(&detached)?).map_err(of_run)?;
+    let (run, notes) = resumed.go_on(own, &settings.run_options(&detached)?).map_err(of_run)?;
     for note in &notes {
         warn(py, note)?;
     }

@@ -15,7 +15,7 @@ const WIDTH: f64 = 0.3;
 const SPAN: f64 = 0.2;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let sheet = Sheet::read(concat!(env!("CARGO_MANIFEST_DIR"), "/fabrics/cupro-weave"))?;
+    let sheet = Sheet::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fabrics/cupro-weave"))?;
     let fit = identify(&sheet)?;
     let fabric = Document::new("cupro.toml", fit.fabric.to_toml());
     let scene = format!(

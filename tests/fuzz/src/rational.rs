@@ -142,7 +142,7 @@ pub fn segment_meets_triangle([p, q]: [&Exact; 2], triangle: [&Exact; 3]) -> boo
 #[derive(Debug, PartialEq)]
 pub enum Proof {
     /// The distance is kept all the way.
-    Kept,
+    SavedRun,
     /// It is not: the fraction of the way at which it is seen.
     Broken(f64),
     /// The motion has more parts than are tried.
@@ -189,7 +189,7 @@ pub fn keeps(start: &[Exact; 4], end: &[Exact; 4], (first, distance): (usize, f6
             parts.push([from, middle]);
         }
     }
-    Proof::Kept
+    Proof::SavedRun
 }
 
 #[cfg(test)]
@@ -221,9 +221,9 @@ mod tests {
         };
         let through = moved([0.2, 0.2, 1.0], [0.2, 0.2, -0.9], 1e-6);
         assert!(matches!(through, Proof::Broken(_)), "{through:?}");
-        assert_eq!(moved([2.0, 2.0, 1.0], [2.0, 2.0, -1.0], 1.0), Proof::Kept);
+        assert_eq!(moved([2.0, 2.0, 1.0], [2.0, 2.0, -1.0], 1.0), Proof::SavedRun);
         // In the plane of the triangle, past its corner.
-        assert_eq!(moved([1.5, -1.0, 0.0], [1.5, 1.0, 0.0], 0.49), Proof::Kept);
+        assert_eq!(moved([1.5, -1.0, 0.0], [1.5, 1.0, 0.0], 0.49), Proof::SavedRun);
         assert!(matches!(moved([1.5, -1.0, 0.0], [1.5, 1.0, 0.0], 0.5), Proof::Broken(_)));
     }
 }

@@ -170,7 +170,7 @@ pub fn filter(bytes: &[u8]) {
             let kept = if !is_own && apart > 2e-4 { SEPARATION } else { 0.0 };
             let proof = keeps(&from, &to, (*first, kept));
             assert!(
-                proof == Proof::Kept,
+                proof == Proof::SavedRun,
                 "step {step}, {how:?}: {vertices:?} at {apart} m keep {kept}: {proof:?}\n{before:?}\n{limited:?}"
             );
         }

@@ -1,0 +1,36 @@
+//! Values of a sheet, one a line: as the laboratory wrote it, in SI, and whether it is usual.
+
+use std::fmt::Write;
+
+use drape::kes::Sheet;
+use drape::run::reports::{CheckedValue, brief, sheet_values};
+
+/// Describes the values of a sheet.
+pub(crate) fn describe(sheet: &Sheet) -> String {
+    let values = sheet_values(sheet);
+    let mut text = values.iter().map(line).collect::<String>();
+    if values.iter().any(|value| value.usual.is_none()) {
+        text += "  where no usual range stands, none was measured on many fabrics\n";
+    }
+    text
+}
+
+fn line(value: &CheckedValue) -> String {
+    let with_unit =
+        |text: String, unit: &str| if unit.is_empty() { text } else { format!("{text} {unit}") };
+    let deviation = value.deviation.map_or(String::new(), |own| format!(" ± {}", brief(own)));
+    let written = with_unit(brief(value.value) + &deviation, &value.unit);
+    let mut line = format!("  {}, {}: {written}", value.label(), value.name);
+    if value.unit != value.si_unit {
+        let _ = write!(line, " = {}", with_unit(brief(value.si), &value.si_unit));
+    }
+    if let (Some([least, most]), Some(is_usual)) = (value.usual, value.is_usual) {
+        let word = if is_usual { "usual" } else { "UNUSUAL" };
+        let range = with_unit(format!("{} to {}", brief(least), brief(most)), &value.si_unit);
+        let _ = write!(line, ", {word}: nine fabrics in ten have {range}");
+    }
+    if value.used_for.is_none() && value.symbol != "c" {
+        line += "; not used by the model";
+    }
+    line + "\n"
+}

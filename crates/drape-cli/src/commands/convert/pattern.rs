@@ -1,0 +1,143 @@
+//! Conversion of patterns.
+
+use std::path::{Path, PathBuf};
+
+use drape::input::{Diagnostic, Diagnostics};
+use drape::pattern::{Error, Paper, Pattern, Request, Unit};
+
+use super::arguments::ConvertArguments;
+use crate::console::tell;
+use crate::failure::Failure;
+use crate::input;
+use crate::say::say;
+use drape::run::file;
+
+/// Converts a pattern and says what is not in the result, or was taken for it.
+pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
+    let form = Form::new(arguments)?;
+    let (unit, size) = (unit(arguments)?, arguments.size.clone());
+    let request = Request { unit, size, ..Request::new(from) };
+    let pattern = match input::is_standard(from) {
+        true => Pattern::parse_as(&input::document(from)?, &request)?,
+        false => Pattern::read_as(&request).map_err(|error| match error {
+            Error::Input(mistakes) => Failure::Input(mistakes),
+            other => Failure::Input(Diagnostics::from(Diagnostic::new(from, other.to_string()))),
+        })?,
+    };
+    let files = form.files(from, &pattern);
+    if let Form::Text(None) = form {
+        notes(&pattern);
+        return say(files.iter().map(|file| file.content.trim_end()).collect::<String>());
+    }
+    let there: Vec<String> = files
+        .iter()
+        .filter(|file| file.path.exists())
+        .map(|file| file.path.display().to_string())
+        .collect();
+    if !there.is_empty() && !arguments.force {
+        let message = format!("{} exists; replace it with --force", there.join(", "));
+        return Err(Failure::Usage(message));
+    }
+    notes(&pattern);
+    for written in &files {
+        file::write(&written.path, &written.content)?;
+        say(format_args!("written to {}", written.path.display()))?;
+    }
+    Ok(())
+}
+
+/// What is written.
+enum Form {
+    /// TOML, in a file or on stdout.
+    Text(Option<PathBuf>),
+    /// A drawing no wider than a width in mm.
+    Drawing(PathBuf, Option<f64>),
+    /// Pages of paper.
+    Pages(PathBuf, Paper),
+}
+
+/// File to be written.
+struct Written {
+    path: PathBuf,
+    content: String,
+}
+
+impl Form {
+    /// Returns what the arguments ask for.
+    fn new(arguments: &ConvertArguments) -> Result<Self, Failure> {
+        let output = arguments.output.as_ref().filter(|path| !input::is_standard(path));
+        let ending = output.and_then(|path| path.extension()).map(|e| e.to_ascii_lowercase());
+        let drawing = ending.as_ref().is_some_and(|ending| ending == "svg");
+        let Some(path) = output.filter(|_| drawing) else {
+            if arguments.paper.is_some() || arguments.width.is_some() {
+                let message = "--paper and --width are for a drawing: write it with -o NAME.svg";
+                return Err(Failure::Usage(message.into()));
+            }
+            return match output {
+                Some(path) if ending.is_none_or(|ending| ending != "toml") => Err(Failure::Usage(
+                    format!("-o {}: patterns are written as *.toml or *.svg", path.display()),
+                )),
+                output => Ok(Self::Text(output.cloned())),
+            };
+        };
+        if let Some(word) = &arguments.paper {
+            let paper = Paper::parse(word).ok_or_else(|| {
+                Failure::Usage(format!(
+                    "--paper {word}: it is a4, a3, a2, a1, a0, letter, legal, tabloid, or a size in mm from \
+                     100x100 on, such as 210x297"
+                ))
+            })?;
+            return Ok(Self::Pages(path.clone(), paper));
+        }
+        match arguments.width {
+            Some(width) if !(100.0..=100_000.0).contains(&width) => Err(Failure::Usage(format!(
+                "--width {width}: a width in mm from 100 to 100000, such as 900"
+            ))),
+            width => Ok(Self::Drawing(path.clone(), width)),
+        }
+    }
+
+    /// Returns the files of a pattern.
+    fn files(&self, from: &Path, pattern: &Pattern) -> Vec<Written> {
+        match self {
+            Self::Text(path) => {
+                let name = input::shown(from)
+                    .file_name()
+                    .unwrap_or_default()
+                    .to_string_lossy()
+                    .into_owned();
+                let heading = format!(
+                    "Pattern converted from {name} by drape {}. Lengths are in mm, angles in degrees.",
+                    env!("CARGO_PKG_VERSION")
+                );
+                let path = path.clone().unwrap_or_default();
+                vec![Written { path, content: pattern.to_toml(&heading) }]
+            }
+            Self::Drawing(path, width) => {
+                vec![Written { path: path.clone(), content: pattern.to_svg(*width) }]
+            }
+            Self::Pages(path, paper) => {
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let page = |page: drape::pattern::Page| Written {
+                    path: path.with_file_name(format!("{stem}-{}.svg", page.name)),
+                    content: page.svg,
+                };
+                pattern.to_pages(*paper).into_iter().map(page).collect()
+            }
+        }
+    }
+}
+
+/// Returns the unit that the arguments ask for.
+fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
+    let Some(word) = &arguments.unit else { return Ok(None) };
+    match Unit::parse(word) {
+        Some(unit) => Ok(Some(unit)),
+        None => Err(Failure::Usage(format!("--unit {word}: it is mm, cm, m, in, pt or px"))),
+    }
+}
+
+/// Prints the notes of a pattern, which are in the TOML too.
+fn notes(pattern: &Pattern) {
+    pattern.notes().iter().for_each(|note| tell(format_args!("note: {note}")));
+}

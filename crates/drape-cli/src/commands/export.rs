@@ -1,0 +1,144 @@
+//! `drape export`: writes the frames of a run in the formats of other programs.
+//!
+//! The formats are those of `drape::export`, and pictures; here are the frames that are written, and
+//! what is said about them.
+
+mod arguments;
+mod files;
+mod pictures;
+
+use std::ops::RangeInclusive;
+
+use clap::ValueEnum;
+use drape::export::{
+    Clip, Field, GLB_FRAMES_MAX, write_csv, write_glb, write_mdd, write_npz, write_obj, write_pc2,
+    write_usda,
+};
+use drape::frames::Recording;
+use drape::run::file::FileKind;
+
+pub(crate) use self::arguments::ExportArguments;
+use self::arguments::Format;
+use self::files::Files;
+use self::pictures::{ANIMATED, ClipPictures};
+use crate::console::note;
+use crate::failure::Failure;
+use crate::input;
+use crate::say::say_written;
+
+/// Executes `drape export`.
+pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
+    let format = format(arguments)?;
+    let is_pictures = matches!(format, Format::Png | Format::Apng);
+    let mut given = arguments.look.given();
+    if let Some(option) = given.find(|option| match format {
+        Format::Svg => *option != "--map",
+        _ => !is_pictures,
+    }) {
+        let formats = if option == "--map" { "png, apng or svg" } else { "png or apng" };
+        return Err(Failure::Usage(format!(
+            "{option} is for pictures; leave it out, or add --format {formats}"
+        )));
+    }
+    input::expect(&arguments.run, &[FileKind::Run])?;
+    let recording = Recording::open(&arguments.run)?;
+    let numbers = numbers(arguments, format, recording.frames() - 1);
+    let asked = numbers.clone().count();
+    if format == Format::Svg && asked != 1 {
+        let reason = "--frames: svg shows one frame; name it with --frame";
+        return Err(Failure::Usage(reason.to_owned()));
+    }
+    let clip = Clip::new(&recording, numbers, arguments.fps)?;
+    if clip.count() < asked {
+        let left_out = asked - clip.count();
+        note(format_args!("frames left out, since a later one has the same time: {left_out}"));
+    }
+    let one = asked == 1;
+    let rate = clip.rate();
+    let clip = match format {
+        Format::Obj | Format::Pc2 | Format::Mdd | Format::Png | Format::Apng
+            if !clip.is_even() && (!is_pictures || arguments.fps.is_some()) =>
+        {
+            let resampled = clip.resampled();
+            note(format_args!(
+                "the frames do not follow each other at {rate} frames per second; those nearest in time are taken, {}",
+                resampled.count()
+            ));
+            resampled
+        }
+        Format::Glb if clip.count() > GLB_FRAMES_MAX => {
+            note(format_args!(
+                "viewers of glTF hold {GLB_FRAMES_MAX} frames; so many of {} are taken, evenly",
+                clip.count()
+            ));
+            clip.thinned(GLB_FRAMES_MAX)
+        }
+        _ => clip,
+    };
+    let files = Files { output: &arguments.output, force: arguments.force };
+    match format {
+        Format::Obj if one => files.one(|to| {
+            let frame = recording.frame(clip.frames()[0])?;
+            Ok(write_obj(&recording, &frame, to)?)
+        })?,
+        Format::Obj => files.sequence(&clip)?,
+        Format::Glb => files.one(|to| write_glb(&clip, to))?,
+        Format::Usda => files.one(|to| write_usda(&clip, to))?,
+        Format::Pc2 => files.cache(&clip, |to| write_pc2(&clip, to))?,
+        Format::Mdd => files.cache(&clip, |to| write_mdd(&clip, to))?,
+        Format::Vtp => files.vtk(&clip, one)?,
+        Format::Npz => files.one(|to| write_npz(&clip, to))?,
+        Format::Csv => files.one(|to| write_csv(&clip, to))?,
+        Format::Png => ClipPictures::new(&clip, &arguments.look, None)?.sequence(&files)?,
+        Format::Apng => {
+            ClipPictures::new(&clip, &arguments.look, Some(ANIMATED))?.animation(&files)?;
+        }
+        Format::Svg => {
+            files.pattern_map(&clip, arguments.look.map().unwrap_or(Field::StrainWarp))?
+        }
+    }
+    let (count, output) = (clip.count(), arguments.output.display());
+    match count {
+        1 => say_written(format_args!("frame {} in {output}", clip.frames()[0])),
+        _ => say_written(format_args!("{count} frames, {rate} per second, in {output}")),
+    }
+}
+
+/// Returns the format that is asked for, or that the ending of the file says.
+fn format(arguments: &ExportArguments) -> Result<Format, Failure> {
+    let ending = arguments.output.extension().unwrap_or_default().to_string_lossy();
+    let named = || <Format as ValueEnum>::from_str(&ending, true).ok();
+    arguments.format.or_else(named).ok_or_else(|| {
+        let output = arguments.output.display();
+        if ending.is_empty() {
+            let advice = "add it, such as --format glb";
+            return Failure::Usage(format!("{output} does not say its format; {advice}"));
+        }
+        let formats = Format::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        let formats: Vec<String> = formats.map(|format| format.get_name().to_owned()).collect();
+        let instead = match ending.to_ascii_lowercase().as_str() {
+            "abc" => "; programs that read Alembic read usda, or pc2 and mdd with an OBJ file",
+            "fbx" | "dae" | "gltf" => "; programs that read it read glb too, with its movement",
+            "usd" | "usdc" | "usdz" => "; usda is USD as text, and may be renamed to *.usd",
+            "stl" | "ply" | "3mf" => "; obj has the mesh of one frame",
+            "mp4" | "mov" | "gif" | "webm" | "avi" => {
+                "; apng moves, and png writes numbered pictures"
+            }
+            _ => "",
+        };
+        Failure::Usage(format!(
+            "{output}: there is no format {ending}; the formats are {}{instead}",
+            formats.join(", ")
+        ))
+    })
+}
+
+/// Returns the numbers of the frames that are asked for.
+fn numbers(arguments: &ExportArguments, format: Format, last: usize) -> RangeInclusive<usize> {
+    match (arguments.frame, arguments.frames) {
+        (Some(number), _) => number..=number,
+        (None, Some(range)) => range.numbers(last),
+        (None, None) if matches!(format, Format::Obj | Format::Svg) => last..=last,
+        (None, None) => 0..=last,
+    }
+}

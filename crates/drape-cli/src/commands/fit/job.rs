@@ -1,0 +1,147 @@
+//! Jobs of a fit: sheets, and tables of which a sheet is drafted first, each with the files that it writes.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use drape::input::Diagnostics;
+use drape::kes::{Sheet, SheetDraft};
+
+use super::arguments::FitArguments;
+use crate::commands::sheets::{self, SHEET_FILE, drafted};
+use crate::failure::Failure;
+use drape::run::file;
+
+/// Sheet to be fitted.
+pub(crate) struct Job {
+    /// The sheet; of a drafted one, where it is written.
+    pub(crate) sheet: PathBuf,
+    /// Draft of the sheet, where it does not exist yet.
+    draft: Option<SheetDraft>,
+    /// Name of its page, and of its fabric in a folder of several.
+    pub(crate) name: String,
+    /// File of its fabric.
+    pub(crate) fabric: PathBuf,
+}
+
+/// Plans the jobs of the arguments: one, or several with names of their own.
+pub(crate) fn jobs(arguments: &FitArguments) -> Result<Vec<Job>, Failure> {
+    let mut jobs = Vec::new();
+    for path in &arguments.sheets {
+        if sheets::is_of_tables(path) {
+            jobs.extend(of_tables(path, arguments)?);
+        } else if arguments.fabric.is_some() {
+            let path = path.display();
+            let message = format!("--fabric takes one of several in tables, and {path} is a sheet");
+            return Err(Failure::Usage(message));
+        } else {
+            let paths = sheets::sheets(std::slice::from_ref(path))?;
+            jobs.extend(paths.into_iter().map(Job::of_sheet));
+        }
+    }
+    if let [job] = &mut jobs[..] {
+        if let Some(fabric) = &arguments.output {
+            job.write_to(fabric.clone());
+        }
+        return Ok(jobs);
+    }
+    // Several: each is named by its stem, with a number where that is taken.
+    let mut taken = BTreeSet::new();
+    for job in &mut jobs {
+        let stem = job.name.clone();
+        let numbered = (2..).map(|number| format!("{stem}-{number}"));
+        let mut candidates = std::iter::once(stem.clone()).chain(numbered);
+        let name = candidates.find(|name| taken.insert(name.clone()));
+        job.name = name.expect("there is always a next number");
+        if let Some(folder) = &arguments.output {
+            job.write_to(folder.join(format!("{}.toml", job.name)));
+        }
+    }
+    Ok(jobs)
+}
+
+/// Drafts the sheets of tables: all of them, or that of one fabric.
+fn of_tables(path: &Path, arguments: &FitArguments) -> Result<Vec<Job>, Failure> {
+    let is_alone = arguments.sheets.len() == 1;
+    let folder = match &arguments.output {
+        Some(output) if is_alone => output.parent().unwrap_or(Path::new("")),
+        Some(output) => output,
+        None => own_folder(path),
+    };
+    let mut drafts = drafted::drafts(path, folder, arguments.fabric.as_deref())?;
+    // Of several fabrics the output is a folder.
+    if let (true, true, Some(output)) = (drafts.len() > 1, is_alone, &arguments.output) {
+        drafted::refuse_file(path, output, &drafts)?;
+        drafts = drafted::drafts(path, output, None)?;
+    }
+    let several = drafts.len() > 1;
+    Ok(drafts.into_iter().map(|draft| Job::of_draft(path, draft, several)).collect())
+}
+
+/// Returns the folder of tables.
+fn own_folder(path: &Path) -> &Path {
+    if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) }
+}
+
+impl Job {
+    fn of_sheet(sheet: PathBuf) -> Self {
+        Self {
+            name: sheets::stem(&sheet),
+            fabric: sheets::fabric_beside(&sheet),
+            draft: None,
+            sheet,
+        }
+    }
+
+    /// Returns the job of a draft: its files lie beside the tables, or in the folder of the tables.
+    fn of_draft(path: &Path, draft: SheetDraft, several: bool) -> Self {
+        let name = drafted::name(path, &draft, several);
+        let folder = own_folder(path);
+        let (sheet, fabric) = if path.is_dir() && !several {
+            let sheet = folder.join(SHEET_FILE);
+            let fabric = sheets::fabric_beside(&sheet);
+            (sheet, fabric)
+        } else {
+            let fabric = folder.join(format!("{name}.toml"));
+            (drafted::sheet_beside(&fabric), fabric)
+        };
+        Self { name, sheet, fabric, draft: Some(draft) }
+    }
+
+    /// Sets the file of the fabric; a drafted sheet lies beside it.
+    fn write_to(&mut self, fabric: PathBuf) {
+        if self.is_drafted() {
+            self.sheet = drafted::sheet_beside(&fabric);
+        }
+        self.fabric = fabric;
+    }
+
+    /// Returns whether the sheet is drafted.
+    pub(crate) fn is_drafted(&self) -> bool {
+        self.draft.is_some()
+    }
+
+    /// Refuses to replace files that are there, unless that is allowed.
+    pub(crate) fn refuse_existing(&self, force: bool, help: &str) -> Result<(), Failure> {
+        if self.is_drafted() && !force && self.sheet.exists() {
+            let sheet = self.sheet.display();
+            return Err(Failure::Usage(format!(
+                "{sheet} exists, the sheet of these tables: fit it with drape fit {sheet}, or replace it with --force"
+            )));
+        }
+        Ok(file::refuse_existing(&self.fabric, force, help)?)
+    }
+
+    /// Writes the sheet, if it is drafted.
+    pub(crate) fn write_sheet(&self) -> Result<(), Failure> {
+        let Some(draft) = &self.draft else { return Ok(()) };
+        Ok(file::write(&self.sheet, &draft.text)?)
+    }
+
+    /// Reads the sheet.
+    pub(crate) fn read(&self) -> Result<Sheet, Diagnostics> {
+        match &self.draft {
+            Some(draft) => drafted::read(draft, &self.sheet),
+            None => sheets::read(&self.sheet),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Job: one run of a scene, from its start or from a checkpoint to its pictures.
+
+use std::path::Path;
+use std::time::Duration;
+
+use clap::Args;
+use drape::dynamics::Summary;
+use drape::frames::Recording;
+use drape::report::Picture;
+use drape::run::reports::{VIEWER_SIZE_MAX, ViewerPage};
+use drape::run::{EndedRun, FolderRun, RunOptions};
+use drape::scene::Scene;
+
+use super::limits::LimitArguments;
+use super::report::describe;
+use crate::console::note;
+use crate::console::progress::RunProgress;
+use crate::console::signal;
+use crate::failure::Failure;
+use crate::pages::picture::{self, Pictures};
+use crate::pages::strain_map::draw_strains;
+use crate::say::{say, say_written};
+use drape::run::file;
+
+/// Time after a signal up to which a picture of the last frame is still drawn.
+const PICTURE_MAX: Duration = Duration::from_millis(700);
+
+/// Options of a run, whether it begins or goes on.
+#[derive(Args)]
+pub(crate) struct JobArguments {
+    /// Draws no picture, no map of strains and no view.
+    #[arg(long)]
+    pub(crate) no_picture: bool,
+    /// Prints the summary as JSON, those of several scenes as a list.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) limits: LimitArguments,
+}
+
+impl JobArguments {
+    /// Returns the options of the run; `replace` allows the results of an earlier run to be replaced.
+    pub(crate) fn run_options(&self, replace: bool) -> RunOptions {
+        RunOptions {
+            limits: self.limits.limits(),
+            program: std::env::current_exe().unwrap_or_default(),
+            replace,
+            give_up: signal::give_up_flag(),
+        }
+    }
+}
+
+/// Run that is ready, in a folder that is its own.
+pub(crate) struct Job<'a> {
+    pub(crate) run: FolderRun,
+    pub(crate) folder: &'a Path,
+    pub(crate) options: &'a JobArguments,
+}
+
+/// How a job draws its end.
+struct Shown {
+    view: [Option<f64>; 2],
+    is_garment: bool,
+}
+
+impl Job<'_> {
+    /// Runs it, stores its results and says what came out; a run that fails has a summary too.
+    pub(crate) fn run(self) -> Result<Summary, Failure> {
+        let Self { run, folder, options } = self;
+        let scene = run.scene();
+        let view = [scene.output.view.azimuth, scene.output.view.elevation];
+        let is_garment = scene.sewing.is_some();
+        notes(scene);
+        let mut progress = RunProgress::new(scene);
+        let ended = run.run(&mut progress);
+        progress.finish();
+        let ended = ended?;
+        if !options.no_picture {
+            draw(&Shown { view, is_garment }, &ended, folder)?;
+        }
+        let summary = ended.close();
+        if !options.json {
+            say(describe(&summary))?;
+            for warning in &summary.warnings {
+                say(format_args!("warning: {warning}"))?;
+            }
+            say_written(format_args!("results in {}", folder.display()))?;
+        }
+        Ok(summary)
+    }
+}
+
+/// Stores the view and the pictures; of an interrupted run those that take no time.
+fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<(), Failure> {
+    let EndedRun { summary, output, last, .. } = ended;
+    let Shown { view, is_garment } = shown;
+    if let Some(since) = signal::since() {
+        if since <= PICTURE_MAX {
+            let picture = Pictures::new(last)?.draw(*view, picture::SIZE)?;
+            save(&picture, &output.path("picture.png"))?;
+        }
+        return Ok(());
+    }
+    let page = ViewerPage::new(&[Recording::open(folder)?], VIEWER_SIZE_MAX)?;
+    file::write(&output.path("view.html"), page.html)?;
+    let pictures = Pictures::new(last)?;
+    let picture = match (is_garment, view) {
+        (true, [None, None]) => pictures.draw_round()?,
+        _ => pictures.draw(*view, picture::SIZE)?,
+    };
+    save(&picture, &output.path("picture.png"))?;
+    if let Some(place) = summary.place {
+        let near = picture::near(last, place);
+        let picture = Pictures::new(&near)?.draw(*view, picture::SIZE)?;
+        save(&picture, &output.path("place.png"))?;
+    }
+    if *is_garment {
+        file::write(&output.path("strain.svg"), draw_strains(last, &pictures)?)?;
+    }
+    Ok(())
+}
+
+fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
+    Ok(file::write(path, picture.png().map_err(Failure::of_picture)?)?)
+}
+
+/// Prints the notes on a scene, and what contact cannot promise.
+fn notes(scene: &Scene) {
+    scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(note);
+}

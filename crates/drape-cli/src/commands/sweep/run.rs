@@ -1,0 +1,275 @@
+//! `drape sweep run`: points shared out to jobs.
+
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use clap::Args;
+use drape::run::file;
+use drape::sweep::{Outcome, Place, Point, Record, Shard, Study, manifest};
+use indicatif::ProgressBar;
+use serde_json::json;
+
+use super::study::StudyArguments;
+use super::worker::{Ended, TRIES, Worker};
+use crate::console::{Console, ProgressKind, progress, signal, tell};
+use crate::failure::Failure;
+use crate::say::{say, say_written};
+
+#[derive(Args)]
+pub(crate) struct SweepRunArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Number of points that run at once, which share the threads [default: one for each thread].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Runs the point with this key, or with a key that begins so; may be given several times.
+    #[arg(long, value_name = "KEY")]
+    point: Vec<String>,
+    /// Runs part i of n of the points, such as 1/4.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Lists the points with their keys, their outcomes and their values, and runs none.
+    #[arg(long)]
+    list: bool,
+}
+
+/// Number of points in a row that could not be run, after which the sweep ends: the machine is bad.
+const FAILED_MAX: usize = 3;
+
+/// Time between two looks for a signal.
+const WATCH: Duration = Duration::from_millis(50);
+
+/// Executes `drape sweep run`. Points that fail are results: the exit code is that of a failure only
+/// where a worker failed, or a signal came.
+pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
+    let (study, points) = arguments.study.read(arguments.shard)?;
+    let mut chosen = choose(arguments, &points)?;
+    if arguments.list {
+        return chosen.iter().try_for_each(|point| list(&study, point));
+    }
+    // A part does not know the keys of the rest.
+    if arguments.shard.is_none() {
+        write_manifest(&study, &points)?;
+    }
+    // Those that could not be run before come last, since they may fail again and end the sweep.
+    chosen.sort_by_cached_key(|point| {
+        let record = Place::new(&study, point).record();
+        record.is_some_and(|record| record.outcome == Outcome::WorkerFailed)
+    });
+    let again = format!("drape sweep run {}", arguments.study.study.display());
+    let Ran { counts, failure } = run_points(&study, &chosen, arguments.jobs, &again)?;
+    say_written(counts)?;
+    failure.map_or(Ok(()), Err)
+}
+
+/// What came of points that were run.
+pub(super) struct Ran {
+    /// Their numbers, in words.
+    pub(super) counts: String,
+    /// Why not all of them were run.
+    pub(super) failure: Option<Failure>,
+}
+
+/// Runs points by so many jobs at once, as many as there are threads if there is no number; `again` is
+/// the command that goes on where it ended early.
+pub(super) fn run_points(
+    study: &Study,
+    points: &[&Point],
+    jobs: Option<u16>,
+    again: &str,
+) -> Result<Ran, Failure> {
+    signal::watch();
+    let threads = rayon::current_num_threads();
+    let jobs = jobs.map_or(threads, usize::from).min(points.len().max(1));
+    let sweep = Sweep {
+        worker: Worker::new(study, (threads / jobs).max(1))?,
+        study,
+        points,
+        next: AtomicUsize::new(0),
+        counts: Mutex::default(),
+        bar: progress::bar(points.len() as u64, "{pos}/{len} points, {eta} left"),
+    };
+    let failures = sweep.run(jobs);
+    sweep.bar.finish_and_clear();
+    let counts = sweep.counts.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let failure = failures.into_iter().next().or_else(|| counts.failure(again));
+    Ok(Ran { counts: counts.describe(points.len()), failure })
+}
+
+/// Writes the list of all points, unless it is there. Sweeps that begin at once write the same.
+fn write_manifest(study: &Study, points: &[Point]) -> Result<(), Failure> {
+    let path = study.output().join("manifest.jsonl");
+    let text = manifest(study, points);
+    if std::fs::read_to_string(&path).ok().as_ref() == Some(&text) {
+        return Ok(());
+    }
+    let own = study.output().join(format!("manifest-{}.jsonl", std::process::id()));
+    file::write(&own, text)?;
+    std::fs::rename(&own, &path)
+        .map_err(|error| Failure::Output(format!("cannot write {}: {error}", path.display())))
+}
+
+/// Returns the points that are asked for, each key once.
+fn choose<'a>(
+    arguments: &SweepRunArguments,
+    points: &'a [Point],
+) -> Result<Vec<&'a Point>, Failure> {
+    let keys = &arguments.point;
+    if let Some(key) = keys.iter().find(|key| points.iter().all(|point| !is_of(point, key))) {
+        return Err(Failure::Usage(format!(
+            "--point {key}: the study has no such point; `drape sweep run {} --list` lists them",
+            arguments.study.study.display()
+        )));
+    }
+    let mut known = BTreeSet::new();
+    let is_asked = |point: &&Point| keys.is_empty() || keys.iter().any(|key| is_of(point, key));
+    Ok(points.iter().filter(is_asked).filter(|point| known.insert(&point.key)).collect())
+}
+
+fn is_of(point: &Point, key: &str) -> bool {
+    !key.is_empty() && point.key.starts_with(key)
+}
+
+/// Prints a line for a point.
+fn list(study: &Study, point: &Point) -> Result<(), Failure> {
+    let outcome = Place::new(study, point).outcome();
+    say(format_args!("{}\t{}\t{outcome}\t{}", point.index, point.key, values(point)))
+}
+
+/// Returns the values of a point in words.
+fn values(point: &Point) -> String {
+    let settings: Vec<String> = point.settings.iter().map(ToString::to_string).collect();
+    settings.join(" ")
+}
+
+/// Points that are run by several jobs.
+struct Sweep<'a> {
+    worker: Worker<'a>,
+    study: &'a Study,
+    points: &'a [&'a Point],
+    next: AtomicUsize,
+    counts: Mutex<Counts>,
+    bar: ProgressBar,
+}
+
+/// Numbers of points by what came of them.
+#[derive(Default)]
+struct Counts {
+    done: usize,
+    earlier: usize,
+    failed: usize,
+    workers: usize,
+    /// Number of points in a row that could not be run.
+    in_a_row: usize,
+    elsewhere: usize,
+}
+
+impl Counts {
+    fn describe(&self, all: usize) -> String {
+        let Self { done, earlier, failed, workers, elsewhere, .. } = self;
+        let mut text = format!("{all} points: {done} run, {earlier} done before");
+        for (count, what) in [
+            (failed, "refused or failed"),
+            (workers, "could not be run"),
+            (elsewhere, "left to another sweep"),
+        ] {
+            if *count > 0 {
+                text += &format!(", {count} {what}");
+            }
+        }
+        text
+    }
+
+    /// Returns why not all points were run, if that is so.
+    fn failure(&self, again: &str) -> Option<Failure> {
+        if let Some(signal) = signal::received() {
+            let message = format!("interrupted; go on with `{again}`");
+            return Some(Failure::Interrupted { signal, message });
+        }
+        let rest = if self.in_a_row >= FAILED_MAX { ", and the rest is left" } else { "" };
+        (self.workers > 0).then(|| {
+            Failure::Output(format!(
+                "{} points could not be run on this machine, though tried {TRIES} times each{rest}; try \
+                 again with `{again}`",
+                self.workers
+            ))
+        })
+    }
+}
+
+impl Sweep<'_> {
+    /// Runs the points by so many jobs; returns failures to write results.
+    fn run(&self, jobs: usize) -> Vec<Failure> {
+        std::thread::scope(|scope| {
+            let jobs: Vec<_> = (0..jobs).map(|_| scope.spawn(|| self.job())).collect();
+            while jobs.iter().any(|job| !job.is_finished()) {
+                if let Some(signal) = signal::received() {
+                    self.worker.end_all(signal);
+                    break;
+                }
+                std::thread::park_timeout(WATCH);
+            }
+            jobs.into_iter().filter_map(|job| job.join().ok()?.err()).collect()
+        })
+    }
+
+    /// Runs one point after the other.
+    fn job(&self) -> Result<(), Failure> {
+        while signal::received().is_none() && self.counts().in_a_row < FAILED_MAX {
+            let Some(point) = self.points.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
+                break;
+            };
+            let ended = self.worker.run(&Place::new(self.study, point), point)?;
+            self.count(point, &ended);
+        }
+        Ok(())
+    }
+
+    fn counts(&self) -> MutexGuard<'_, Counts> {
+        self.counts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn count(&self, point: &Point, ended: &Ended) {
+        let mut counts = self.counts();
+        match ended {
+            Ended::Interrupted => return,
+            Ended::Elsewhere => counts.elsewhere += 1,
+            Ended::Before(Record { outcome: Outcome::JobFailed, .. }) => counts.failed += 1,
+            Ended::Before(_) => counts.earlier += 1,
+            Ended::Now(record) => {
+                let in_a_row = counts.in_a_row + 1;
+                counts.in_a_row = 0;
+                match record.outcome {
+                    Outcome::Done => counts.done += 1,
+                    Outcome::JobFailed => counts.failed += 1,
+                    Outcome::WorkerFailed => {
+                        counts.workers += 1;
+                        counts.in_a_row = in_a_row;
+                    }
+                }
+                self.tell(point, record);
+            }
+        }
+        self.bar.inc(1);
+    }
+
+    /// Tells what came of a point: all of them if asked, else failures.
+    fn tell(&self, point: &Point, record: &Record) {
+        let console = Console::get();
+        if console.progress == ProgressKind::Json {
+            tell(json!({
+                "point": point.index, "key": point.key, "outcome": record.outcome,
+                "exit_code": record.exit_code, "seconds": record.seconds,
+            }));
+        } else if record.outcome != Outcome::Done {
+            let (index, values) = (point.index, values(point));
+            let message = record.message.replace('\n', "\n  ");
+            self.bar.suspend(|| tell(format_args!("warning: point {index} ({values}): {message}")));
+        } else if console.verbose {
+            let (index, values, seconds) = (point.index, values(point), record.seconds);
+            tell(format_args!("point {index} ({values}): done in {seconds:.2} s"));
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Failures of commands, with their messages on stderr and their exit codes.
+
+use std::fmt;
+use std::path::Path;
+use std::process::ExitCode;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use drape::input::{Diagnostic, Diagnostics};
+
+use crate::console::{is_coloured, printable, tell, tell_coloured};
+use crate::input;
+use drape::run::file;
+
+/// Failure that ends a command, with its exit code.
+pub(crate) enum Failure {
+    /// Exit code 2: the arguments do not fit together.
+    Usage(String),
+    /// Exit code 3: the input has mistakes.
+    Input(Diagnostics),
+    /// Exit code 3: a sheet gives no fabric.
+    Fit(drape::fit::Error),
+    /// Exit code 3: saved frames cannot be read.
+    Frames(drape::frames::Error),
+    /// Exit code 3: some sheets of a batch failed; each was reported.
+    Batch,
+    /// Exit code 4: surfaces intersect.
+    Intersecting(String),
+    /// Exit code 5: the solver failed, or the cloth did not settle.
+    Solver(String),
+    /// Exit code 7: a figure is beyond its limit.
+    Limit(String),
+    /// Exit code 8: a run came to a limit that the user set.
+    Stopped(String),
+    /// Exit code 128 and the number of the signal: the program was asked to end.
+    Interrupted { signal: u8, message: String },
+    /// The code of the first failure of several, each of which was reported.
+    Several { code: u8 },
+    /// Exit code 6: a file could not be written.
+    Output(String),
+}
+
+impl Failure {
+    /// Prints the failure and returns its exit code.
+    pub(crate) fn report(&self) -> ExitCode {
+        self.print();
+        ExitCode::from(self.code())
+    }
+
+    /// Returns the exit code.
+    pub(crate) fn code(&self) -> u8 {
+        match self {
+            Self::Usage(_) => 2,
+            Self::Input(_) | Self::Fit(_) | Self::Frames(_) | Self::Batch => 3,
+            Self::Intersecting(_) => 4,
+            Self::Solver(_) => 5,
+            Self::Output(_) => 6,
+            Self::Limit(_) => 7,
+            Self::Stopped(_) => 8,
+            Self::Interrupted { signal, .. } => 128 + signal,
+            Self::Several { code } => *code,
+        }
+    }
+
+    /// Prints the failure, with the lines of the input that caused it.
+    pub(crate) fn print(&self) {
+        match self {
+            Self::Input(mistakes) => {
+                mistakes.shown().iter().for_each(|mistake| tell_coloured(render(mistake)));
+                mistakes.rest().iter().for_each(|rest| tell(format_args!("error: {rest}")));
+            }
+            Self::Batch | Self::Several { .. } => {}
+            other => tell(format_args!("error: {other}")),
+        }
+    }
+}
+
+impl Failure {
+    /// Returns the failure of a picture that cannot be drawn or encoded.
+    pub(crate) fn of_picture(error: drape::report::Error) -> Self {
+        Self::Output(error.to_string())
+    }
+
+    /// Adds the sheet that the failure concerns, if it does not name one.
+    pub(crate) fn of(self, sheet: &Path) -> Self {
+        match self {
+            Self::Fit(error) => {
+                let file = input::sheet_file(sheet);
+                let mistake = match input::document(&file) {
+                    Ok(document) => drape::run::fit_mistake(&document, &error),
+                    Err(_) => Diagnostic::new(input::shown(sheet), error.to_string()),
+                };
+                Self::Input(mistake.into())
+            }
+            other => other,
+        }
+    }
+}
+
+impl From<drape::fit::Error> for Failure {
+    fn from(error: drape::fit::Error) -> Self {
+        Self::Fit(error)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message)
+            | Self::Intersecting(message)
+            | Self::Solver(message)
+            | Self::Output(message)
+            | Self::Limit(message)
+            | Self::Stopped(message)
+            | Self::Interrupted { message, .. } => f.write_str(message),
+            Self::Several { .. } => f.write_str("not all scenes could be run"),
+            Self::Input(mistakes) => mistakes.fmt(f),
+            Self::Fit(error) => error.fmt(f),
+            Self::Frames(error) => error.fmt(f),
+            Self::Batch => f.write_str("not all sheets could be fitted"),
+        }
+    }
+}
+
+impl From<drape::frames::Error> for Failure {
+    fn from(error: drape::frames::Error) -> Self {
+        Self::Frames(error)
+    }
+}
+
+impl From<drape::export::Error> for Failure {
+    fn from(error: drape::export::Error) -> Self {
+        use drape::export::Error;
+        match error {
+            Error::Frames(error) => Self::Frames(error),
+            Error::Write(_) => Self::Output(format!("cannot write: {error}")),
+            error => Self::Usage(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::report::Error> for Failure {
+    /// A name or a number of the input that cannot be shown.
+    fn from(error: drape::report::Error) -> Self {
+        Self::Input(Diagnostic::new("report", error.to_string()).into())
+    }
+}
+
+impl From<drape::sweep::Error> for Failure {
+    fn from(error: drape::sweep::Error) -> Self {
+        match error {
+            drape::sweep::Error::Input(mistakes) => Self::Input(mistakes),
+            error => Self::Output(error.to_string()),
+        }
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(mistakes: Diagnostics) -> Self {
+        Self::Input(mistakes)
+    }
+}
+
+impl From<drape::scene::Error> for Failure {
+    fn from(error: drape::scene::Error) -> Self {
+        match error {
+            drape::scene::Error::Input(mistakes) => Self::Input(mistakes),
+            drape::scene::Error::Tangled(tangle) => Self::Input(tangle.mistakes),
+            error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+impl From<file::Error> for Failure {
+    fn from(error: file::Error) -> Self {
+        match error {
+            file::Error::Exists { .. } => Self::Usage(error.to_string()),
+            error => Self::Output(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::run::Error> for Failure {
+    fn from(error: drape::run::Error) -> Self {
+        use drape::run::Error;
+        match error {
+            Error::File(error) => error.into(),
+            Error::Input(mistakes) => Self::Input(mistakes),
+            Error::Dynamics(error) => error.into(),
+            Error::Frames(error) => Self::Frames(error),
+            Error::Folder { .. } | Error::LastFrame { .. } => Self::Output(error.to_string()),
+            error => Self::Usage(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::dynamics::Error> for Failure {
+    fn from(error: drape::dynamics::Error) -> Self {
+        use drape::dynamics::Error;
+        match error {
+            Error::Occupied { .. } => Self::Usage(error.to_string()),
+            Error::Write { .. } => Self::Output(error.to_string()),
+            error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+/// Returns a mistake as text, with the line of its file.
+fn render(mistake: &Diagnostic) -> String {
+    let plain = || printable(&format!("error: {mistake}")).into_owned();
+    let source = mistake.span.as_ref().and_then(|_| input::source(&mistake.file));
+    let (Some(source), Some(span)) = (source, mistake.span.clone()) else {
+        return plain();
+    };
+    let source = source.trim_start_matches('\u{feff}');
+    if source.get(span.clone()).is_none() {
+        return plain();
+    }
+    let source = masked(source);
+    let path = mistake.file.display().to_string();
+    let [path, message] = [&path, &mistake.message].map(|text| printable(text).into_owned());
+    let help = mistake.help.as_deref().map(|help| printable(help).into_owned());
+    let annotation = AnnotationKind::Primary.span(span);
+    let snippet = Snippet::source(&*source).path(&path).annotation(annotation);
+    let mut group = Level::ERROR.primary_title(&message).element(snippet);
+    if let Some(help) = &help {
+        group = group.element(Level::HELP.message(help));
+    }
+    let renderer = if is_coloured() { Renderer::styled() } else { Renderer::plain() };
+    renderer.render(&[group])
+}
+
+/// Replaces every byte of control characters, so that places in the text stay where they are.
+fn masked(source: &str) -> String {
+    let kept = |c: char| !c.is_control() || matches!(c, '\n' | '\r' | '\t');
+    source.chars().map(|c| if kept(c) { c.to_string() } else { "?".repeat(c.len_utf8()) }).collect()
+}

@@ -1,0 +1,154 @@
+//! Page of a study: main effects and interactions of its axes on the measures of its runs.
+
+mod axis;
+pub(crate) mod converge;
+mod digits;
+mod unit;
+
+use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
+use drape::report::{EffectTable, Error, MeasureEffects, StudyPage};
+use drape::run::reports::VERSION;
+use drape::sweep::{Column, Study, Table, interaction, main_effect};
+
+use self::axis::ShownAxis;
+use self::digits::with_scatter;
+use self::unit::ShownMeasure;
+
+/// Most axes whose pairs have tables.
+const PAIRED_MAX: usize = 6;
+
+/// Beginnings of the names of values that are no measures of cloth.
+const OTHERS: [&str; 8] = [
+    "wall_seconds",
+    "cpu_seconds",
+    "threads",
+    "solver.",
+    "steps",
+    "frames",
+    "contact.grown",
+    "energy.remainder",
+];
+
+/// Returns the page of a study.
+pub(crate) fn page(study: &Study, table: &Table) -> Result<String, Error> {
+    let inputs = table.inputs.iter().zip(study.axes());
+    let axes: Vec<ShownAxis<'_>> =
+        inputs.map(|(column, axis)| ShownAxis::new(column, axis.kind)).collect();
+    let is_named = !study.measures().is_empty();
+    let measures = table.measures.iter().filter(|measure| {
+        let is_other = OTHERS.iter().any(|other| measure.name.starts_with(other));
+        let numbers: Vec<f64> = measure.numbers().into_iter().flatten().collect();
+        is_named || (!is_other && numbers.windows(2).any(|pair| pair[0] != pair[1]))
+    });
+    let outcomes = &table.records[0].cells;
+    let ok = outcomes.iter().filter(|outcome| *outcome == "ok").count();
+    let facts = vec![
+        format!("{ok} of {} points ended well", outcomes.len()),
+        "± is the standard deviation of the runs of a level, or of a pair of levels".into(),
+        format!(
+            "study {}, {} {}",
+            study.file().display(),
+            study.base().key(),
+            study.base_file().display()
+        ),
+    ];
+    let failures = failures(table, |row| {
+        let values = axes
+            .iter()
+            .map(|axis| format!("{} {}", axis.column.name, axis.name(&axis.column.cells[row])));
+        values.collect::<Vec<_>>().join(", ")
+    });
+    let page = StudyPage {
+        version: VERSION.into(),
+        title: study.file().file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        facts,
+        failures,
+        measures: measures.map(|measure| effects(&axes, &ShownMeasure::new(measure))).collect(),
+    };
+    page.to_html()
+}
+
+/// Returns the values, which a function names, and the message of each run that failed.
+fn failures(table: &Table, values: impl Fn(usize) -> String) -> Vec<[String; 2]> {
+    let outcomes = table.records[0].cells.iter().enumerate();
+    let failed = outcomes.filter(|(_, outcome)| !matches!(&outcome[..], "ok" | "not run"));
+    let message = table.records.last().map(|column| &column.cells);
+    let row = |(row, outcome): (usize, &String)| {
+        let message = message.map_or("", |cells| cells[row].as_str());
+        [values(row), format!("{outcome}: {message}").replace('\n', " ")]
+    };
+    failed.map(row).collect()
+}
+
+/// Returns the effects of the axes on a measure.
+fn effects(axes: &[ShownAxis<'_>], measure: &ShownMeasure) -> MeasureEffects {
+    let plots = axes.iter().filter_map(|axis| plot(axis, measure)).collect();
+    let with_means = || axes.iter().filter(|axis| axis.has_means);
+    let mut tables: Vec<EffectTable> = with_means().map(|axis| means(axis, measure)).collect();
+    let paired: Vec<&ShownAxis<'_>> = with_means().take(PAIRED_MAX).collect();
+    for (index, first) in paired.iter().enumerate() {
+        let rest = paired[index + 1..].iter();
+        tables.extend(rest.map(|second| pairs([first, second], &measure.column)));
+    }
+    MeasureEffects { name: measure.title(), plots, tables }
+}
+
+/// Returns the plot of a measure over an axis: each point, and the means, which are joined where the
+/// levels are numbers.
+fn plot(axis: &ShownAxis<'_>, measure: &ShownMeasure) -> Option<GraphPlot> {
+    if !axis.is_shown {
+        return None;
+    }
+    let cells = axis.column.cells.iter().zip(measure.column.numbers());
+    let points = cells.filter_map(|(level, value)| Some([axis.place(level)?, value?])).collect();
+    let mut series = vec![GraphSeries { label: "run".into(), look: Look::Dots, points }];
+    if axis.has_means {
+        let effect = main_effect(axis.column, &measure.column);
+        let means = effect.levels.iter().zip(&effect.means);
+        let mut points: Vec<[f64; 2]> =
+            means.filter_map(|(level, mean)| Some([axis.place(level)?, (*mean)?.value])).collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let look = if axis.names.is_empty() { Look::Line } else { Look::Marks };
+        series.push(GraphSeries { label: "mean".into(), look, points });
+    }
+    series.retain(|series| !series.points.is_empty());
+    let (label, unit) = unit::of_name(&axis.column.name);
+    (!series.is_empty()).then(|| GraphPlot {
+        title: format!("{} over {label}", measure.label),
+        axes: [Axis::new(label, unit, 1.0), Axis::new(&measure.label, &measure.unit, 1.0)],
+        categories: axis.names.clone(),
+        logarithmic: [false, false],
+        to_scale: false,
+        series,
+    })
+}
+
+/// Returns the table of the means over an axis.
+fn means(axis: &ShownAxis<'_>, measure: &ShownMeasure) -> EffectTable {
+    let effect = main_effect(axis.column, &measure.column);
+    let rows = effect.levels.iter().zip(&effect.means).map(|(level, mean)| {
+        let count = mean.map_or(0, |mean| mean.count);
+        vec![axis.name(level), with_scatter(*mean), count.to_string()]
+    });
+    EffectTable {
+        caption: format!("Means over {}", axis.column.name),
+        heads: [axis.column.name.as_str(), "mean", "points"].map(str::to_owned).to_vec(),
+        rows: rows.collect(),
+    }
+}
+
+/// Returns the table of the means over pairs of levels of two axes.
+fn pairs(axes: [&ShownAxis<'_>; 2], measure: &Column) -> EffectTable {
+    let found = interaction(axes.map(|axis| axis.column), measure);
+    let [first, second] = axes.map(|axis| &axis.column.name);
+    let heads = found.columns.iter().map(|level| format!("{second} {}", axes[1].name(level)));
+    let rows = found.rows.iter().zip(&found.means).map(|(level, means)| {
+        let cells = means.iter().map(|mean| with_scatter(*mean));
+        std::iter::once(axes[0].name(level)).chain(cells).collect()
+    });
+    EffectTable {
+        caption: format!("Means over {first} and {second}"),
+        heads: std::iter::once(first.clone()).chain(heads).collect(),
+        rows: rows.collect(),
+    }
+}

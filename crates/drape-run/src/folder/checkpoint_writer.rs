@@ -1,0 +1,106 @@
+//! CheckpointWriter of a run: writes its checkpoints and its status, and watches its limits.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use drape_checkpoint::{Checkpoint, Identity, Store};
+use drape_dynamics::{Error, SavedRecorder, SavedSimulation};
+use drape_scene::Scene;
+
+use super::limits::Limits;
+use super::options::RunOptions;
+use super::status::{Advance, StatusFile};
+
+/// Name of the section of the recorder in a checkpoint.
+const RECORDER: &str = "recorder";
+
+/// CheckpointWriter of a run.
+pub(super) struct CheckpointWriter {
+    folder: PathBuf,
+    identity: Identity,
+    every: Duration,
+    /// Time of the last checkpoint, or of the start.
+    last: Instant,
+    limits: Limits,
+    reached: Option<String>,
+    status: StatusFile,
+}
+
+/// Content of a checkpoint: the states of simulation and recorder.
+pub(super) struct SavedRun {
+    pub(super) simulation: SavedSimulation,
+    pub(super) recorder: SavedRecorder,
+}
+
+impl CheckpointWriter {
+    /// CheckpointWriter of a run of a scene in a folder, with a checkpoint after every so many seconds.
+    pub(super) fn new(folder: &Path, scene: &Scene, every: f64, options: &RunOptions) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            identity: identity(scene, &options.program),
+            every: Duration::from_secs_f64(every),
+            last: Instant::now(),
+            limits: options.limits.clone(),
+            reached: None,
+            status: StatusFile::new(folder),
+        }
+    }
+
+    /// Takes a step into account, and looks after the limits from time to time.
+    pub(super) fn step(&mut self, advance: Advance) {
+        if self.status.step(advance) && self.reached.is_none() {
+            self.reached = self.limits.reached(self.status.begin(), &self.folder);
+        }
+    }
+
+    /// Returns the limit that the run has reached, in words.
+    pub(super) fn reached(&self) -> Option<&str> {
+        self.reached.as_deref()
+    }
+
+    /// Returns whether it is time for a checkpoint.
+    pub(super) fn is_due(&self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    /// Writes a checkpoint.
+    pub(super) fn keep(
+        &mut self,
+        simulation: &SavedSimulation,
+        recorder: &SavedRecorder,
+    ) -> Result<(), Error> {
+        let mut checkpoint = Checkpoint::new(self.identity.clone());
+        simulation.write(&mut checkpoint)?;
+        checkpoint.put(RECORDER, recorder)?;
+        Store::new(&self.folder).write(&checkpoint)?;
+        self.last = Instant::now();
+        Ok(())
+    }
+
+    /// Returns what changed since a checkpoint was written.
+    pub(super) fn changes(&self, checkpoint: &Checkpoint) -> Vec<String> {
+        self.identity.changes(checkpoint.identity())
+    }
+
+    /// Tells how the run ended.
+    pub(super) fn end(&mut self, outcome: &str, message: Option<String>) {
+        self.status.end(outcome, message);
+    }
+}
+
+impl SavedRun {
+    /// Takes what a checkpoint holds.
+    pub(super) fn read(checkpoint: &Checkpoint) -> Result<Self, Error> {
+        let simulation = SavedSimulation::read(checkpoint)?;
+        Ok(Self { simulation, recorder: checkpoint.get(RECORDER)? })
+    }
+}
+
+/// Identity of a run: the program, to the last byte, and all that the scene was read from.
+fn identity(scene: &Scene, program: &Path) -> Identity {
+    let identity = Identity::new(concat!("drape ", env!("CARGO_PKG_VERSION")));
+    let parts = scene.source.parts.iter();
+    parts.fold(identity.with_file("the program's file", program), |identity, part| {
+        identity.with_digest(&part.name, part.digest)
+    })
+}

@@ -1,0 +1,112 @@
+//! Errors of a run that is kept in a folder, each with its remedy.
+
+use std::path::PathBuf;
+
+use drape_input::Diagnostics;
+
+/// Reason why a run cannot begin, go on or be kept.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Another run writes to the folder: wait, or give another folder.
+    #[error("another run is writing to {}; wait for its end, or give another folder with -o", folder.display())]
+    Locked {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The folder holds a run that was interrupted: go on with it, or allow it to be replaced.
+    #[error(
+        "{place} holds a run that was interrupted; go on with `drape resume {place}`, or begin anew \
+         with --force",
+        place = folder.display()
+    )]
+    Interrupted {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The folder holds the run that the panels are graded by: give another folder.
+    #[error(
+        "{} holds the run that grading.run names; give another folder with -o",
+        folder.display()
+    )]
+    GradedBy {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run ends before its first step: give a later end.
+    #[error("--until {end}: a step takes {step} s already")]
+    End {
+        /// End of the run, in s.
+        end: f64,
+        /// Length of a step, in s.
+        step: f64,
+    },
+    /// No run was begun in the folder: name another one.
+    #[error("{}: {reason}; a folder that `drape run` has begun has it", path.display())]
+    NotBegun {
+        /// File of the request.
+        path: PathBuf,
+        /// Reason, in words.
+        reason: String,
+    },
+    /// The run has come to its end: extend it.
+    #[error(
+        "{}: the run has ended ({status}); go on beyond its end with --extend SECONDS",
+        folder.display()
+    )]
+    Ended {
+        /// The folder.
+        folder: PathBuf,
+        /// Status of its summary.
+        status: String,
+    },
+    /// The run has failed: change its scene.
+    #[error(
+        "{}: the run has ended ({status}); it would end so again: change its scene, and run it anew \
+         with drape run --force",
+        folder.display()
+    )]
+    Failed {
+        /// The folder.
+        folder: PathBuf,
+        /// Status of its summary.
+        status: String,
+    },
+    /// No checkpoint is left that could be extended: run the scene anew.
+    #[error("{}: no checkpoint is left to extend", folder.display())]
+    NoCheckpoint {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The cloth has come to rest, which ends a run.
+    #[error("the cloth is at rest, by which the run is over; there is nothing to extend")]
+    AtRest,
+    /// The folder cannot be made: check space and permissions.
+    #[error("cannot write {}: {reason}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// Message of the system.
+        reason: std::io::Error,
+    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] crate::file::Error),
+    /// The scene, or what a checkpoint was made from, has mistakes.
+    #[error(transparent)]
+    Input(#[from] Diagnostics),
+    /// The simulation cannot be set up, or its results cannot be written.
+    #[error(transparent)]
+    Dynamics(#[from] drape_dynamics::Error),
+    /// The frames that were written cannot be read.
+    #[error(transparent)]
+    Frames(#[from] drape_frames::Error),
+    /// The last frame cannot be written as OBJ: check space and permissions.
+    #[error("cannot write {}: {reason}", path.display())]
+    LastFrame {
+        /// The file.
+        path: PathBuf,
+        /// Reason, in words.
+        reason: String,
+    },
+}

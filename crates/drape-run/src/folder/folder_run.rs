@@ -1,0 +1,211 @@
+//! Run of a scene that is kept in a folder, from its start or from a checkpoint to its summary.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::Error;
+use super::checkpoint_writer::{CheckpointWriter, SavedRun};
+use super::goal::Goal;
+use super::lock::Lock;
+use super::options::{RunOptions, Watcher};
+use super::request::RunRequest;
+use super::space::check_space;
+use super::status::Advance;
+use drape_dynamics::{
+    Frame, Output, Progress, Recorder, SavedSimulation, Simulation, Snapshot, Status, Step,
+    Summary, prepare_folder,
+};
+use drape_export::write_obj;
+use drape_frames::Recording;
+use drape_scene::Scene;
+
+/// Run of a scene in a folder that is its own.
+pub struct FolderRun {
+    pub(super) scene: Scene,
+    pub(super) folder: PathBuf,
+    pub(super) output: Output,
+    pub(super) writer: CheckpointWriter,
+    pub(super) lock: Lock,
+    pub(super) give_up: Arc<AtomicBool>,
+    /// Whether the state is hashed after each step.
+    pub(super) state_hash: bool,
+    /// Checkpoint from which it goes on.
+    pub(super) resumption: Option<Resumption>,
+}
+
+/// Checkpoint from which a run goes on, and by how much it goes on beyond its end, in s.
+pub(super) struct Resumption {
+    pub(super) saved: SavedRun,
+    pub(super) extend: Option<f64>,
+}
+
+/// Run that has ended. It keeps its folder until it is dropped.
+pub struct EndedRun {
+    /// Summary, which `summary.json` holds too.
+    pub summary: Summary,
+    /// Folder of the results.
+    pub output: Output,
+    /// Cloth and bodies at the end.
+    pub last: Snapshot,
+    writer: CheckpointWriter,
+    _lock: Lock,
+}
+
+/// Gives a scene another end, in s.
+///
+/// # Errors
+/// An end before the first step.
+pub fn end_at(scene: &mut Scene, end: f64) -> Result<(), Error> {
+    let step = scene.schedule.clock.step;
+    if !(end >= step) {
+        return Err(Error::End { end, step });
+    }
+    scene.schedule.clock.end = end;
+    Ok(())
+}
+
+impl FolderRun {
+    /// Begins a run of a scene in a folder, by a request that was made of it.
+    ///
+    /// # Errors
+    /// A folder that another run writes to, that holds results or an interrupted run and may not be
+    /// replaced, that cannot be written, or that has not the space.
+    pub fn begin(
+        scene: Scene,
+        folder: &Path,
+        request: &RunRequest,
+        options: &RunOptions,
+    ) -> Result<Self, Error> {
+        if RunRequest::is_interrupted(folder) && !options.replace {
+            return Err(Error::Interrupted { folder: folder.to_owned() });
+        }
+        let place = |folder: &Path| folder.canonicalize().ok();
+        let graded_by = scene.source.graded_by.as_deref().and_then(place);
+        if graded_by.is_some() && graded_by == place(folder) {
+            return Err(Error::GradedBy { folder: folder.to_owned() });
+        }
+        check_space(&scene, folder)?;
+        let lock = Lock::take(folder)?;
+        let output = prepare_folder(folder, options.replace)?;
+        request.write(folder)?;
+        let writer = CheckpointWriter::new(folder, &scene, request.checkpoint_every, options);
+        Ok(Self {
+            scene,
+            folder: folder.to_owned(),
+            output,
+            writer,
+            lock,
+            give_up: options.give_up.clone(),
+            state_hash: request.state_hash,
+            resumption: None,
+        })
+    }
+
+    /// Returns the scene.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Runs it to its end and writes its results; a run that fails has a summary too.
+    ///
+    /// # Errors
+    /// A simulation that cannot be set up, or results that cannot be written.
+    pub fn run(self, watcher: &mut dyn Watcher) -> Result<EndedRun, Error> {
+        let Self { scene, folder, output, writer, lock, give_up, state_hash, resumption } = self;
+        let mut simulation = Simulation::new(scene)?;
+        simulation.give_up_when(give_up);
+        if state_hash {
+            simulation.hash_steps();
+        }
+        let recorder = match resumption {
+            None => output.record(&simulation.topology())?,
+            Some(Resumption { saved, extend }) => {
+                simulation.resume(saved.simulation)?;
+                if extend.is_some_and(|seconds| !simulation.extend(seconds)) {
+                    return Err(Error::AtRest);
+                }
+                output.resume(saved.recorder)?
+            }
+        };
+        let goal = Goal::new(&simulation);
+        let mut progress = FolderProgress { recorder, writer, goal, last: None, watcher };
+        let mut summary = simulation.run(&mut progress)?;
+        let FolderProgress { mut writer, last, recorder, .. } = progress;
+        let recorded = recorder.save()?;
+        drop(recorder);
+        if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
+            summary.reason = Some(limit.to_owned());
+        }
+        output.summary(&summary)?;
+        // A run that is cut off before here repeats its last steps, to the same summary.
+        if matches!(summary.status, Status::Ok | Status::DidNotSettle) {
+            writer.keep(&simulation.saved(), &recorded)?;
+        }
+        save_last(&folder)?;
+        let mut at_end = simulation.snapshot();
+        if let Some(frame) = last {
+            at_end.positions = frame.positions;
+        }
+        Ok(EndedRun { summary, output, last: at_end, writer, _lock: lock })
+    }
+}
+
+impl EndedRun {
+    /// Tells other programs how the run ended, and leaves the folder to them.
+    #[must_use]
+    pub fn close(mut self) -> Summary {
+        let state = serde_json::to_value(&self.summary.status).unwrap_or_default();
+        self.writer.end(state.as_str().unwrap_or("ok"), self.summary.reason.clone());
+        self.summary
+    }
+}
+
+/// Saves the last frame as `last.obj`, which any program opens.
+fn save_last(folder: &Path) -> Result<(), Error> {
+    let recording = Recording::open(folder)?;
+    let frame = recording.frame(recording.frames() - 1)?;
+    let path = folder.join("last.obj");
+    let mut obj = Vec::new();
+    write_obj(&recording, &frame, &mut obj)
+        .map_err(|error| Error::LastFrame { path: path.clone(), reason: error.to_string() })?;
+    Ok(crate::file::write(&path, obj)?)
+}
+
+/// Progress of a run, which writes its frames and checkpoints.
+struct FolderProgress<'a> {
+    recorder: Recorder<'a>,
+    writer: CheckpointWriter,
+    goal: Goal,
+    /// Latest frame.
+    last: Option<Frame>,
+    watcher: &'a mut dyn Watcher,
+}
+
+impl Progress for FolderProgress<'_> {
+    fn step(&mut self, step: &Step, _ticks: usize) {
+        let done = self.goal.done(step);
+        self.writer.step(Advance { phase: step.phase, done, time: step.time });
+        self.watcher.step(step, done);
+    }
+
+    fn frame(&mut self, frame: &Frame) -> Result<(), drape_dynamics::Error> {
+        self.recorder.frame(frame)?;
+        self.watcher.frame(frame);
+        self.last = Some(frame.clone());
+        Ok(())
+    }
+
+    fn is_checkpoint_due(&self) -> bool {
+        self.writer.is_due()
+    }
+
+    fn checkpoint(&mut self, saved: &SavedSimulation) -> Result<(), drape_dynamics::Error> {
+        self.writer.keep(saved, &self.recorder.save()?)
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.writer.reached().is_some() || self.watcher.is_interrupted()
+    }
+}

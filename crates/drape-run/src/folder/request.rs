@@ -1,0 +1,113 @@
+//! Request of a run: its scene and options, with which `drape resume` creates the simulation again.
+
+use std::path::{Path, PathBuf};
+
+use drape_input::{Setting, SettingError};
+use serde::{Deserialize, Serialize};
+
+use super::Error;
+use crate::file;
+
+/// Name of its file.
+const NAME: &str = "run.json";
+
+/// What stands for a scene without a file: one from standard input, or a text.
+const STANDARD: &str = "-";
+
+/// Options of a run: its scene, its end and the interval of its checkpoints.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct RunRequest {
+    /// Scene, as a whole path, or `-` for standard input.
+    pub scene: PathBuf,
+    /// End of the run, in s, if it is not that of the scene.
+    pub until: Option<f64>,
+    /// Time between two checkpoints, in s.
+    pub checkpoint_every: f64,
+    /// Whether the state is hashed after each step.
+    #[serde(default)]
+    pub state_hash: bool,
+    /// Keys of the scene that were set on the command line, each as KEY=VALUE.
+    #[serde(default)]
+    pub set: Vec<String>,
+}
+
+impl RunRequest {
+    /// Makes the request of a scene.
+    #[must_use]
+    pub fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
+        let scene = whole_path(scene);
+        Self { scene, until, checkpoint_every, state_hash: false, set: Vec::new() }
+    }
+
+    /// Returns the keys of the scene that were set.
+    ///
+    /// # Errors
+    /// A text that sets no key.
+    pub fn settings(&self) -> Result<Vec<Setting>, Error> {
+        let settings = self.set.iter().map(|text| {
+            let fail = |error: SettingError| Error::NotBegun {
+                path: NAME.into(),
+                reason: error.to_string(),
+            };
+            text.parse().map_err(fail)
+        });
+        settings.collect()
+    }
+
+    /// Gives the scene another place.
+    pub fn move_scene(&mut self, scene: &Path) {
+        self.scene = whole_path(scene);
+    }
+
+    /// Writes it to a folder.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(self).expect("a request always has a JSON form");
+        Ok(file::write(&folder.join(NAME), text + "\n")?)
+    }
+
+    /// Reads that of a folder.
+    ///
+    /// # Errors
+    /// No run was begun in the folder.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let fail = |reason: String| Error::NotBegun { path: folder.join(NAME), reason };
+        // Reading a pipe would wait for ever.
+        if !folder.join(NAME).is_file() {
+            return Err(fail("no such file".into()));
+        }
+        let text = std::fs::read(folder.join(NAME)).map_err(|error| fail(error.to_string()))?;
+        serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
+    }
+
+    /// Returns whether the scene has no file: it came from standard input, or is a text.
+    #[must_use]
+    pub fn has_no_file(&self) -> bool {
+        self.scene.as_os_str() == STANDARD
+    }
+
+    /// Returns whether a folder holds a run that was begun and has not ended.
+    #[must_use]
+    pub fn is_interrupted(folder: &Path) -> bool {
+        let ended = status_of(folder).is_some_and(|status| status != "interrupted");
+        folder.join(NAME).is_file() && !ended
+    }
+}
+
+/// Returns a path from the root of the file system; that of standard input stays.
+fn whole_path(scene: &Path) -> PathBuf {
+    let whole = std::path::absolute(scene).ok().filter(|_| scene.as_os_str() != STANDARD);
+    whole.unwrap_or_else(|| scene.to_owned())
+}
+
+/// Returns the `status` of a run's summary; `None` without a summary.
+pub(super) fn status_of(folder: &Path) -> Option<String> {
+    let path = folder.join("summary.json");
+    // Reading a pipe would wait for ever.
+    let is_file = std::fs::metadata(&path).is_ok_and(|found| found.is_file());
+    let text = is_file.then(|| std::fs::read(&path).ok())??;
+    let summary: serde_json::Value = serde_json::from_slice(&text).ok()?;
+    Some(summary["status"].as_str()?.to_owned())
+}

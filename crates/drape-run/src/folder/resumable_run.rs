@@ -1,0 +1,107 @@
+//! Run to resume: one that was interrupted, from its last checkpoint, or one that has ended, beyond
+//! its end.
+
+use std::path::{Path, PathBuf};
+
+use super::Error;
+use super::checkpoint_writer::{CheckpointWriter, SavedRun};
+use super::folder_run::{FolderRun, Resumption};
+use super::lock::Lock;
+use super::options::RunOptions;
+use super::request::{RunRequest, status_of};
+use drape_checkpoint::{Checkpoint, Store};
+use drape_dynamics::{Output, prepare_folder};
+use drape_input::Diagnostic;
+use drape_scene::Scene;
+
+/// Run in a folder that is to go on.
+pub struct ResumableRun {
+    /// Request by which it began.
+    pub request: RunRequest,
+    folder: PathBuf,
+    /// Time to go on beyond its end, in s.
+    extend: Option<f64>,
+    lock: Lock,
+}
+
+impl ResumableRun {
+    /// Opens a run, to go on to its end, or for so many seconds beyond it.
+    ///
+    /// # Errors
+    /// A folder in which no run was begun, to which one writes, or whose run cannot go on.
+    pub fn open(folder: &Path, extend: Option<f64>) -> Result<Self, Error> {
+        let request = RunRequest::read(folder)?;
+        let lock = Lock::take(folder)?;
+        refuse_ended(folder, extend)?;
+        Ok(Self { request, folder: folder.to_owned(), extend, lock })
+    }
+
+    /// Returns the run of its scene, which was read again, from the last checkpoint; with notes on
+    /// checkpoints that are damaged or missing.
+    ///
+    /// # Errors
+    /// A scene or a program that has changed since, or no checkpoint to extend.
+    pub fn go_on(
+        self,
+        scene: Scene,
+        options: &RunOptions,
+    ) -> Result<(FolderRun, Vec<String>), Error> {
+        let Self { request, folder, extend, lock } = self;
+        let writer = CheckpointWriter::new(&folder, &scene, request.checkpoint_every, options);
+        let found = Store::new(&folder).read().map_err(drape_dynamics::Error::from)?;
+        let damaged = found.damaged.iter().map(|damaged| {
+            let (path, fault) = (damaged.path.display(), &damaged.fault);
+            format!("warning: {path} is damaged: {fault}; an earlier state is used")
+        });
+        let mut notes: Vec<String> = damaged.collect();
+        let resumption = match &found.newest {
+            Some(checkpoint) => {
+                check_identity(&writer, checkpoint, &scene)?;
+                found.remove_damaged().map_err(drape_dynamics::Error::from)?;
+                Some(Resumption { saved: SavedRun::read(checkpoint)?, extend })
+            }
+            None if extend.is_some() => return Err(Error::NoCheckpoint { folder }),
+            None => {
+                notes.push("note: there is no checkpoint yet; the run begins anew".into());
+                None
+            }
+        };
+        let output = match &resumption {
+            Some(_) => Output::of_run(&folder),
+            None => prepare_folder(&folder, true)?,
+        };
+        request.write(&folder)?;
+        let (give_up, state_hash) = (options.give_up.clone(), request.state_hash);
+        let run =
+            FolderRun { scene, folder, output, writer, lock, give_up, state_hash, resumption };
+        Ok((run, notes))
+    }
+}
+
+/// Refuses a run that has ended, unless it is to go on beyond an end that time gave it.
+fn refuse_ended(folder: &Path, extend: Option<f64>) -> Result<(), Error> {
+    let Some(status) = status_of(folder) else { return Ok(()) };
+    let folder = folder.to_owned();
+    match (&status[..], extend) {
+        ("interrupted", _) | ("ok" | "did not settle", Some(_)) => Ok(()),
+        ("ok" | "did not settle", None) => Err(Error::Ended { folder, status }),
+        _ => Err(Error::Failed { folder, status }),
+    }
+}
+
+/// Refuses a checkpoint that was written by another program, or from other input.
+fn check_identity(
+    writer: &CheckpointWriter,
+    checkpoint: &Checkpoint,
+    scene: &Scene,
+) -> Result<(), Error> {
+    let changes = writer.changes(checkpoint);
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let message = format!("since the run was begun this has changed: {}", changes.join(", "));
+    let help = "undo the change to go on, or run the scene anew with drape run --force, in Python with \
+                replace=True";
+    let mistake = Diagnostic::new(&scene.source.file, message).help(help);
+    Err(Error::Input(mistake.into()))
+}

@@ -1,0 +1,67 @@
+//! Space: what a run needs of memory and disk, and whether the disk has it.
+
+use std::path::{Path, PathBuf};
+
+use drape_input::{Diagnostic, Diagnostics};
+use drape_scene::{Needs, Scene};
+
+/// Returns what a run needs, in words.
+#[must_use]
+pub fn describe_needs(needs: &Needs) -> String {
+    let up_to = if needs.may_rest { "up to " } else { "" };
+    format!(
+        "a run takes about {} of memory, and {up_to}{} of disk for {up_to}{} frames",
+        in_words(needs.memory),
+        in_words(needs.disk()),
+        needs.frames
+    )
+}
+
+/// Refuses a run whose results do not fit where its folder is.
+pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostics> {
+    let Some(free) = free(folder) else { return Ok(()) };
+    let needs = scene.needs();
+    if needs.disk_min() <= free {
+        return Ok(());
+    }
+    let message = format!(
+        "the frames take {} of disk, and {} are free in {}",
+        in_words(needs.disk_min()),
+        in_words(free),
+        folder.display()
+    );
+    let help = "name another folder with -o, or write fewer frames: a larger output.every or a larger spacing";
+    Err(Diagnostic::new(&scene.source.file, message).help(help).into())
+}
+
+/// Returns the space that is free where a folder is or would be, in bytes, if the system says it.
+fn free(folder: &Path) -> Option<u64> {
+    let folder = std::path::absolute(folder).ok()?;
+    let there: PathBuf = folder.ancestors().find(|path| path.is_dir())?.to_owned();
+    let found = rustix::fs::statvfs(&there).ok()?;
+    // Some systems of files do not count.
+    (found.f_blocks > 0).then(|| found.f_bavail.saturating_mul(found.f_frsize))
+}
+
+/// Returns a number of bytes in words.
+fn in_words(bytes: u64) -> String {
+    let bytes = bytes as f64;
+    match bytes {
+        ..1e6 => format!("{:.0} kB", (1e-3 * bytes).ceil()),
+        ..1e9 => format!("{:.0} MB", 1e-6 * bytes),
+        _ => format!("{:.1} GB", 1e-9 * bytes),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn space_is_that_of_the_folder_above() {
+        let folder = std::env::temp_dir();
+        let free = [folder.clone(), folder.join("not/there/yet")].map(|path| free(&path));
+        assert!(free[0].is_some_and(|free| free > 0) && free[1].is_some());
+        assert_eq!([999, 2_500_000, 3_200_000_000].map(in_words), ["1 kB", "2 MB", "3.2 GB"]);
+    }
+}

@@ -1,0 +1,19 @@
+#![doc = include_str!("../README.md")]
+
+pub mod file;
+pub mod reports;
+
+// A folder has locks and limits of its system, which a browser does not have.
+#[cfg(not(target_family = "wasm"))]
+mod folder;
+mod scene_fabric;
+
+#[cfg(not(target_family = "wasm"))]
+pub use folder::{
+    EndedRun, Error, FolderRun, Goal, Limits, ResumableRun, RunOptions, RunRequest, Watcher,
+    describe_needs, end_at,
+};
+pub use scene_fabric::{
+    NamedCurve, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of, scene_of_documents,
+    scene_or_refused,
+};

@@ -1,0 +1,377 @@
+//! Report to a customer: the head, the values with their scatter, the loops with the fit, the drape, and
+//! what was assumed.
+
+use drape_fabric::{Fabric, Provenance};
+use drape_fit::{Fit, FitSettings, fabric_values};
+use drape_kes::{Direction, Sheet, Symbol, Test, TestRecord};
+use drape_report::{
+    ComparedNumber, ComparedValue, CustomerPage, LawReport, ReportedDrape, ReportedFabric,
+    ReportedLoop, ReportedNote, ReportedValue,
+};
+
+use super::VERSION;
+use super::compared::ComparedFabric;
+use super::fabric::{TESTS, directions, law};
+use super::fit::curve_law;
+use super::quantity::DIRECTIONS;
+use super::sheet_value::{CheckedValue, brief, sheet_values};
+use super::value_law::value_laws;
+use super::{kes_value, quantity};
+
+/// Values that no law has, in the order of the page.
+const OTHERS: [&str; 12] = ["W", "T", "T0", "TM", "c", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM"];
+
+/// Deformation at which a law is read, over the largest that was measured, above which the law is continued.
+const BEYOND: f64 = 1.05;
+
+/// Fabric of a report.
+pub struct CustomerSubject<'a> {
+    /// Its laws.
+    pub fabric: &'a Fabric,
+    /// What was measured, with the fit; `None` for a fabric without a sheet.
+    pub measured: Option<(&'a Sheet, &'a Fit)>,
+    /// Customer, article, laboratory, date and specimens.
+    pub record: TestRecord,
+    /// Fabric on a drapemeter.
+    pub drape: Option<ReportedDrape>,
+    /// Further notes on it.
+    pub notes: Vec<String>,
+}
+
+impl CustomerSubject<'_> {
+    fn sheet(&self) -> Option<&Sheet> {
+        self.measured.map(|(sheet, _)| sheet)
+    }
+
+    /// Returns the sheet, or one with the mass per area of the fabric alone, by which ranges are chosen.
+    fn sheet_for_ranges(&self) -> Sheet {
+        let mass = quantity::mass().kes.map_or(1.0, |unit| unit.in_si);
+        self.sheet().cloned().unwrap_or_else(|| {
+            let mut sheet = Sheet::default();
+            sheet.w = Some(self.fabric.density / mass);
+            sheet
+        })
+    }
+
+    /// Returns the number of a KES value.
+    fn number(&self, direction: Direction, symbol: Symbol) -> ComparedNumber {
+        let compared = ComparedFabric { fabric: self.fabric, sheet: self.sheet() };
+        let number = compared.number(direction, symbol);
+        let provenance = self.fabric.provenance.as_ref().filter(|_| self.measured.is_none());
+        let is_assumed = provenance.is_some_and(|own| was_assumed(own, direction, symbol));
+        let is_extrapolated = number.measured.is_none() && self.is_beyond(direction, symbol);
+        ComparedNumber { is_assumed: number.is_assumed || is_assumed || is_extrapolated, ..number }
+    }
+
+    /// Returns whether the law is read for a value beyond all that was measured of it.
+    fn is_beyond(&self, direction: Direction, symbol: Symbol) -> bool {
+        let points =
+            FitSettings::default().evaluation_points(self.sheet().unwrap_or(&Sheet::default()));
+        let (key, deformation) = match symbol {
+            Symbol::Lt | Symbol::Wt | Symbol::Rt | Symbol::Em => {
+                let values = fabric_values(self.fabric, direction, &points);
+                ("traction", values.tensile_extension())
+            }
+            Symbol::B => ("bending", Some(points.bending.slope[1])),
+            Symbol::TwoHb => ("bending", Some(points.bending.width)),
+            Symbol::G => ("shear", Some(points.shear.slope[1].sin())),
+            Symbol::TwoHg => ("shear", Some(points.shear.width.sin())),
+            Symbol::TwoHg5 => ("shear", Some(points.shear.wide.sin())),
+        };
+        let key = match key {
+            "shear" => key.to_owned(),
+            key => format!("{}.{key}", direction.name()),
+        };
+        let measured = self.fabric.provenance.as_ref().and_then(|own| own.measured_range.get(&key));
+        measured.zip(deformation).is_some_and(|(measured, read)| read > BEYOND * measured)
+    }
+
+    /// Returns a note for each law that is read beyond what was measured.
+    fn extrapolated(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for direction in DIRECTIONS {
+            let is_read = |symbol: &Symbol| {
+                let compared = ComparedFabric { fabric: self.fabric, sheet: self.sheet() };
+                compared.number(direction, *symbol).measured.is_none()
+                    && self.is_beyond(direction, *symbol)
+            };
+            let beyond: Vec<&str> =
+                Symbol::ALL.iter().filter(|own| is_read(own)).map(|own| own.name()).collect();
+            if !beyond.is_empty() {
+                notes.push(format!(
+                    "{} {}: no curve reaches so far, the law is continued beyond what was measured",
+                    beyond.join(", "),
+                    direction.name()
+                ));
+            }
+        }
+        notes
+    }
+
+    /// Returns the values that no law has, of the sheet or as far as the fabric keeps them.
+    fn others(&self) -> Vec<OtherValue> {
+        let Some(sheet) = self.sheet() else { return self.others_of_fabric() };
+        let of_law =
+            |value: &CheckedValue| Symbol::ALL.iter().any(|own| own.name() == value.symbol);
+        let listed = sheet_values(sheet).into_iter().filter(|value| !of_law(value));
+        let other = |value: CheckedValue| {
+            // Deviation and value have the same unit, so SI is by the ratio of the value.
+            let deviation = value.deviation.map(|own| own * value.si / value.value);
+            OtherValue {
+                symbol: value.symbol.into(),
+                name: value.name.into(),
+                direction: value.direction.unwrap_or_default().into(),
+                number: ComparedNumber {
+                    measured: Some(value.si),
+                    deviation: deviation.filter(|own| own.is_finite()),
+                    ..ComparedNumber::default()
+                },
+                range: value.usual,
+            }
+        };
+        listed.map(other).collect()
+    }
+
+    fn others_of_fabric(&self) -> Vec<OtherValue> {
+        let fabric = self.fabric;
+        let ranges = self.sheet_for_ranges();
+        let of_law = [
+            ("W", "mass per area", fabric.density),
+            ("T", "thickness", fabric.thickness),
+            ("MIU", "surface friction", fabric.surface_friction),
+        ];
+        let other = |(symbol, name, law): (&str, &str, f64)| {
+            let key = match symbol {
+                "W" => "density",
+                "T" => "thickness",
+                _ => "surface_friction",
+            };
+            let assumed = fabric.provenance.iter().flat_map(|own| &own.assumed);
+            let is_assumed = assumed.into_iter().any(|note| note.starts_with(key));
+            OtherValue {
+                symbol: symbol.into(),
+                name: name.into(),
+                direction: String::new(),
+                number: ComparedNumber { law: Some(law), is_assumed, ..ComparedNumber::default() },
+                range: ranges.usual_range(symbol, None).map(|own| [*own.start(), *own.end()]),
+            }
+        };
+        of_law.into_iter().map(other).collect()
+    }
+
+    /// Returns the loops, in the units of the laboratory.
+    fn loops(&self) -> Vec<ReportedLoop> {
+        let Some((sheet, fit)) = self.measured else {
+            let laws = TESTS
+                .into_iter()
+                .flat_map(|test| directions(test).iter().map(move |&direction| (test, direction)));
+            let own = |(test, direction)| {
+                let mut law = law(self.fabric, test, direction);
+                law.model = "the law alone, nothing measured is at hand".into();
+                law.plots.iter_mut().for_each(|plot| plot.law = "law".into());
+                reported(test, direction, law)
+            };
+            return laws.map(own).collect();
+        };
+        let curves = sheet.curves.iter().zip(&fit.curves);
+        let of_curves =
+            curves.map(|(curve, own)| reported(curve.test, curve.direction, curve_law(curve, own)));
+        let of_values = value_laws(sheet, fit, &FitSettings::default()).into_iter();
+        // An assumed law follows nothing that was measured, and is named below the loops.
+        let known = of_values.filter(|own| !own.is_assumed);
+        of_curves.chain(known.map(|own| reported(own.test, own.direction, own.law))).collect()
+    }
+
+    /// Returns what the report of the fabric is made from.
+    fn basis(&self) -> String {
+        let Some(sheet) = self.sheet() else {
+            return "a file of laws: no measured loops and no measured values are at hand".into();
+        };
+        let values = sheet.listed().len();
+        let count = |count: usize, one: &str, several: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {one}")),
+            count => Some(format!("{count} {several}")),
+        };
+        let parts = [
+            count(sheet.curves.len(), "measured curve", "measured curves"),
+            count(values, "measured value", "measured values"),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        if parts.is_empty() { "a sheet without measurements".into() } else { parts.join(", ") }
+    }
+
+    /// Returns what was assumed in place of measurements, in plain words.
+    fn assumed(&self) -> Vec<String> {
+        let assumed = match self.measured {
+            Some((_, fit)) => &fit.assumed[..],
+            None => self.fabric.provenance.as_ref().map_or(&[][..], |own| &own.assumed),
+        };
+        let assumed = assumed.iter().map(|note| note.replace('_', " "));
+        assumed.chain(self.extrapolated()).collect()
+    }
+
+    /// Returns warnings on the sheet and further notes.
+    fn notes(&self) -> Vec<String> {
+        let warnings = self.sheet().map_or(&[][..], Sheet::warnings).iter();
+        // Standard deviations that no law uses are on the page.
+        let of_sheet = warnings.map(|warning| warning.message.clone());
+        let of_sheet =
+            of_sheet.filter(|message| !message.contains("standard deviation is not used"));
+        of_sheet.chain(self.tensile_load()).chain(self.notes.iter().cloned()).collect()
+    }
+}
+
+impl CustomerSubject<'_> {
+    /// Returns the load to which the values of the tensile test belong, where it is not that of the standard
+    /// test.
+    fn tensile_load(&self) -> Option<String> {
+        let sheet = self.sheet()?;
+        let unit = quantity::tension().kes?;
+        let [load, standard] = [sheet.maximum_tension(), Sheet::default().maximum_tension()];
+        let is_other = (load / standard - 1.0).abs() > 0.01;
+        let load = brief(load / unit.in_si);
+        is_other.then(|| {
+            format!("LT, WT, RT and EM are values at a load of {load} {}, not of 500", unit.name)
+        })
+    }
+}
+
+/// Value that no law has.
+struct OtherValue {
+    symbol: String,
+    name: String,
+    direction: String,
+    number: ComparedNumber,
+    range: Option<[f64; 2]>,
+}
+
+/// Returns whether a fabric without a sheet says that a value of a law was assumed.
+fn was_assumed(provenance: &Provenance, direction: Direction, symbol: Symbol) -> bool {
+    let name = direction.name();
+    let begins: Vec<String> = match symbol {
+        Symbol::G => vec!["shear stiffness".into()],
+        Symbol::TwoHg | Symbol::TwoHg5 => vec!["shear loop".into()],
+        Symbol::B => vec![
+            format!("{name} B:"),
+            format!("{name} bending: not measured"),
+            "bending: not measured".into(),
+        ],
+        Symbol::TwoHb => vec![
+            format!("{name} 2HB:"),
+            format!("{name} bending: not measured"),
+            "bending: not measured".into(),
+        ],
+        _ => {
+            vec![format!("{name} traction: not measured"), "traction: not measured".into()]
+        }
+    };
+    let is_named = |note: &String| begins.iter().any(|begin| note.starts_with(begin.as_str()));
+    provenance.assumed.iter().any(is_named)
+}
+
+/// Returns the loops of a law in the units of the laboratory.
+fn reported(test: Test, direction: Direction, mut law: LawReport) -> ReportedLoop {
+    for plot in &mut law.plots {
+        let [deformation, load] = quantity::laboratory_axes(test);
+        (plot.deformation, plot.load) = (deformation, load);
+    }
+    ReportedLoop { test: test.name().into(), direction: direction.name().into(), law }
+}
+
+/// Returns the report of fabrics, side by side.
+#[must_use]
+pub fn customer_page(subjects: &[CustomerSubject<'_>]) -> CustomerPage {
+    let fabric = |own: &CustomerSubject<'_>| ReportedFabric {
+        name: own.fabric.name.clone(),
+        source: own.fabric.source.clone(),
+        record: own
+            .record
+            .lines()
+            .map(|(title, text)| [title.to_owned(), text.unwrap_or_default().to_owned()])
+            .into(),
+        basis: own.basis(),
+        loops: own.loops(),
+        drape: own.drape.clone(),
+    };
+    CustomerPage {
+        version: VERSION.into(),
+        fabrics: subjects.iter().map(fabric).collect(),
+        values: values(subjects),
+        others: others(subjects),
+        assumed: shared(&subjects.iter().map(CustomerSubject::assumed).collect::<Vec<_>>()),
+        notes: shared(&subjects.iter().map(CustomerSubject::notes).collect::<Vec<_>>()),
+        ..CustomerPage::default()
+    }
+}
+
+/// Returns the notes on each fabric, each text once.
+fn shared(notes: &[Vec<String>]) -> Vec<ReportedNote> {
+    let texts = notes
+        .iter()
+        .enumerate()
+        .flat_map(|(index, own)| own.iter().map(move |note| (index, note.as_str())));
+    ReportedNote::shared(texts)
+}
+
+/// Returns the values that laws have, where a fabric has them measured or its law was not assumed.
+fn values(subjects: &[CustomerSubject<'_>]) -> Vec<ReportedValue> {
+    let ranges: Vec<Sheet> = subjects.iter().map(CustomerSubject::sheet_for_ranges).collect();
+    let keys = Symbol::ALL.into_iter().flat_map(|symbol| DIRECTIONS.map(|own| (symbol, own)));
+    let value = |(symbol, direction): (Symbol, Direction)| {
+        let numbers: Vec<ComparedNumber> =
+            subjects.iter().map(|own| own.number(direction, symbol)).collect();
+        let is_known =
+            |own: &ComparedNumber| own.measured.is_some() || own.law.is_some() && !own.is_assumed;
+        numbers.iter().any(is_known).then(|| {
+            let usual = |sheet: &Sheet| {
+                let range = sheet.usual_range(symbol.name(), Some(direction))?;
+                Some([*range.start(), *range.end()])
+            };
+            ReportedValue {
+                value: ComparedValue {
+                    symbol: symbol.name().into(),
+                    name: kes_value::words(symbol).into(),
+                    direction: direction.name().into(),
+                    units: kes_value::units(symbol.name()),
+                    numbers,
+                    is_comparable: true,
+                },
+                ranges: ranges.iter().map(usual).collect(),
+                source: Sheet::usual_source(symbol.name()).unwrap_or_default().into(),
+            }
+        })
+    };
+    keys.filter_map(value).collect()
+}
+
+/// Returns the values that no law has, where a fabric has them.
+fn others(subjects: &[CustomerSubject<'_>]) -> Vec<ReportedValue> {
+    let all: Vec<Vec<OtherValue>> = subjects.iter().map(CustomerSubject::others).collect();
+    let mut values: Vec<ReportedValue> = Vec::new();
+    for symbol in OTHERS {
+        for direction in ["", "warp", "weft"] {
+            let is_own = |own: &&OtherValue| own.symbol == symbol && own.direction == direction;
+            let own: Vec<Option<&OtherValue>> =
+                all.iter().map(|values| values.iter().find(is_own)).collect();
+            let Some(first) = own.iter().flatten().next() else { continue };
+            let length = || drape_report::Units::si("m").with_kes("cm", 1e-2);
+            values.push(ReportedValue {
+                value: ComparedValue {
+                    symbol: symbol.into(),
+                    name: first.name.clone(),
+                    direction: direction.into(),
+                    units: if symbol == "c" { length() } else { kes_value::units(symbol) },
+                    numbers: own
+                        .iter()
+                        .map(|own| own.map(|own| own.number).unwrap_or_default())
+                        .collect(),
+                    is_comparable: true,
+                },
+                ranges: own.iter().map(|own| own.and_then(|own| own.range)).collect(),
+                source: Sheet::usual_source(symbol).unwrap_or_default().into(),
+            });
+        }
+    }
+    values
+}

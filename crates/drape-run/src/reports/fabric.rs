@@ -1,0 +1,205 @@
+//! Page of `drape fabric show`: a fabric with the loops that an ideal instrument would draw of it.
+
+use drape_fabric::{
+    BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
+    TractionFriction, Varying,
+};
+use drape_fit::parameter_key;
+use drape_kes::{Curve, Direction, Sheet, Test};
+use drape_report::{FitPage, Interval, LawReport, Parameter, Quantity};
+use drape_validate::instrument;
+
+use super::VERSION;
+use super::loop_plot::{Loads, loop_plot};
+use super::quantity::DIRECTIONS;
+use super::{kes_value, quantity};
+
+/// Points of a branch of a loop; enough for the trapezoids of WT to be right to a
+/// hundred-thousandth.
+const POINTS: usize = 400;
+
+/// Tests of a fabric, in the order of the pages.
+pub const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
+
+/// Directions in which a test differs; there is one shear law.
+pub fn directions(test: Test) -> &'static [Direction] {
+    if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS }
+}
+
+/// Returns the page of a fabric, with the loops that an instrument would draw of it, and the values
+/// of the sheet that it comes from where that is at hand.
+#[must_use]
+pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
+    let given = |name: &str, value: f64, units| Quantity {
+        name: name.into(),
+        value,
+        units,
+        origin: String::new(),
+    };
+    let mut quantities = vec![
+        given("mass per area", fabric.density, quantity::mass()),
+        given("thickness", fabric.thickness, quantity::thickness()),
+        given("surface friction", fabric.surface_friction, quantity::ratio()),
+    ];
+    if let Some(linearity) = fabric.compression_linearity {
+        let pressed = fabric.thickness_under_pressure();
+        quantities.push(given("thickness at 50 gf/cm²", pressed, quantity::thickness()));
+        quantities.push(given("compression linearity", linearity, quantity::ratio()));
+    }
+    match sheet {
+        Some(sheet) => quantities.extend(sheet.listed().iter().map(kes_value::listed)),
+        None => quantities.extend(fabric.provenance.iter().flat_map(|p| {
+            p.unused.iter().map(|(symbol, value)| kes_value::unused(symbol, *value))
+        })),
+    }
+    let laws = TESTS.into_iter().flat_map(|test| {
+        directions(test).iter().map(move |&direction| law(fabric, test, direction))
+    });
+    FitPage {
+        name: fabric.name.clone(),
+        source: fabric.source.clone(),
+        provenance: fabric.provenance.as_ref().map_or(String::new(), |p| {
+            format!("from the sheet \"{}\" by {}", p.sheet, p.fitted_by)
+        }),
+        version: VERSION.into(),
+        quantities,
+        laws: laws.collect(),
+        values: DIRECTIONS
+            .iter()
+            .flat_map(|&direction| kes_value::of_fabric(fabric, direction))
+            .collect(),
+        assumed: fabric.provenance.as_ref().map_or(Vec::new(), |p| p.assumed.clone()),
+        ..FitPage::default()
+    }
+}
+
+/// Returns the loop that an ideal instrument draws of a fabric.
+pub fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Curve {
+    instrument::ideal(fabric, test, direction, POINTS)
+}
+
+/// Returns a law of a fabric, with its loop and its parameters.
+pub fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
+    let curve = loop_of(fabric, test, direction);
+    let title = match test {
+        Test::Shear => test.name().to_owned(),
+        _ => format!("{}, {}", test.name(), direction.name()),
+    };
+    let errors = fabric.provenance.as_ref().map(|provenance| &provenance.standard_errors);
+    let parameter = |parameter: NamedValue| {
+        let named = quantity::parameter(test, parameter.name);
+        let key = parameter_key(test, direction, parameter.name);
+        Parameter {
+            name: named.words.into(),
+            symbol: named.symbol.into(),
+            value: parameter.value,
+            units: named.units,
+            standard_error: key.and_then(|key| errors?.get(&key).copied()),
+            interval: Interval::Fixed { reason: String::new() },
+            incidental: named.incidental,
+        }
+    };
+    LawReport {
+        plots: vec![loop_plot(title.clone(), &curve, |i| Loads {
+            fitted: Some(curve.load()[i]),
+            ..Loads::default()
+        })],
+        parameters: parameters(fabric, test, direction).into_iter().map(parameter).collect(),
+        title,
+        ..LawReport::default()
+    }
+}
+
+/// Parameter of a law under the name that a fit gives it.
+struct NamedValue {
+    name: &'static str,
+    value: f64,
+}
+
+fn named<const N: usize>(values: [(&'static str, f64); N]) -> Vec<NamedValue> {
+    values.map(|(name, value)| NamedValue { name, value }).into()
+}
+
+/// Returns the parameters of a law: of its backbone, then of its friction.
+fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedValue> {
+    let laws = match direction {
+        Direction::Warp => &fabric.warp,
+        Direction::Weft => &fabric.weft,
+    };
+    let (mut all, friction) = match test {
+        Test::Tensile => {
+            let backbone = match laws.traction.backbone {
+                TractionBackbone::Exponential(toe) => named([
+                    ("toe_stiffness", toe.stiffness),
+                    ("steepness", toe.steepness),
+                    ("toe_end", toe.toe_strain),
+                    ("toe_growth", toe.toe_strain_after / toe.toe_strain),
+                    ("base_stiffness", toe.base_stiffness),
+                ]),
+                TractionBackbone::Primed(primed) => named([
+                    ("stiffness", primed.stiffness),
+                    ("toe_ratio", primed.toe_ratio),
+                    ("toe_strain", primed.toe_strain),
+                    ("toe_growth", primed.toe_strain_after / primed.toe_strain),
+                ]),
+                TractionBackbone::Polynomial(p) => {
+                    named([("quadratic", p.quadratic), ("quartic", p.quartic)])
+                }
+            };
+            (backbone, traction_friction(&laws.traction.friction))
+        }
+        Test::Bending | Test::LoopBending => {
+            let backbone = match laws.bending.backbone {
+                BendingBackbone::Linear { rigidity } => named([("rigidity", rigidity)]),
+                BendingBackbone::Varying(varying) => varying_stiffness(&varying),
+                BendingBackbone::Piecewise(p) => piecewise(&p),
+            };
+            (backbone, elements(&laws.bending.friction))
+        }
+        Test::Shear => {
+            let mut backbone = match fabric.shear.backbone {
+                ShearBackbone::Linear { stiffness } => named([("stiffness", stiffness)]),
+                ShearBackbone::Varying(varying) => varying_stiffness(&varying),
+                ShearBackbone::Piecewise(p) => piecewise(&p),
+            };
+            backbone.push(NamedValue { name: "growth", value: fabric.shear.growth });
+            (backbone, elements(&fabric.shear.friction))
+        }
+    };
+    all.extend(friction);
+    all
+}
+
+fn traction_friction(friction: &TractionFriction) -> Vec<NamedValue> {
+    match friction {
+        TractionFriction::Plateau(friction) => elements(friction),
+        TractionFriction::Proportional(friction) => named([
+            ("friction_ratio", friction.ratio),
+            ("friction_plateau", friction.plateau),
+            ("friction_length", friction.length),
+        ]),
+    }
+}
+
+fn varying_stiffness(law: &Varying) -> Vec<NamedValue> {
+    named([
+        ("initial_stiffness", law.initial_stiffness),
+        ("final_stiffness", law.final_stiffness),
+        ("transition", law.transition),
+    ])
+}
+
+fn piecewise(law: &Piecewise) -> Vec<NamedValue> {
+    named([("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)])
+}
+
+/// Returns the elements of a friction; those of the second have names of their own.
+fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
+    let names = [["plateau", "length"], ["second plateau", "second length"]];
+    let pairs = friction.elements.iter().zip(names).filter(|(element, _)| element.plateau != 0.0);
+    pairs
+        .flat_map(|(element, [plateau, length])| {
+            named([(plateau, element.plateau), (length, element.length)])
+        })
+        .collect()
+}

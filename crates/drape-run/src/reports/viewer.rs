@@ -1,0 +1,41 @@
+//! Viewer: runs as a page that turns, plays and measures them.
+
+use drape_export::{Named, View};
+use drape_frames::{Error, Recording};
+
+/// Largest size of a page unless another is asked for, in megabytes.
+pub const VIEWER_SIZE_MAX: f64 = 20.0;
+
+/// Page of some runs.
+pub struct ViewerPage {
+    /// The page.
+    pub html: String,
+    /// How many frames it shows where these are not all.
+    pub thinned: Vec<String>,
+}
+
+impl ViewerPage {
+    /// Returns the page of some runs, of at most so many megabytes.
+    ///
+    /// # Errors
+    /// Frames that cannot be read.
+    pub fn new(recordings: &[Recording], megabytes: f64) -> Result<ViewerPage, Error> {
+        let names: Vec<String> = recordings.iter().map(name).collect();
+        let named = names.iter().zip(recordings).map(|(name, recording)| Named { name, recording });
+        let View { html, frames } =
+            View::new(&named.collect::<Vec<_>>(), (1e6 * megabytes) as usize)?;
+        let counts = frames.iter().zip(recordings).map(|(own, all)| [own.len(), all.frames()]);
+        let thinned = counts.zip(&names).filter(|([own, all], _)| own < all);
+        let thinned = thinned
+            .map(|([own, all], name)| format!("{own} of the {all} frames of {name} are shown"))
+            .collect();
+        Ok(ViewerPage { html, thinned })
+    }
+}
+
+/// Returns the name of a run: that of its folder.
+fn name(recording: &Recording) -> String {
+    let folder = recording.folder();
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
