@@ -133,23 +133,31 @@ struct Piece {
 
 impl Builder {
     /// Adds the facets of a surface.
+    ///
+    /// Vertices that no triangle with an area has are left out: they have no source.
     fn add(&mut self, surface: &Surface, smooth: Smooth, part: Part) {
-        let first = self.vertices.len() as u32;
-        let source = Source { triangle: u32::MAX, weights: [0.0; 2] };
-        self.vertices.extend(smooth.vertices.iter().map(|&(vertex, normal)| Vertex {
-            position: at(surface.positions, vertex as usize),
-            normal,
-            part,
-            source,
-            border: Border::None,
-        }));
+        let mut numbers = vec![None; smooth.vertices.len()];
         for triangle in &smooth.triangles {
-            let corners = triangle.corners.map(|corner| first + corner);
+            // Each corner gets its vertex at the first triangle, and its source at the last.
             let weights = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
-            for (corner, weights) in corners.into_iter().zip(weights) {
-                self.vertices[corner as usize].source =
-                    Source { triangle: triangle.number, weights };
-            }
+            let corners = [0, 1, 2].map(|k| {
+                let corner = triangle.corners[k] as usize;
+                let (vertex, normal) = smooth.vertices[corner];
+                let source = Source { triangle: triangle.number, weights: weights[k] };
+                let number = *numbers[corner].get_or_insert(self.vertices.len() as u32);
+                match self.vertices.get_mut(number as usize) {
+                    Some(known) => known.source = source,
+                    None => self.vertices.push(Vertex {
+                        position: at(surface.positions, vertex as usize),
+                        normal,
+                        part,
+                        source,
+                        border: Border::None,
+                    }),
+                }
+                number
+            });
+
             for k in (0..3).filter(|k| triangle.borders[*k] != Border::None) {
                 for end in [corners[(k + 1) % 3], corners[(k + 2) % 3]] {
                     self.vertices[end as usize].border = triangle.borders[k];
@@ -238,6 +246,22 @@ mod tests {
             let off = norm(subtract(place, vertex.position));
             let allowed = if vertex.part == Part::Cloth(0) { 1e-6 } else { 0.01 };
             assert!(off < allowed, "{off} from its source");
+        }
+    }
+
+    /// A vertex without a triangle had a source beyond the list of triangles.
+    #[test]
+    fn vertices_without_a_triangle_are_left_out() {
+        let positions =
+            [[9.0, 9.0, 9.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [9.0; 3]];
+        let positions: Vec<f64> = positions.concat();
+        // The second triangle has no area.
+        let triangles = [[1, 2, 3], [1, 1, 4]];
+        let scene =
+            Scene { cloths: vec![Surface::cloth(&positions, &triangles)], ..Scene::default() };
+        for vertex in &Tessellation::new(&scene).vertices {
+            let place = vertex.source.value(&triangles, |corner| at(&positions, corner));
+            assert!(place.iter().all(|x| (0.0..=1.0).contains(x)), "{place:?}");
         }
     }
 
