@@ -149,6 +149,39 @@ fn no_modules_of_a_crate_use_each_other_in_a_circle() {
     assert!(told.is_empty(), "a circle of modules:\n{}", told.join("\n"));
 }
 
+/// Returns the chapters of the crates, each list from the lowest to the highest, from the map.
+fn chapters() -> BTreeMap<String, Vec<String>> {
+    let text = include_str!("../crates/README.md");
+    let begin = text.find("\nChapters,").expect("the map has its chapters");
+    let paragraph = text[begin + 1..].split("\n\n").next().expect("a paragraph");
+    let (_, list) = paragraph.split_once(':').expect("the chapters follow a colon");
+    let crates = list.trim().trim_end_matches('.').split(';');
+    crates
+        .map(|entry| {
+            let (name, chapters) = entry.trim().split_once(' ').expect("a crate and its chapters");
+            let chapters = chapters.split('`').skip(1).step_by(2).map(str::to_owned).collect();
+            (name.to_owned(), chapters)
+        })
+        .collect()
+}
+
+#[test]
+fn chapters_of_a_crate_use_only_those_before_them() {
+    let mut arrows = Vec::new();
+    for (name, chapters) in chapters() {
+        let source = root().join(format!("crates/drape-{name}/src"));
+        let top = ["lib.rs", "main.rs"].map(|file| source.join(file));
+        let top = top.iter().find(|file| file.is_file()).expect("a crate has a root");
+        let modules = Modules::read(top);
+        for chapter in &chapters {
+            assert!(modules.has(chapter), "drape-{name} has no chapter `{chapter}`");
+        }
+        let up = modules.arrows_up(&chapters);
+        arrows.extend(up.into_iter().map(|arrow| format!("drape-{name}: {arrow}")));
+    }
+    assert!(arrows.is_empty(), "uses that run up:\n{}", arrows.join("\n"));
+}
+
 #[test]
 fn no_folder_of_sources_has_too_many_files() {
     let folders: BTreeSet<PathBuf> =

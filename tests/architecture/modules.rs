@@ -71,6 +71,30 @@ impl Modules {
         circles.iter().map(|circle| in_words(circle, &uses)).collect()
     }
 
+    /// Returns the uses that run up, in words: `chapters` are modules of the root, and each may use
+    /// those before it in the list. Modules that are in no chapter may use all, and be used by all.
+    pub fn arrows_up(&self, chapters: &[String]) -> Vec<String> {
+        let chapter = |module: &Segments| {
+            let name = module.first()?;
+            chapters.iter().position(|chapter| chapter == name)
+        };
+        let mut arrows = Vec::new();
+        for (user, targets) in self.uses() {
+            for (target, path) in targets {
+                let above = chapter(&user).zip(chapter(&target)).is_some_and(|(a, b)| a < b);
+                if above {
+                    arrows.push(format!("{} uses {path}", user.join("::")));
+                }
+            }
+        }
+        arrows
+    }
+
+    /// Returns whether a crate has a module of this name at its root.
+    pub fn has(&self, chapter: &str) -> bool {
+        self.0.contains_key(&[chapter.to_owned()][..])
+    }
+
     fn uses(&self) -> Uses {
         let mut uses = Uses::new();
         for (user, module) in &self.0 {

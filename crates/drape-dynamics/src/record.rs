@@ -11,7 +11,6 @@ mod manifest;
 pub(crate) mod recorder;
 pub(crate) mod snapshot;
 pub(crate) mod state_hash;
-pub(crate) mod statistics;
 pub(crate) mod step_hashes;
 pub(crate) mod stopwatch;
 pub(crate) mod summary;

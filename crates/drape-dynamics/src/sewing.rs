@@ -2,7 +2,7 @@
 //! freedom.
 //!
 //! A garment begins as flat panels. Without gravity and inertia, closing springs
-//! (`closing_springs.rs`) draw the two sides of every seam together until the gaps are below a
+//! (`world/closing_springs.rs`) draw the two sides of every seam together until the gaps are below a
 //! tenth of a millimetre; where they stay open by little, the springs are stiffened. Until then the two
 //! sides are two cloths in contact, which keep the less from each other the narrower the gap is that
 //! the springs draw them to. Then the particles of each seam pair are merged, and those of the longer
@@ -18,9 +18,6 @@
 //! chapter reads the world and evaluates it, but changes it through
 //! [`World`](crate::world::World)'s own methods alone.
 
-#[cfg(test)]
-mod check;
-pub(crate) mod closing_springs;
 pub(crate) mod node_map;
 pub(crate) mod reduced_system;
 pub(crate) mod reduction;

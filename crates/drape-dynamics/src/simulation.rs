@@ -8,11 +8,15 @@
 //! which phases are to come.
 
 pub(crate) mod coarser_grid;
+#[cfg(test)]
+mod contact_tests;
 pub(crate) mod plan;
 pub(crate) mod prescription;
 pub(crate) mod run;
 pub(crate) mod saved;
 mod seams;
+#[cfg(test)]
+mod sewing_tests;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -29,10 +33,10 @@ use crate::measure::{fallen, note_slides};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
-use crate::record::statistics::Statistics;
 use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
+use crate::stepping::statistics::Statistics;
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 

@@ -18,6 +18,7 @@ mod phase_steps;
 mod rest;
 pub(crate) mod saved;
 mod scheme;
+pub(crate) mod statistics;
 mod step_control;
 
 use drape_cloth::{SeamState, State};
@@ -25,9 +26,9 @@ use drape_collide::SurfaceMemory;
 use drape_implicit::{Error, ErrorEstimate, Integrator, IntegratorState, Report};
 use drape_scene::{Clock, Relaxation, SeamPairs};
 
-use crate::record::statistics::Statistics;
 use crate::sewing::reduced_system::ReducedSystem;
 use crate::sewing::reduction::Reduction;
+use crate::stepping::statistics::Statistics;
 use crate::world::{EnergyBalance, World};
 
 use self::accuracy::{Accuracy, PhaseScheme, relaxation_scheme};

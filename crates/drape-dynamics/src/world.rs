@@ -17,8 +17,7 @@
 //! of freedom in front of it.
 
 mod air_drag;
-#[cfg(test)]
-pub(crate) mod check;
+pub(crate) mod closing_springs;
 mod constant_forces;
 mod contact;
 mod energy_balance;
@@ -29,6 +28,8 @@ mod motion_clock;
 mod pins;
 pub(crate) mod saved;
 mod system;
+#[cfg(test)]
+pub(crate) mod world_tests;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -39,7 +40,7 @@ use drape_implicit::System;
 use drape_scene::{HoldUntil, Scene, Sewing};
 
 use crate::error::Error;
-use crate::sewing::closing_springs::ClosingSprings;
+use crate::world::closing_springs::ClosingSprings;
 
 use self::air_drag::AirDrag;
 use self::constant_forces::ConstantForces;
@@ -49,6 +50,8 @@ use self::momentum_removal::MomentumRemoval;
 use self::motion_clock::MotionClock;
 use self::pins::{LoadTimes, Pins};
 
+#[cfg(test)]
+pub(crate) use self::contact::Omitted;
 pub(crate) use self::contact::{Contact, PlacedSurfaces};
 pub use self::energy_balance::Energy;
 pub(crate) use self::energy_balance::EnergyBalance;

@@ -1,7 +1,7 @@
 //! Open seams in words: the seam, its panels and the place of its widest gap.
 
 use crate::measure::garment_parts::GarmentParts;
-use crate::sewing::closing_springs::WidestGap;
+use crate::world::closing_springs::WidestGap;
 
 /// Widest gap at which the sides of a seam are sewn although they do not meet, as a fraction of the
 /// spacing: what is missing is less than the cloth is resolved to.

@@ -220,7 +220,7 @@ mod tests {
     use drape_input::Document;
 
     use super::*;
-    use crate::world::check::FABRIC;
+    use crate::world::world_tests::FABRIC;
 
     /// Two level sheets, 10 mm apart, and more of a scene.
     fn sheets(more: &str) -> Simulation {

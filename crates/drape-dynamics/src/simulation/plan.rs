@@ -53,7 +53,7 @@ mod tests {
     use drape_scene::Scene;
 
     use super::*;
-    use crate::world::check::FABRIC;
+    use crate::world::world_tests::FABRIC;
 
     fn simulation(more: &str) -> Simulation {
         let text = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n[[panel]]\nname = \"sheet\"\n\

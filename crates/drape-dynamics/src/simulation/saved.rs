@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 use super::{LastStep, Phases, Simulation};
 use crate::error::Error;
 use crate::measure::garment_parts::VerticalExtent;
-use crate::record::statistics::Statistics;
 use crate::record::stopwatch::{PastTime, Stopwatch};
 use crate::record::summary::{GridRecord, Status};
 use crate::stepping::RestDetector;
 use crate::stepping::saved::SavedStepping;
+use crate::stepping::statistics::Statistics;
 use crate::world::saved::SavedWorld;
 
 /// Names of the sections of a checkpoint.

@@ -7,9 +7,9 @@ use super::Simulation;
 use super::coarser_grid::GROWTH_STEPS;
 use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::record::summary::{PhaseName, Status};
-use crate::sewing::closing_springs::{SeamState, WidestGap};
 use crate::sewing::node_map::merge;
 use crate::sewing::untangling::Untangling;
+use crate::world::closing_springs::{SeamState, WidestGap};
 
 /// Widest gap of a seam that stays open, at which its sides are merged at their mean if nothing
 /// intersects there, in m: about the thickness of cloth. A T-shirt of 25 506 particles was sewn with

@@ -4,8 +4,8 @@ use drape_implicit::{Integrator, Method, Settings};
 use drape_scene::Relaxation;
 use serde::{Deserialize, Serialize};
 
-use crate::sewing::closing_springs;
 use crate::stepping::scheme::{ENERGY_FORCING, Scheme};
+use crate::world::closing_springs;
 
 /// Fraction of the imbalance of a relaxing cloth to which its next step is solved: the forces that
 /// drive the cloth are then known to some per cent. Steps solved better cost more and lead to the

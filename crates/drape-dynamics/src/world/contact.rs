@@ -7,8 +7,6 @@
 //! rigid ones (`particle_bodies.rs`). The world asks for forces, potentials and stiffnesses, opens
 //! steps and commits them; only a commit changes the memory of friction.
 
-#[cfg(test)]
-mod check;
 mod particle_bodies;
 mod step;
 mod surfaces;
@@ -21,6 +19,8 @@ use crate::error::Error;
 
 pub(crate) use self::particle_bodies::ParticleBodies;
 pub(crate) use self::step::{ContactEnergy, ContactStep};
+#[cfg(test)]
+pub(crate) use self::surfaces::Omitted;
 pub(crate) use self::surfaces::{PlacedSurfaces, SavedGrowth, Surfaces};
 
 /// Contact of a world.

@@ -11,7 +11,7 @@ use super::World;
 use super::contact::{Contact, SavedGrowth};
 use super::energy_balance::EnergyBalance;
 use super::internal_forces::SavedForces;
-use crate::sewing::closing_springs::{ClosingSprings, Stiffening};
+use crate::world::closing_springs::{ClosingSprings, Stiffening};
 
 /// All of a world that its next steps depend on.
 #[derive(Debug, Clone, Serialize, Deserialize)]

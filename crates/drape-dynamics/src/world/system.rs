@@ -10,7 +10,7 @@ use drape_implicit::{
 use super::World;
 use super::contact::{Contact, ContactStep};
 use super::energy_balance::StepEnergy;
-use crate::sewing::closing_springs::ClosingSprings;
+use crate::world::closing_springs::ClosingSprings;
 
 impl System for World {
     fn particles(&self) -> usize {

@@ -52,21 +52,21 @@ pub(crate) struct Surfaces {
     /// Positions of the bodies' vertices at the end of the step, in m.
     ends: Vec<f64>,
     #[cfg(test)]
-    pub(super) omitted: Omitted,
+    pub(crate) omitted: Omitted,
 }
 
 /// Safeguards that tests take away, to see that each is needed.
 #[cfg(test)]
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Omitted {
+pub(crate) struct Omitted {
     /// Whether steps are not limited.
-    pub(super) step_filter: bool,
+    pub(crate) step_filter: bool,
     /// Whether steps are accepted without a test for intersections.
-    pub(super) intersection_test: bool,
+    pub(crate) intersection_test: bool,
     /// Whether the sides of a seam are exempt from contact before they meet.
-    pub(super) open_seams: bool,
+    pub(crate) open_seams: bool,
     /// Whether the work of bodies that move is left out of the balance of the energy.
-    pub(super) body_work: bool,
+    pub(crate) body_work: bool,
 }
 
 /// Bodies that start smaller than they are.

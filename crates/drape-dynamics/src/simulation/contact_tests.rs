@@ -14,8 +14,8 @@ use crate::record::summary::{Contacts, Status};
 use crate::simulation::Simulation;
 use crate::simulation::run::Progress;
 use crate::stepping::Scheme;
-use crate::world::check::FABRIC;
-use crate::world::contact::surfaces::Omitted;
+use crate::world::Omitted;
+use crate::world::world_tests::FABRIC;
 
 /// A slanting sheet that goes 60 mm in a step, towards a plate of a millimetre.
 const THROWN: &str = r#"spacing = 0.01

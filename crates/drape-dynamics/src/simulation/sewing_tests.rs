@@ -6,13 +6,13 @@ use drape_input::Document;
 use drape_scene::{Pin, Scene, Seam, SeamPairs, Sewing};
 
 use crate::record::summary::Status;
-use crate::sewing::closing_springs::{ClosingSprings, SeamState};
 use crate::sewing::node_map::merge;
 use crate::sewing::reduced_system::ReducedSystem;
 use crate::sewing::reduction::Reduction;
 use crate::simulation::Simulation;
 use crate::world::World;
-use crate::world::check::FABRIC;
+use crate::world::closing_springs::{ClosingSprings, SeamState};
+use crate::world::world_tests::FABRIC;
 
 /// Seam of the edges of both sheets: the lower one has so many arcs for each of the upper one.
 fn seam_pairs(fullness: u32) -> SeamPairs {
