@@ -23,6 +23,9 @@ const GARMENT_TABLES: [(&str, &str); 4] = [
     ("pressure", "pressure of contact"),
 ];
 
+/// Columns of tables, in their order.
+const COLUMNS: [&str; 3] = ["warp", "weft", "shear"];
+
 /// Keys of texts that name an item of a list.
 const NAMES: [&str; 3] = ["name", "edge", "edges"];
 
@@ -60,9 +63,10 @@ pub(super) fn tables(summary: &Value) -> Vec<Value> {
 fn garment_tables(measures: &Map<String, Value>) -> Vec<Table> {
     let mut numbers = Table { title: "garment".to_owned(), ..Table::default() };
     let mut others = Vec::new();
-    for (key, value) in measures {
+    for key in ordered(&[], measures) {
+        let value = &measures[key];
         if matches!(value, Value::Object(_) | Value::Array(_)) {
-            let known = GARMENT_TABLES.iter().find(|(own, _)| own == key);
+            let known = GARMENT_TABLES.iter().find(|(own, _)| *own == key);
             let title = known.map_or_else(|| spoken(key), |(_, title)| (*title).to_owned());
             others.push(Table::of(&[], key, &title, value));
         } else {
@@ -82,7 +86,8 @@ impl Table {
         match value {
             Value::Object(map) => {
                 if !table.add_columns(&path, map) {
-                    map.iter().for_each(|(key, value)| table.add(&path, key, value));
+                    let keys = ordered(&path, map);
+                    keys.into_iter().for_each(|key| table.add(&path, key, &map[key]));
                 }
             }
             Value::Array(items) if items.iter().any(Value::is_object) => {
@@ -93,33 +98,31 @@ impl Table {
         table
     }
 
-    /// Adds objects as columns, if all have the same keys with numbers that have names; returns whether
-    /// they have.
-    fn add_columns(&mut self, path: &[&str], columns: &Map<String, Value>) -> bool {
-        let objects: Option<Vec<&Map<String, Value>>> =
-            columns.values().map(Value::as_object).collect();
-        let Some((objects, first)) =
-            objects.and_then(|objects| Some((objects.clone(), *objects.first()?)))
-        else {
-            return false;
+    /// Adds the objects of a map as columns, if there are several and all have the same keys with simple
+    /// values; returns whether they have.
+    fn add_columns(&mut self, path: &[&str], map: &Map<String, Value>) -> bool {
+        let mut columns: Vec<(&str, &Map<String, Value>)> = Vec::new();
+        for (key, value) in map {
+            let Value::Object(column) = value else { return false };
+            columns.push((key, column));
+        }
+        // The directions of a cloth come in their usual order.
+        columns.sort_by_key(|(key, _)| COLUMNS.iter().position(|own| own == key));
+        let [(outer, first), _, ..] = columns[..] else { return false };
+        let is_alike = |column: &Map<String, Value>| {
+            column.len() == first.len()
+                && first.keys().all(|key| column.get(key).is_some_and(is_simple))
         };
-        let is_alike = |object: &&Map<String, Value>| {
-            object.len() == first.len()
-                && first.keys().all(|key| object.get(key).is_some_and(is_simple))
-        };
-        if objects.len() < 2 || !objects.iter().all(is_alike) {
+        if !columns.iter().all(|(_, column)| is_alike(column)) {
             return false;
         }
-        self.columns = columns.keys().map(|name| spoken(name)).collect();
-        let outer = columns.keys().next().map(String::as_str).unwrap_or_default();
-        for key in ordered(first) {
-            let cell = |(column, object): (&String, &&Map<String, Value>)| {
-                let own: Vec<&str> = path.iter().copied().chain([&column[..], key]).collect();
-                text(unit(&own), &object[key])
-            };
-            let own: Vec<&str> = path.iter().copied().chain([outer, key]).collect();
-            let cells = columns.keys().zip(&objects).map(cell);
-            self.rows.push([name(&own)].into_iter().chain(cells).collect());
+        self.columns = columns.iter().map(|(key, _)| spoken(key)).collect();
+        let below = |outer, key| path.iter().copied().chain([outer, key]).collect::<Vec<&str>>();
+        let above: Vec<&str> = path.iter().copied().chain([outer]).collect();
+        for key in ordered(&above, first) {
+            let cells =
+                columns.iter().map(|(outer, column)| text(unit(&below(outer, key)), &column[key]));
+            self.rows.push([name(&below(outer, key))].into_iter().chain(cells).collect());
         }
         true
     }
@@ -134,7 +137,7 @@ impl Table {
             let named = NAMES.iter().find_map(|key| Some((*key, words(map.get(*key)?)?)));
             let (key, heading) = named.unwrap_or(("", number.to_string()));
             self.rows.push(vec![heading]);
-            for own in ordered(map).into_iter().filter(|own| *own != key) {
+            for own in ordered(path, map).into_iter().filter(|own| *own != key) {
                 self.add(path, own, &map[own]);
             }
         }
@@ -147,7 +150,7 @@ impl Table {
             Value::Null => {}
             Value::Object(map) => {
                 self.rows.push(vec![spoken(key)]);
-                map.iter().for_each(|(key, value)| self.add(&path, key, value));
+                ordered(&path, map).into_iter().for_each(|key| self.add(&path, key, &map[key]));
             }
             Value::Array(items) if items.iter().any(Value::is_object) => {
                 self.rows.push(vec![spoken(key)]);
@@ -167,27 +170,14 @@ impl Table {
     }
 }
 
-/// Returns the keys of an object: those that are known in the order of a tailor or of their size, then
-/// the others.
-fn ordered(map: &Map<String, Value>) -> Vec<&str> {
-    const ORDER: [&str; 14] = [
-        "min",
-        "p01",
-        "median",
-        "mean",
-        "p99",
-        "max",
-        "length",
-        "relaxed",
-        "body",
-        "ease",
-        "folds",
-        "height_mean",
-        "height_min",
-        "height_max",
-    ];
+/// Returns the keys of an object below some keys: those with plain names in the order of
+/// [`Quantity::rank`], then the others.
+fn ordered<'a>(path: &[&str], map: &'a Map<String, Value>) -> Vec<&'a str> {
     let mut keys: Vec<&str> = map.keys().map(String::as_str).collect();
-    keys.sort_by_key(|key| ORDER.iter().position(|own| own == key).unwrap_or(ORDER.len()));
+    keys.sort_by_key(|key| {
+        let own: Vec<&str> = path.iter().copied().chain([*key]).collect();
+        Quantity::rank(&own)
+    });
     keys
 }
 

@@ -114,6 +114,14 @@ impl Quantity {
         };
         QUANTITIES.iter().find(fits).map(|(_, name, unit)| Quantity { name, unit: *unit })
     }
+
+    /// Returns the place of a path of keys in a table; paths without a quantity have the last one.
+    pub(super) fn rank(path: &[&str]) -> usize {
+        let own = Quantity::of(path);
+        let place =
+            QUANTITIES.iter().position(|(_, name, _)| own.is_some_and(|own| own.name == *name));
+        place.unwrap_or(QUANTITIES.len())
+    }
 }
 
 impl Unit {

@@ -141,7 +141,6 @@ fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<Vec<Drawn>, Fa
     }
     if *is_garment {
         file::write(&output.path("strain.svg"), draw_strains(last, &pictures)?)?;
-        keep("map of strains", "strain.svg");
     }
     Ok(drawn)
 }
