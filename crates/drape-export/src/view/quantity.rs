@@ -108,19 +108,17 @@ const ENDS: [(&str, &str); 5] =
 impl Quantity {
     /// Returns the quantity of a path of keys, from the outermost to the innermost.
     pub(super) fn of(path: &[&str]) -> Option<Quantity> {
-        let fits = |(key, ..): &&(&str, &str, Unit)| {
+        let (_, name, unit) = *QUANTITIES.get(Quantity::rank(path))?;
+        Some(Quantity { name, unit })
+    }
+
+    /// Returns the place of a path of keys in a table; paths without a quantity come last.
+    pub(super) fn rank(path: &[&str]) -> usize {
+        let fits = |(key, ..): &(&str, &str, Unit)| {
             let keys: Vec<&str> = key.split('.').collect();
             path.ends_with(&keys)
         };
-        QUANTITIES.iter().find(fits).map(|(_, name, unit)| Quantity { name, unit: *unit })
-    }
-
-    /// Returns the place of a path of keys in a table; paths without a quantity have the last one.
-    pub(super) fn rank(path: &[&str]) -> usize {
-        let own = Quantity::of(path);
-        let place =
-            QUANTITIES.iter().position(|(_, name, _)| own.is_some_and(|own| own.name == *name));
-        place.unwrap_or(QUANTITIES.len())
+        QUANTITIES.iter().position(fits).unwrap_or(QUANTITIES.len())
     }
 }
 
