@@ -127,8 +127,28 @@ async function measure(page, name) {
   }
 }
 
+// What the measures say: tables of names and values with units, no JSON, within the width of the page.
+async function readMeasures(page) {
+  const tables = await page.$$eval('#measures table', (all) => all.map((own) => ({
+    title: own.caption.textContent,
+    rows: [...own.rows].map((row) => [...row.cells].map((cell) => cell.textContent)),
+  })));
+  for (const cell of tables.flatMap((own) => own.rows).flat()) assert.doesNotMatch(cell, /[{}[\]"_]/);
+  const rowOf = (title, name) => tables.find((own) => own.title === title)?.rows.find((row) => row[0] === name);
+  assert.match(rowOf('run', 'simulated time')[1], /^[\d.]+ s$/);
+  assert.match(rowOf('strain at the end', 'largest strain of a yarn')[1], /^[\d.e−]+ %$/);
+  assert.match(rowOf('balance of the energy', 'gravity')[1], /^−?[\d.e−]+ [mµn]?J$/);
+  const [needed, shown] = await page.$eval('#side', (side) => [side.scrollWidth, side.clientWidth]);
+  assert.ok(needed <= shown, `the measures need ${needed} of ${shown} pixels`);
+  await page.$eval('#measures table', (own) => own.scrollIntoView());
+  await page.shot('measures');
+  return rowOf;
+}
+
 for (const name of ['sphere', 'both']) {
   const page = await open(name, 1280, 800);
+  await readMeasures(page);
+  await page.$eval('#side', (side) => { side.scrollTop = 0; });
   await exercise(page);
   await measure(page, name);
   assert.deepEqual(page.said, []);
@@ -151,7 +171,30 @@ await narrow.click('#drawer');
 await narrow.waitForTimeout(300);
 await narrow.shot('drawer');
 assert.ok(await narrow.isVisible('#play'));
+await readMeasures(narrow);
 assert.deepEqual(narrow.said, []);
+// A garment of two fabrics, with measures that nobody knows: a legend, and colours as in the list of parts.
+for (const [width, height] of [[1280, 800], [390, 844]]) {
+  const page = await open('fabrics', width, height);
+  const named = await page.$$eval('#fabrics li', (all) => all.map((own) => [own.textContent, own.querySelector('i').style.background]));
+  assert.deepEqual(named.map(([name]) => name), ['linen', 'wool']);
+  assert.notEqual(named[0][1], named[1][1]);
+  const parts = await page.$$eval('#parts i', (all) => all.map((own) => own.style.background));
+  assert.deepEqual(parts.slice(0, 2), [named[1][1], named[0][1]]);
+  assert.ok(await page.isVisible('#fabrics'));
+  await page.shot('fabrics');
+  if (width < 760) await page.click('#drawer');
+  const rowOf = await readMeasures(page);
+  assert.deepEqual(rowOf('garment', 'widest gap of a seam'), ['widest gap of a seam', '0.250 mm']);
+  assert.deepEqual(rowOf('openings', 'length'), ['length', '631 mm']);
+  assert.deepEqual(rowOf('openings', 'ease'), ['ease', '82.0 mm']);
+  assert.deepEqual(rowOf('strain of the garment', 'largest'), ['largest', '3.64 %', '12.6 %', '24.3°']);
+  assert.deepEqual(rowOf('sway', 'left right'), ['left right', '4°']);
+  await page.selectOption('#field', 'strain-warp');
+  assert.ok(await page.isHidden('#fabrics') && await page.isVisible('#legend'));
+  assert.deepEqual(page.said, []);
+  await page.close();
+}
 const hostile = await open('hostile', 1280, 800);
 assert.equal(await hostile.evaluate(() => window.hostile), undefined);
 assert.match(await hostile.textContent('#parts'), /<\/script>/);

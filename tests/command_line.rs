@@ -99,6 +99,24 @@ fn results_that_are_there_are_replaced_with_force_only() {
 }
 
 #[test]
+fn the_last_line_of_a_run_names_files_that_can_be_opened() {
+    let folder = started();
+    let folder = folder.path();
+    let run = ["run", "moving.toml", "--until", "0.01", "-o", "out/my", "--force"];
+    let said = succeeds(folder, &run);
+    let last = said.lines().last().expect("a line");
+    assert_eq!(last, "results in out/my: picture out/my/picture.png, page out/my/view.html");
+    for name in ["picture.png", "view.html"] {
+        assert!(folder.join("out/my").join(name).is_file(), "{name}");
+    }
+    let said = succeeds(folder, &[&run[..], &["--no-picture"]].concat());
+    assert_eq!(said.lines().last(), Some("results in out/my"));
+    // Programs read the summary alone.
+    let said = succeeds(folder, &[&run[..], &["--json"]].concat());
+    assert!(serde_json::from_str::<Value>(&said).is_ok(), "{said}");
+}
+
+#[test]
 fn of_several_scenes_one_that_fails_does_not_stop_the_rest() {
     let folder = started();
     let folder = folder.path();

@@ -16,7 +16,7 @@ mod record;
 pub use error::Error;
 pub use record::frame::Frame;
 pub use record::recorder::{Output, Recorder, SavedRecorder, prepare_folder};
-pub use record::snapshot::{Body, Snapshot};
+pub use record::snapshot::{Body, ShownFabric, Snapshot};
 pub use record::step_hashes::StepHashes;
 pub use record::summary::{
     Contacts, GridRecord, Phase, PhaseName, Solver, Status, Strain, Summary,

@@ -275,7 +275,7 @@ impl Simulation {
     /// Returns cloth and bodies now, for a picture.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot::new(&self.world, self.spacing)
+        Snapshot::new(&self.world, &self.parts, self.spacing)
     }
 
     /// Returns the data that all frames have in common.

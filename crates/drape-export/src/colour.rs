@@ -1,7 +1,7 @@
-//! Colours of panels, fabrics and bodies.
+//! Colours of panels and bodies in files for other programs.
 //!
-//! Other programs give a material to each panel, so that one can be told from the next; the page shows
-//! panels in the colour of their fabric.
+//! Each panel has a material. Panels of several fabrics have the colours of their fabrics, which
+//! `palette` chooses. Panels of one fabric have different colours, so that one can be told from the next.
 
 /// Linear light of red, green and blue, 0 to 1.
 pub(crate) type Colour = [f64; 3];
@@ -20,21 +20,6 @@ const HUE: f64 = 0.58;
 /// shadows show folds on light cloth, and not so strong that a garment looks painted.
 const LIGHT: f64 = 0.65;
 const STRENGTH: f64 = 0.5;
-
-/// Colours of the front and the back of fabrics, as they are written in a page.
-const FABRICS: [[&str; 2]; 6] = [
-    ["#96b6d6", "#e2c496"],
-    ["#d69a8f", "#e9d9c3"],
-    ["#a3c29b", "#e6dcc0"],
-    ["#c3a8d1", "#e7dccb"],
-    ["#dcbf78", "#cfd6d9"],
-    ["#8fc4c1", "#e6d3c0"],
-];
-
-/// Returns the colours of the front and the back of a fabric.
-pub(crate) fn of_fabric(index: usize) -> [&'static str; 2] {
-    FABRICS[index % FABRICS.len()]
-}
 
 /// Returns the colour of a panel.
 pub(crate) fn of_panel(index: usize) -> Colour {

@@ -31,6 +31,7 @@ pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::Part> {
         half_min_separation: 0.0,
         fabric: String::new(),
         weft: [1.0, 0.0],
+        fabric_colour: None,
     };
     names.iter().map(|name| part((*name).to_owned())).collect()
 }

@@ -5,7 +5,7 @@
 //! A [`Clip`] is what is written: frames of a recording with their times. Each format has a function
 //! that writes a clip, or a frame of it.
 //!
-//! Layers, lowest first: `error`, `name`, `colour`, `scale`; `normal`; `clip` chooses frames; `mesh` divides
+//! Layers, lowest first: `error`, `name`, `colour`, `palette`, `scale`; `normal`; `clip` chooses frames; `mesh` divides
 //! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
 //! them.
 
@@ -14,6 +14,7 @@ mod error;
 mod colour;
 mod name;
 mod normal;
+mod palette;
 mod scale;
 
 mod clip;
@@ -38,5 +39,6 @@ pub use format::svg::{PatternMap, write_svg};
 pub use format::table::write_csv;
 pub use format::usda::write_usda;
 pub use format::vtk::{Listed, PolyData, Surface, write_pvd, write_vtp};
+pub use palette::{FabricPalette, Rgb};
 pub use scale::rounded_up;
 pub use view::{Named, View};

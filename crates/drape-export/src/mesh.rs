@@ -9,6 +9,7 @@ use crate::colour::{self, Colour};
 use crate::error::Error;
 use crate::name;
 use crate::normal::{self, Creased, Normal};
+use crate::palette::{FabricPalette, light};
 
 /// Panel or body, with its own numbers of vertices.
 #[derive(Debug, Clone)]
@@ -41,11 +42,15 @@ pub(crate) fn meshes<'a>(recording: &'a Recording, frame: &Frame) -> Vec<Mesh<'a
     let mut next = || names.next().expect("there is a name for each part");
     let mut meshes = Vec::new();
     let pattern = pattern(recording);
+    let palette = FabricPalette::of_runs([recording]);
     for (index, (part, vertices, triangles)) in
         divided(&manifest.panels, &topology.cloth).into_iter().enumerate()
     {
         let kind = Kind::Panel(pattern[vertices.clone()].to_vec());
-        let colour = colour::of_panel(index);
+        let colour = match palette.is_needed() {
+            true => light(palette.sides(&part.fabric)[0]),
+            false => colour::of_panel(index),
+        };
         meshes.push(Mesh { part, name: next(), vertices, triangles, colour, kind });
     }
     for (part, vertices, triangles) in divided(&manifest.bodies, &topology.bodies) {

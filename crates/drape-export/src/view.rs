@@ -7,13 +7,16 @@
 mod bits;
 mod measures;
 mod named;
+mod quantity;
 mod samples;
 mod scene;
 
 use drape_frames::Error;
+use serde_json::{Value, json};
 
 pub use self::named::Named;
 use self::scene::Scene;
+use crate::palette::{FabricPalette, hex};
 
 const PAGE: &str = include_str!("../viewer/viewer.html");
 const STYLE: &str = include_str!("../viewer/viewer.css");
@@ -41,16 +44,22 @@ impl View {
     pub fn new(runs: &[Named<'_>], size_max: usize) -> Result<View, Error> {
         let own = size_max.saturating_sub(PAGE.len() + STYLE.len() + SCRIPT.len() + THREE.len());
         let share = own / runs.len().max(1);
+        let palette = FabricPalette::of_runs(runs.iter().map(|run| run.recording));
         let scenes: Result<Vec<Scene>, Error> =
-            runs.iter().map(|run| Scene::of_size(run, share)).collect();
+            runs.iter().map(|run| Scene::of_size(run, &palette, share)).collect();
         let scenes = scenes?;
         let names: Vec<&str> = runs.iter().map(|run| run.name).collect();
+        let fabrics: Vec<Value> = palette
+            .legend()
+            .map(|(name, colour)| json!({ "name": name, "colour": hex(colour) }))
+            .collect();
+        let fabrics = json_element("fabrics-data", &Value::from(fabrics));
         let data: String = scenes.iter().enumerate().map(|(k, scene)| scene.elements(k)).collect();
         let parts = [
             ("title", escape(&names.join(" | "))),
             ("style", STYLE.to_owned()),
             ("three", THREE.to_owned()),
-            ("data", data),
+            ("data", fabrics + &data),
             ("script", SCRIPT.to_owned()),
         ];
         let mut html = String::new();
@@ -66,6 +75,13 @@ impl View {
         let frames = scenes.into_iter().map(|scene| scene.frames).collect();
         Ok(View { html, frames })
     }
+}
+
+/// Returns the element of a page that holds a value as JSON.
+fn json_element(id: &str, value: &Value) -> String {
+    // No text can end the element that holds it.
+    let text = value.to_string().replace('<', "\\u003c");
+    format!("<script type=\"application/json\" id=\"{id}\">{text}</script>\n")
 }
 
 /// Returns text as HTML.

@@ -92,6 +92,50 @@ fn positions_and_fields_come_back_to_the_fraction_that_is_said() {
     assert_eq!((speed["unit"].as_str(), speed["high"].as_f64()), (Some("m/s"), Some(5.0)));
 }
 
+/// Writes the manifest of panels of some fabrics, each with a stated colour or none.
+fn write_fabrics(folder: &TempDir, fabrics: &[(&str, Option<&str>)]) {
+    let panel = |(number, (fabric, colour)): (usize, &(&str, Option<&str>))| {
+        let triangles = usize::from(number == 0);
+        serde_json::json!({
+            "name": format!("panel {number}"), "vertices": 3 * triangles, "triangles": triangles,
+            "fabric": fabric, "colour": colour,
+        })
+    };
+    let panels: Vec<Value> = fabrics.iter().enumerate().map(panel).collect();
+    let manifest =
+        serde_json::json!({ "format": 1, "guarded": false, "bodies": [], "panels": panels });
+    std::fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).expect("writes");
+}
+
+#[test]
+fn a_legend_names_the_fabrics_of_all_runs_in_the_colours_of_their_panels() {
+    let folders = [run(1), run(1)];
+    write_fabrics(&folders[0], &[("wool", None), ("linen", None)]);
+    write_fabrics(&folders[1], &[("wool", None), (HOSTILE, Some("#b03a2e"))]);
+    let recordings = folders.each_ref().map(|own| Recording::open(own.path()).expect("a run"));
+    let runs = recordings.each_ref().map(|recording| Named { name: "run", recording });
+    let html = View::new(&runs, 20_000_000).expect("a page").html;
+    let legend: Value = serde_json::from_str(element(&html, "fabrics-data")).expect("JSON");
+    let legend = legend.as_array().expect("a list");
+    let names: Vec<&str> = legend.iter().filter_map(|own| own["name"].as_str()).collect();
+    assert_eq!(names, [HOSTILE, "linen", "wool"]);
+    assert_eq!(legend[0]["colour"], "#b03a2e");
+    for number in 0..2 {
+        let meta: Value =
+            serde_json::from_str(element(&html, &format!("run-{number}"))).expect("JSON");
+        for panel in meta["panels"].as_array().expect("panels") {
+            let own = legend.iter().find(|own| own["name"] == panel["fabric"]);
+            assert_eq!(own.expect("in the legend")["colour"], panel["colour"]);
+        }
+    }
+    // A fabric that is alone keeps the usual colours, and needs no legend.
+    write_fabrics(&folders[0], &[("wool", None), ("wool", None)]);
+    let html = page(&folders[0], 20_000_000).html;
+    assert_eq!(element(&html, "fabrics-data"), "[]");
+    let panel = &meta(&html)["panels"][0];
+    assert_eq!([&panel["colour"], &panel["back"]], ["#96b6d6", "#e2c496"]);
+}
+
 #[test]
 fn each_fabric_has_its_colour() {
     let folder = run(1);

@@ -283,6 +283,47 @@ function table(caption, rows) {
   return own;
 }
 
+// Table of measures: rows of a name and values; a row of one cell is the heading of those that follow.
+function measureTable({ title, columns, rows }) {
+  const own = document.createElement('table');
+  own.createCaption().textContent = title;
+  const width = 1 + Math.max(1, columns.length);
+  const heading = (line, text, attributes) => {
+    const cell = document.createElement('th');
+    cell.textContent = text;
+    Object.assign(cell, attributes);
+    line.append(cell);
+  };
+  if (columns.length) {
+    const line = own.createTHead().insertRow();
+    for (const name of ['', ...columns]) heading(line, name, { scope: 'col' });
+  }
+  const body = own.createTBody();
+  for (const [name, ...values] of rows) {
+    const line = body.insertRow();
+    if (values.length) heading(line, name, { scope: 'row' });
+    else heading(line, name, { scope: 'rowgroup', colSpan: width });
+    for (const value of values) {
+      const cell = line.insertCell();
+      cell.textContent = value;
+      // Long texts are wrapped; a number stays beside its unit.
+      if (value.length > 16) cell.className = 'text';
+    }
+  }
+  return own;
+}
+
+// Legend of the fabrics, where there are several.
+function fillFabrics() {
+  for (const { name, colour } of JSON.parse(element('fabrics-data').textContent)) {
+    const line = document.createElement('li');
+    const chip = document.createElement('i');
+    chip.style.background = colour;
+    line.append(chip, name || 'fabric without a name');
+    element('fabrics').append(line);
+  }
+}
+
 function digits(value) {
   const size = Math.abs(value);
   return size >= 100 ? value.toFixed(0) : size >= 10 ? value.toFixed(1) : size >= 1 || size === 0 ? value.toFixed(2) : value.toPrecision(2);
@@ -290,9 +331,10 @@ function digits(value) {
 
 function showLegend() {
   const field = views.flatMap((view) => view.run.fields).find((own) => own.key === state.field);
-  element('legend').hidden = !field;
-  if (!field) return;
   const known = views.some((view) => view.fieldAt(view.run.fields.find((own) => own.key === state.field), view.frame));
+  element('legend').hidden = !field;
+  element('fabrics').hidden = known || !element('fabrics').childElementCount;
+  if (!field) return;
   element('legend-label').textContent = `${field.label}, ${field.unit}` + (known ? '' : ': known in the last frame only');
   const ends = element('legend-ends');
   ends.replaceChildren(...[field.low, (field.low + field.high) / 2, field.high].map((value) => {
@@ -535,13 +577,19 @@ async function start() {
       view.plot = energyPlot(energy, frames.map((frame) => frame.time), seek);
       element('measures').append(view.plot.element);
     }
-    element('measures').append(table(views.length > 1 ? name : '', measures));
+    if (views.length > 1 && measures.length) {
+      const heading = document.createElement('h3');
+      heading.textContent = name;
+      element('measures').append(heading);
+    }
+    element('measures').append(...measures.map(measureTable));
   }
   controls = new THREE.OrbitControls(camera, canvas);
   controls.enableDamping = true;
   controls.addEventListener('change', () => { needsDraw = true; });
   camera.position.set(0.6, 0.35, 1);
   fillParts();
+  fillFabrics();
   join();
   showTime(times.length - 1);
   draw();

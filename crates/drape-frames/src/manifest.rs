@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 use crate::error::Error;
 
@@ -61,6 +61,10 @@ pub struct Part {
     /// is a quarter turn anticlockwise from it.
     #[serde(default = "along_width")]
     pub weft: [f64; 2],
+    /// Colour in sRGB that the scene states for the fabric of a panel; none where the scene states none,
+    /// and in folders of older versions.
+    #[serde(rename = "colour", default, deserialize_with = "hex_colour")]
+    pub fabric_colour: Option<[u8; 3]>,
 }
 
 /// Pinch fraction of a run whose file gives none: the full separation holds everywhere.
@@ -71,6 +75,20 @@ fn one() -> f64 {
 /// Direction of the weft of a body, and in format 1.
 fn along_width() -> [f64; 2] {
     [1.0, 0.0]
+}
+
+/// Reads a colour such as `#b03a2e`.
+fn hex_colour<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u8; 3]>, D::Error> {
+    let Some(text) = Option::<String>::deserialize(from)? else { return Ok(None) };
+    let digits = text.strip_prefix('#').filter(|digits| {
+        digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+    });
+    let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    let number = number.ok_or_else(|| {
+        serde::de::Error::custom(format!("`{text}` is no colour; one is #RRGGBB, such as #b03a2e"))
+    })?;
+    let [_, red, green, blue] = number.to_be_bytes();
+    Ok(Some([red, green, blue]))
 }
 
 impl Part {
@@ -164,6 +182,7 @@ mod tests {
                 half_min_separation: 0.0,
                 fabric: String::new(),
                 weft,
+                fabric_colour: None,
             };
             let [x, y] = weft;
             assert_eq!(part.pattern_point([1.0, 0.0]), weft);
@@ -175,6 +194,25 @@ mod tests {
                 error < 1e-15 && (across.hypot(up) - 13.0_f64.sqrt()).abs() < 1e-14,
                 "{weft:?}"
             );
+        }
+    }
+
+    #[test]
+    fn colours_of_fabrics_are_read_and_older_folders_have_none() {
+        let text = |colour: &str| {
+            format!(
+                "{{\"format\": 2, \"guarded\": false, \"bodies\": [], \"panels\": [{{\"name\": \"front\", \
+                 \"vertices\": 3, \"triangles\": 1, \"fabric\": \"wool\"{colour}}}]}}"
+            )
+        };
+        let read = |colour: &str| Manifest::parse(Path::new("surfaces.json"), &text(colour));
+        let colour = |text: &str| read(text).expect("a manifest").panels[0].fabric_colour;
+        assert_eq!(colour(""), None);
+        assert_eq!(colour(", \"colour\": null"), None);
+        assert_eq!(colour(", \"colour\": \"#b03A2e\""), Some([0xb0, 0x3a, 0x2e]));
+        for bad in ["b03a2e", "#b03a2", "#b03a2ef", "#+03a2e", "#éa2e", "red"] {
+            let error = read(&format!(", \"colour\": \"{bad}\"")).expect_err(bad).to_string();
+            assert!(error.contains(bad) && error.contains("#RRGGBB"), "{error}");
         }
     }
 }

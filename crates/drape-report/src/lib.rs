@@ -36,5 +36,5 @@ pub use page::{
     ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
-pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};
+pub use picture::{Animation, Colour, ColourScale, Legend, Picture, Swatches, diverging};
 pub use render::{Camera, Extent, Ground, LitShapes, Scene, ScreenPoint, Surface, View, render};

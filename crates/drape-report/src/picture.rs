@@ -2,7 +2,7 @@
 //!
 //! [`pixels`] holds the rows of a picture and writes PNG, `animation` writes pictures that follow each
 //! other. `colour` converts sRGB and linear light, `scale` has the colours of values; `lettering`
-//! writes on a picture, `legend` draws a scale of colours below it. The chapter knows nothing of
+//! writes on a picture, `legend` draws a scale of colours below it, `swatches` colours with their names. The chapter knows nothing of
 //! scenes, plots or pages.
 
 mod animation;
@@ -11,6 +11,7 @@ mod legend;
 mod lettering;
 mod pixels;
 mod scale;
+mod swatches;
 
 pub use animation::Animation;
 pub use colour::{Colour, diverging};
@@ -18,3 +19,4 @@ pub(crate) use colour::{decode, encode};
 pub use legend::Legend;
 pub use pixels::Picture;
 pub use scale::ColourScale;
+pub use swatches::Swatches;

@@ -338,3 +338,32 @@ fn a_saved_picture_reads_back_pixel_by_pixel() {
     assert_eq!((frame.width, frame.height), (400, 300));
     assert!(bytes == picture.pixels(), "pixels changed in the file");
 }
+
+#[test]
+fn triangles_have_the_colours_of_their_sides_with_smooth_normals_across_a_seam() {
+    // Two squares side by side, sewn at x = 0: the same places, but not the same vertices.
+    let corners = |left: f64| [[left, 0.0], [left + 0.5, 0.0], [left, 0.5], [left + 0.5, 0.5]];
+    let positions: Vec<f64> =
+        [-0.5, 0.0].map(corners).as_flattened().iter().flat_map(|[x, z]| [*x, 0.0, *z]).collect();
+    let triangles = [[0, 2, 3], [0, 3, 1], [4, 6, 7], [4, 7, 5]];
+    let (red, green, blue, yellow) = ([180, 40, 40], [40, 160, 60], [40, 60, 180], [200, 180, 40]);
+    let sides = [[red, green], [red, green], [blue, yellow], [blue, yellow]];
+    let surface = Surface::cloth(&positions, &triangles).with_sides(&sides);
+    let scene = Scene { cloths: vec![surface], ..Scene::default() };
+    for (elevation_deg, [left, right]) in [(90.0, [red, blue]), (-90.0, [green, yellow])] {
+        let view = View { azimuth_deg: 0.0, elevation_deg, ..SMALL };
+        let camera = view.camera(&scene).unwrap();
+        let picture = render(&scene, &view).unwrap();
+        for (x, colour) in [(-0.25, left), (0.25, right)] {
+            let ScreenPoint { x, y, .. } = camera.project([x, 0.0, 0.25]);
+            let seen = picture.pixel(x as u32, y as u32).unwrap().map(f64::from);
+            // Light scales the channels alike in linear light: their order stays, and so does the hue.
+            let strongest = |of: [f64; 3]| (0..3).max_by(|a, b| of[*a].total_cmp(&of[*b]));
+            assert_eq!(strongest(seen), strongest(colour.map(f64::from)), "{seen:?}, {colour:?}");
+        }
+    }
+    let plain = Scene { cloths: vec![Surface { sides: None, ..surface }], ..Scene::default() };
+    let sewn = LitShapes::new(&plain).unwrap();
+    let camera = SMALL.camera(&plain).unwrap();
+    assert_eq!(sewn.draw(&scene, &camera).unwrap(), render(&scene, &SMALL).unwrap());
+}

@@ -50,6 +50,8 @@ fn invalid_scenes_and_views_are_refused() {
     assert!(matches!(error, Error::BadLength { length: 26, .. }), "{error}");
     let error = only(cloth(&shape).with_lines(&coordinates[2..], 0.1));
     assert!(matches!(error, Error::BadLength { length: 16, .. }), "{error}");
+    let error = only(cloth(&shape).with_sides(&[[[200; 3]; 2]; 7]));
+    assert!(matches!(error, Error::BadLength { length: 7, .. }), "{error}");
     let error = only(cloth(&shape).with_lines(&coordinates, 0.0));
     assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
 

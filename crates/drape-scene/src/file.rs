@@ -122,6 +122,11 @@ pub(crate) struct FabricFile {
     /// Fabric, sheet, or folder of a sheet, relative to the folder of the scene. A sheet is fitted
     /// first.
     pub(crate) file: String,
+    /// Colour of the front of the cloth in pictures, in the viewer and in files for other programs, as
+    /// `#RRGGBB` in sRGB; the back is a paler or darker tone. Without a colour, several fabrics have colours that can be told
+    /// apart.
+    #[serde(alias = "color")]
+    pub(crate) colour: Option<String>,
     /// Numbers that take the place of those of the fabric, in SI, by their keys in a `fabric.toml`,
     /// such as `"warp.bending.rigidity"`.
     #[serde(default)]

@@ -357,3 +357,22 @@ fn explicit_steps_neither_settle_nor_vary() {
     let text = with("", "[settle]\n[solver]\nintegrator = \"explicit\"");
     assert!(read(&text).expect_err("refused").to_string().contains("one length"));
 }
+
+#[test]
+fn a_fabric_has_the_colour_that_the_scene_states() {
+    let with = |line: &str| LEAST.replacen('\n', &format!("\n{line}\n"), 1);
+    for key in ["colour", "color"] {
+        let scene = read(&with(&format!("fabric.plain.{key} = \"#b03A2e\"")));
+        assert_eq!(scene.expect("a scene").materials[0].colour, Some([0xb0, 0x3a, 0x2e]), "{key}");
+    }
+    assert_eq!(read(LEAST).expect("a scene").materials[0].colour, None);
+    for bad in ["red", "#b03", "b03a2e", "#+03a2e", "#b03a2e80", "#éa2e", ""] {
+        let mistakes = read(&with(&format!("fabric.plain.colour = \"{bad}\""))).expect_err(bad);
+        let text = mistakes.to_string();
+        assert!(text.contains("fabric.plain.colour") && text.contains("is no colour"), "{text}");
+        // The remedy that the message names is taken.
+        let (_, remedy) = text.split_once("such as ").expect("a remedy");
+        let remedy = remedy.lines().next().expect("a line");
+        assert!(read(&with(&format!("fabric.plain.{remedy}"))).is_ok(), "{remedy}");
+    }
+}

@@ -1,7 +1,10 @@
 //! Pictures of cloth and bodies, with yarn lines or in a colour per particle.
 
 use drape::dynamics::Snapshot;
-use drape::report::{Camera, Colour, Extent, Ground, LitShapes, Picture, Scene, Surface, View};
+use drape::export::FabricPalette;
+use drape::report::{
+    Camera, Colour, Extent, Ground, LitShapes, Picture, Scene, Surface, Swatches, View,
+};
 
 use crate::failure::Failure;
 
@@ -29,25 +32,31 @@ const NEAR: f64 = 0.12;
 /// Returns what of a snapshot is near a place, in m.
 pub(crate) fn near(snapshot: &Snapshot, place: [f64; 3]) -> Snapshot {
     let mut near = snapshot.clone();
-    keep_near(&mut near.positions, &mut near.triangles, place);
+    let all = std::mem::take(&mut near.triangle_fabrics);
+    let is_kept = keep_near(&mut near.positions, &mut near.triangles, place);
+    let kept = all.into_iter().zip(is_kept).filter(|(_, is_kept)| *is_kept);
+    near.triangle_fabrics = kept.map(|(fabric, _)| fabric).collect();
     for body in &mut near.bodies {
         keep_near(&mut body.positions, &mut body.triangles, place);
     }
     near
 }
 
-/// Keeps the triangles near a place; corners of others are moved there, so that the picture shows
-/// nothing else.
-fn keep_near(positions: &mut [f64], triangles: &mut Vec<[u32; 3]>, place: [f64; 3]) {
+/// Keeps the triangles near a place, and returns which of them are kept; corners of others are moved
+/// there, so that the picture shows nothing else.
+fn keep_near(positions: &mut [f64], triangles: &mut Vec<[u32; 3]>, place: [f64; 3]) -> Vec<bool> {
     let is_near = |corner: &u32| {
         let square = |axis: usize| (positions[3 * *corner as usize + axis] - place[axis]).powi(2);
         (0..3).map(square).sum::<f64>() < NEAR * NEAR
     };
+    let is_kept: Vec<bool> =
+        triangles.iter().map(|triangle| triangle.iter().any(is_near)).collect();
     triangles.retain(|triangle| triangle.iter().any(is_near));
     let mut is_used = vec![false; positions.len() / 3];
     triangles.iter().flatten().for_each(|&corner| is_used[corner as usize] = true);
     let corners = positions.chunks_exact_mut(3).zip(is_used);
     corners.filter(|(_, is_used)| !is_used).for_each(|(corner, _)| corner.copy_from_slice(&place));
+    is_kept
 }
 
 /// Pictures of one snapshot, which share their light.
@@ -56,6 +65,9 @@ pub(crate) struct Pictures<'a> {
     /// Material coordinates, two per particle, in m.
     coordinates: Vec<f64>,
     shapes: LitShapes,
+    palette: FabricPalette,
+    /// Colours of the front and the back of each triangle, where fabrics have their own.
+    sides: Option<Vec<[Colour; 2]>>,
     /// Marks beside the cloth.
     marks: Option<Surface<'a>>,
 }
@@ -71,10 +83,20 @@ impl<'a> Pictures<'a> {
         snapshot: &'a Snapshot,
         marks: Option<Surface<'a>>,
     ) -> Result<Self, Failure> {
-        let Snapshot { positions, triangles, coordinates, .. } = snapshot;
+        let Snapshot { positions, triangles, coordinates, fabrics, triangle_fabrics, .. } =
+            snapshot;
         let mut shown = scene(snapshot, Surface::cloth(positions, triangles));
         shown.cloths.extend(marks);
+        let palette =
+            FabricPalette::new(fabrics.iter().map(|fabric| (&fabric.name[..], fabric.colour)));
+        let sides: Vec<[Colour; 2]> =
+            fabrics.iter().map(|fabric| palette.sides(&fabric.name)).collect();
+        let of_triangle = |fabric: &usize| sides[*fabric];
         Ok(Self {
+            // Marks have colours that stand out from the usual ones.
+            sides: (palette.is_needed() && marks.is_none())
+                .then(|| triangle_fabrics.iter().map(of_triangle).collect()),
+            palette,
             snapshot,
             coordinates: coordinates.iter().flatten().copied().collect(),
             shapes: LitShapes::new(&shown).map_err(Failure::of_picture)?,
@@ -110,26 +132,43 @@ impl<'a> Pictures<'a> {
         let cameras = View::cameras(&views, &Extent::of(&scene)).map_err(Failure::of_picture)?;
         let pictures: Result<Vec<Picture>, Failure> =
             cameras.iter().map(|camera| self.draw_scene(&scene, camera)).collect();
-        Ok(Picture::sheet(&pictures?, sides.len()))
+        let sheet = Picture::sheet(&pictures?, sides.len());
+        Ok(match tints {
+            Some(_) => sheet,
+            None => {
+                let legend = self.legend([sheet.width(), sheet.height()]);
+                legend.below(&sheet, Ground::GREY.bottom)
+            }
+        })
     }
 
     /// Draws the snapshot, seen from an azimuth and an elevation in degrees, in so many pixels.
     pub(crate) fn draw(&self, view: [Option<f64>; 2], size: [u32; 2]) -> Result<Picture, Failure> {
         let ([azimuth, elevation], [width, height]) = (view, size);
         let standard = View::default();
+        let legend = self.legend(size);
         let view = View {
             azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
             elevation_deg: elevation.unwrap_or(standard.elevation_deg),
             width,
-            height,
+            height: height - legend.height(),
             ..standard
         };
         let scene = self.scene_with_lines();
-        self.draw_scene(&scene, &view.camera(&scene).map_err(Failure::of_picture)?)
+        let picture =
+            self.draw_scene(&scene, &view.camera(&scene).map_err(Failure::of_picture)?)?;
+        Ok(legend.below(&picture, Ground::GREY.bottom))
+    }
+
+    /// Returns the legend of the fabrics for a picture of some pixels, where there are several.
+    fn legend(&self, size: [u32; 2]) -> Swatches {
+        let shown = self.palette.legend().filter(|_| self.sides.is_some());
+        Swatches::new(shown.map(|(name, colour)| (name.to_owned(), colour)).collect(), size)
     }
 
     fn cloth(&self) -> Surface<'_> {
-        Surface::cloth(&self.snapshot.positions, &self.snapshot.triangles)
+        let cloth = Surface::cloth(&self.snapshot.positions, &self.snapshot.triangles);
+        Surface { sides: self.sides.as_deref(), ..cloth }
     }
 
     fn scene_with_lines(&self) -> Scene<'_> {

@@ -1,9 +1,10 @@
 //! Pictures of the stored frames of a run: from several sides, with a colour map, all in one scale.
 
-use drape::export::{Field, Fields};
-use drape::frames::{Frame, Recording};
+use drape::export::{FabricPalette, Field, Fields};
+use drape::frames::{Frame, Part, Recording};
 use drape::report::{
-    Camera, Colour, ColourScale, Extent, Ground, Legend, LitShapes, Picture, Scene, Surface, View,
+    Camera, Colour, ColourScale, Extent, Ground, Legend, LitShapes, Picture, Scene, Surface,
+    Swatches, View,
 };
 
 use super::picture::{FLOOR, line_spacing};
@@ -54,16 +55,19 @@ impl Look {
     }
 }
 
-/// Legend of the map, if there is one.
+/// Legend of the map, or of the fabrics where there are several and no map.
 #[derive(Debug, Clone)]
-pub(crate) struct MapLegend(Option<Legend>);
+pub(crate) struct RunLegend {
+    map: Option<Legend>,
+    fabrics: Swatches,
+}
 
-impl MapLegend {
+impl RunLegend {
     /// Returns a picture with the legend below it.
     pub(crate) fn below(&self, picture: Picture) -> Picture {
-        match &self.0 {
+        match &self.map {
             Some(legend) => legend.below(&picture, Ground::GREY.bottom),
-            None => picture,
+            None => self.fabrics.below(&picture, Ground::GREY.bottom),
         }
     }
 }
@@ -73,7 +77,9 @@ pub(crate) struct RunPictures<'a> {
     recording: &'a Recording,
     look: &'a Look,
     fields: Fields<'a>,
-    legend: Option<Legend>,
+    legend: RunLegend,
+    /// Colours of the front and the back of each triangle, where fabrics have their own.
+    sides: Option<Vec<[Colour; 2]>>,
     cameras: Vec<Camera>,
     /// Smallest distance of particles at rest, in m.
     spacing: f64,
@@ -98,11 +104,16 @@ impl<'a> RunPictures<'a> {
         numbers: &[usize],
     ) -> Result<RunPictures<'a>, Failure> {
         let topology = recording.topology();
+        let palette = FabricPalette::of_runs([recording]);
+        let has_fabrics = palette.is_needed() && look.map.is_none() && look.colours.is_none();
+        let shown = palette.legend().filter(|_| has_fabrics);
+        let entries = shown.map(|(name, colour)| (name.to_owned(), colour)).collect();
         let mut pictures = RunPictures {
             recording,
             look,
             fields: Fields::new(recording),
-            legend: None,
+            legend: RunLegend { map: None, fabrics: Swatches::new(entries, look.size) },
+            sides: has_fabrics.then(|| sides(recording, &palette)),
             cameras: Vec::new(),
             spacing: spacing(recording),
             coordinates: topology.material.iter().flatten().copied().collect(),
@@ -130,12 +141,12 @@ impl<'a> RunPictures<'a> {
             let range = look.range.unwrap_or_else(|| field.range(&values));
             let scale = ColourScale::new(range, field.is_signed()).map_err(Failure::of_picture)?;
             let (name, unit) = (field.label().to_owned(), field.unit().to_owned());
-            pictures.legend = Some(Legend { name, unit, scale });
+            pictures.legend.map = Some(Legend { name, unit, scale });
         }
         Ok(pictures)
     }
 
-    /// Draws a frame from all sides, with the legend of its map.
+    /// Draws a frame from all sides, with its legend.
     pub(crate) fn draw(&mut self, number: usize) -> Result<Picture, Failure> {
         let views = self.draw_views(number)?;
         Ok(self.legend().below(views))
@@ -158,7 +169,7 @@ impl<'a> RunPictures<'a> {
         mut take: impl FnMut(Picture) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let shown = self.shown(&self.recording.frame(number)?)?;
-        let tints: Option<Vec<Colour>> = match (&shown.values, &self.legend) {
+        let tints: Option<Vec<Colour>> = match (&shown.values, &self.legend.map) {
             (Some(values), Some(Legend { scale, .. })) => {
                 Some(values.iter().map(|value| scale.colour(*value)).collect())
             }
@@ -171,9 +182,9 @@ impl<'a> RunPictures<'a> {
             .try_for_each(|camera| take(shapes.draw(&scene, camera).map_err(Failure::of_picture)?))
     }
 
-    /// Returns the legend of the map.
-    pub(crate) fn legend(&self) -> MapLegend {
-        MapLegend(self.legend.clone())
+    /// Returns the legend of the pictures.
+    pub(crate) fn legend(&self) -> RunLegend {
+        self.legend.clone()
     }
 
     /// Returns the time of a frame as a caption.
@@ -186,7 +197,8 @@ impl<'a> RunPictures<'a> {
     fn view(&self, direction: Direction, place: u32) -> View {
         let ([width, height], count) = (self.look.size, self.look.columns.max(1));
         let place = place % count;
-        let legend = self.look.map.map_or(0, |_| Legend::height(height));
+        let of_fabrics = self.legend.fabrics.height();
+        let legend = self.look.map.map_or(of_fabrics, |_| Legend::height(height));
         let end = |place: u32| u64::from(width) * u64::from(place) / u64::from(count);
         View {
             azimuth_deg: direction.azimuth,
@@ -250,6 +262,7 @@ impl<'a> RunPictures<'a> {
             Some(tints) => cloth.with_tints(tints),
             None => cloth.with_lines(&self.coordinates, line_spacing(&self.coordinates)),
         };
+        cloth.sides = self.sides.as_deref();
         if let Some([front, back]) = self.look.colours {
             cloth = Surface { front, back, ..cloth };
         }
@@ -264,6 +277,13 @@ impl<'a> RunPictures<'a> {
             body_depth_bias: self.spacing.min(1.0),
         }
     }
+}
+
+/// Returns the colours of the front and the back of each triangle of the cloth.
+fn sides(recording: &Recording, palette: &FabricPalette) -> Vec<[Colour; 2]> {
+    let panels = recording.manifest().panels.iter();
+    let of_panel = |panel: &Part| vec![palette.sides(&panel.fabric); panel.triangles];
+    panels.flat_map(of_panel).collect()
 }
 
 /// Returns the shortest edge of the cloth at rest, in m.

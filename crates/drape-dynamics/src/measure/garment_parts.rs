@@ -35,6 +35,8 @@ pub(crate) struct PanelSpan {
     pub(crate) name: String,
     /// Name of its fabric in the scene.
     pub(crate) fabric: String,
+    /// Colour in sRGB that the scene states for its fabric.
+    pub(crate) colour: Option<[u8; 3]>,
     /// Direction of its weft in its own frame.
     pub(crate) weft: [f64; 2],
     pub(crate) particles: Range<usize>,
@@ -73,6 +75,7 @@ impl GarmentParts {
         let span = |panel: &Panel| PanelSpan {
             name: panel.name.clone(),
             fabric: scene.materials[panel.material].name.clone(),
+            colour: scene.materials[panel.material].colour,
             weft: panel.lattice.grain.weft(),
             particles: panel.particles(),
         };

@@ -70,6 +70,9 @@ pub struct Part {
 pub struct PanelData {
     /// Name of its fabric in the scene.
     pub fabric: String,
+    /// Colour that the scene states for its fabric, as `#rrggbb` in sRGB.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<String>,
     /// Direction of its weft in its own frame.
     pub weft: [f64; 2],
 }
@@ -100,7 +103,9 @@ impl Topology {
         let panels = parts.panels.iter().map(|panel| {
             let own = |triangle: &&[u32; 3]| panel.particles.contains(&(triangle[0] as usize));
             let triangles = cloth.triangles().iter().filter(own).count();
-            let data = PanelData { fabric: panel.fabric.clone(), weft: panel.weft };
+            let colour =
+                panel.colour.map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}"));
+            let data = PanelData { fabric: panel.fabric.clone(), colour, weft: panel.weft };
             Part { panel: Some(data), ..part(&panel.name, panel.particles.len(), triangles) }
         });
         let panels = panels.collect();

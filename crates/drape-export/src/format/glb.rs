@@ -26,7 +26,8 @@ const INDICES: u32 = 34963;
 /// The mesh shows the last frame; the frames before are morph targets, which an animation shows at
 /// their times. Of more than [`GLB_FRAMES_MAX`] frames so many are taken; the numbers are in the names
 /// of the targets. Texture coordinates are pattern coordinates in m as the format counts them, from
-/// the top: the second is 1 less the height.
+/// the top: the second is 1 less the height. Where a run has several fabrics, the materials of panels have
+/// the colours of their fabrics ([`crate::FabricPalette`]).
 ///
 /// # Errors
 /// Frames cannot be read, the file would be larger than the format allows, or those of the writer.
@@ -274,6 +275,7 @@ mod tests {
 
     use super::*;
     use crate::example;
+    use crate::palette::{FabricPalette, light};
 
     /// Content of a GLB file.
     struct Read {
@@ -387,6 +389,31 @@ mod tests {
         assert_eq!(weights, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
         let channels = glb.document["animations"][0]["channels"].as_array().unwrap();
         assert_eq!(channels.len(), 2, "the box does not move");
+    }
+
+    #[test]
+    fn panels_of_several_fabrics_have_the_colours_of_their_fabrics() {
+        let colours = |of_back: &str| {
+            let folder = example::folder(&[0.0]);
+            let path = folder.path().join("surfaces.json");
+            let text = std::fs::read_to_string(&path).unwrap();
+            let mut manifest: Value = serde_json::from_str(&text).unwrap();
+            manifest["panels"][1]["fabric"] = of_back.into();
+            std::fs::write(&path, format!("{manifest}\n")).unwrap();
+            let recording = Recording::open(folder.path()).unwrap();
+            let mut glb = Vec::new();
+            write_glb(&Clip::new(&recording, 0..=0, None).unwrap(), &mut glb).unwrap();
+            let document = Read::new(&glb).document;
+            let palette = FabricPalette::of_runs([&recording]);
+            [0, 1].map(|k| {
+                let material = &document["materials"][k]["pbrMetallicRoughness"];
+                let fabric = manifest["panels"][k]["fabric"].as_str().unwrap();
+                let [red, green, blue] = light(palette.sides(fabric)[0]);
+                material["baseColorFactor"] == json!([red, green, blue, 1.0])
+            })
+        };
+        assert_eq!(colours("linen"), [true, true]);
+        assert!(colours("wool").contains(&false), "panels of one fabric are told apart");
     }
 
     #[test]

@@ -1,81 +1,356 @@
-//! Measures of a run as rows of text, from its summary.
+//! Measures of a run as tables with units, from its summary.
 
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
-/// Most rows that are shown.
-const ROWS_MAX: usize = 80;
+use super::quantity::{Quantity, Unit};
 
-/// Returns names and values of what a summary tells of the result.
-pub(super) fn rows(summary: &Value) -> Vec<[String; 2]> {
-    let mut rows = Vec::new();
-    for key in ["status", "particles", "simulated_seconds", "settled", "strain", "measures"] {
-        add(key, &summary[key], &mut rows);
-    }
-    rows.truncate(ROWS_MAX);
-    rows
+/// Largest number of rows of a table; a run with thousands of edges would bury the others.
+const ROWS_MAX: usize = 200;
+
+/// Keys of the summary that the first table has.
+const RUN: [&str; 6] =
+    ["status", "settled", "simulated_seconds", "particles", "speed_max", "imbalance"];
+
+/// Tables of the summary, in their order, with their titles.
+const TABLES: [(&str, &str); 3] =
+    [("strain", "strain at the end"), ("contact", "contact"), ("energy", "balance of the energy")];
+
+/// Titles of tables of measures of garments.
+const GARMENT_TABLES: [(&str, &str); 4] = [
+    ("free_edges", "edges that are not sewn"),
+    ("openings", "openings"),
+    ("strain", "strain of the garment"),
+    ("pressure", "pressure of contact"),
+];
+
+/// Columns of tables, in their order.
+const COLUMNS: [&str; 3] = ["warp", "weft", "shear"];
+
+/// Keys of texts that name an item of a list.
+const NAMES: [&str; 3] = ["name", "edge", "edges"];
+
+/// Table: rows of cells, the first of which is the name. A row of one cell is the heading of those that
+/// follow.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Table {
+    title: String,
+    /// Names of the columns of values, if they have names.
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
 }
 
-fn add(name: &str, value: &Value, rows: &mut Vec<[String; 2]>) {
-    match value {
-        Value::Null => {}
-        Value::Object(map) => {
-            for (key, value) in map {
-                let key = key.replace('_', " ");
-                let name = if name == "measures" { key } else { format!("{name} · {key}") };
-                add(&name, value, rows);
+/// Returns what a summary tells of the result, as tables of text for the page.
+///
+/// Each table is an object of `title`, `columns` and `rows`. Keys that have no plain name here are shown
+/// with their own.
+pub(super) fn tables(summary: &Value) -> Vec<Value> {
+    let mut tables = Vec::new();
+    let mut run = Table { title: "run".to_owned(), ..Table::default() };
+    for key in RUN {
+        run.add(&[], key, &summary[key]);
+    }
+    tables.push(run);
+    let measures = summary["measures"].as_object();
+    tables.extend(measures.map(garment_tables).unwrap_or_default());
+    for (key, title) in TABLES {
+        tables.push(Table::of(&[], key, title, &summary[key]));
+    }
+    let filled = tables.into_iter().filter(|table| !table.rows.is_empty());
+    filled.map(Table::json).collect()
+}
+
+/// Returns the tables of the measures of garments: one of the numbers, and one of each list or object.
+fn garment_tables(measures: &Map<String, Value>) -> Vec<Table> {
+    let mut numbers = Table { title: "garment".to_owned(), ..Table::default() };
+    let mut others = Vec::new();
+    for key in ordered(&[], measures) {
+        let value = &measures[key];
+        if matches!(value, Value::Object(_) | Value::Array(_)) {
+            let known = GARMENT_TABLES.iter().find(|(own, _)| *own == key);
+            let title = known.map_or_else(|| spoken(key), |(_, title)| (*title).to_owned());
+            others.push(Table::of(&[], key, &title, value));
+        } else {
+            numbers.add(&[], key, value);
+        }
+    }
+    let mut tables = vec![numbers];
+    tables.append(&mut others);
+    tables
+}
+
+impl Table {
+    /// Returns the table of a value with a key, below some keys.
+    fn of(above: &[&str], key: &str, title: &str, value: &Value) -> Table {
+        let mut table = Table { title: title.to_owned(), ..Table::default() };
+        let path: Vec<&str> = above.iter().copied().chain([key]).collect();
+        match value {
+            Value::Object(map) => {
+                if !table.add_columns(&path, map) {
+                    let keys = ordered(&path, map);
+                    keys.into_iter().for_each(|key| table.add(&path, key, &map[key]));
+                }
+            }
+            Value::Array(items) if items.iter().any(Value::is_object) => {
+                table.add_items(&path, items);
+            }
+            other => table.add(above, key, other),
+        }
+        table
+    }
+
+    /// Adds the objects of a map as columns, if there are several and all have the same keys with simple
+    /// values; returns whether they have.
+    fn add_columns(&mut self, path: &[&str], map: &Map<String, Value>) -> bool {
+        let mut columns: Vec<(&str, &Map<String, Value>)> = Vec::new();
+        for (key, value) in map {
+            let Value::Object(column) = value else { return false };
+            columns.push((key, column));
+        }
+        // The directions of a cloth come in their usual order.
+        columns.sort_by_key(|(key, _)| COLUMNS.iter().position(|own| own == key));
+        let [(outer, first), _, ..] = columns[..] else { return false };
+        let is_alike = |column: &Map<String, Value>| {
+            column.len() == first.len()
+                && first.keys().all(|key| column.get(key).is_some_and(is_simple))
+        };
+        if !columns.iter().all(|(_, column)| is_alike(column)) {
+            return false;
+        }
+        self.columns = columns.iter().map(|(key, _)| spoken(key)).collect();
+        let below = |outer, key| path.iter().copied().chain([outer, key]).collect::<Vec<&str>>();
+        let above: Vec<&str> = path.iter().copied().chain([outer]).collect();
+        for key in ordered(&above, first) {
+            let cells =
+                columns.iter().map(|(outer, column)| text(unit(&below(outer, key)), &column[key]));
+            self.rows.push([name(&below(outer, key))].into_iter().chain(cells).collect());
+        }
+        true
+    }
+
+    /// Adds the items of a list, each below a heading with its name.
+    fn add_items(&mut self, path: &[&str], items: &[Value]) {
+        for (item, number) in items.iter().zip(1..) {
+            let Value::Object(map) = item else {
+                self.rows.push(vec![number.to_string(), text(Unit::None, item)]);
+                continue;
+            };
+            let named = NAMES.iter().find_map(|key| Some((*key, words(map.get(*key)?)?)));
+            let (key, heading) = named.unwrap_or(("", number.to_string()));
+            self.rows.push(vec![heading]);
+            for own in ordered(path, map).into_iter().filter(|own| *own != key) {
+                self.add(path, own, &map[own]);
             }
         }
-        Value::Array(values) => {
-            let all: Vec<String> = values.iter().map(text).collect();
-            rows.push([name.replace('_', " "), all.join(", ")]);
+    }
+
+    /// Adds the rows of a value with a key, below some keys; nothing if there is no value.
+    fn add(&mut self, above: &[&str], key: &str, value: &Value) {
+        let path: Vec<&str> = above.iter().copied().chain([key]).collect();
+        match value {
+            Value::Null => {}
+            Value::Object(map) => {
+                self.rows.push(vec![spoken(key)]);
+                ordered(&path, map).into_iter().for_each(|key| self.add(&path, key, &map[key]));
+            }
+            Value::Array(items) if items.iter().any(Value::is_object) => {
+                self.rows.push(vec![spoken(key)]);
+                self.add_items(&path, items);
+            }
+            simple => self.rows.push(vec![name(&path), text(unit(&path), simple)]),
         }
-        _ => rows.push([name.replace('_', " "), text(value)]),
+    }
+
+    fn json(mut self) -> Value {
+        let left_out = self.rows.len().saturating_sub(ROWS_MAX);
+        if left_out > 0 {
+            self.rows.truncate(ROWS_MAX);
+            self.rows.push(vec![format!("{left_out} more rows are in summary.json")]);
+        }
+        json!({ "title": self.title, "columns": self.columns, "rows": self.rows })
     }
 }
 
-fn text(value: &Value) -> String {
+/// Returns the keys of an object below some keys: those with plain names in the order of
+/// [`Quantity::rank`], then the others.
+fn ordered<'a>(path: &[&str], map: &'a Map<String, Value>) -> Vec<&'a str> {
+    let mut keys: Vec<&str> = map.keys().map(String::as_str).collect();
+    keys.sort_by_key(|key| {
+        let own: Vec<&str> = path.iter().copied().chain([*key]).collect();
+        Quantity::rank(&own)
+    });
+    keys
+}
+
+/// Returns whether a value is one number or one text.
+fn is_simple(value: &Value) -> bool {
+    !matches!(value, Value::Object(_) | Value::Array(_))
+}
+
+/// Returns a text, or a list of texts, as words.
+fn words(value: &Value) -> Option<String> {
     match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Array(items) => {
+            let texts: Option<Vec<&str>> = items.iter().map(Value::as_str).collect();
+            texts.filter(|texts| !texts.is_empty()).map(|texts| texts.join(", "))
+        }
+        _ => None,
+    }
+}
+
+/// Returns the plain name of the last of some keys.
+fn name(path: &[&str]) -> String {
+    let key = path.last().copied().unwrap_or_default();
+    match Quantity::of(path) {
+        Some(quantity) => quantity.name.to_owned(),
+        None => spoken(Unit::of_unknown(key).1),
+    }
+}
+
+/// Returns the unit of the value of the last of some keys.
+fn unit(path: &[&str]) -> Unit {
+    let key = path.last().copied().unwrap_or_default();
+    Quantity::of(path).map_or_else(|| Unit::of_unknown(key).0, |quantity| quantity.unit)
+}
+
+/// Returns a key as words.
+fn spoken(key: &str) -> String {
+    key.replace('_', " ")
+}
+
+/// Returns a value as text.
+fn text(unit: Unit, value: &Value) -> String {
+    match value {
+        Value::Null => "none".to_owned(),
         Value::String(text) => text.clone(),
         Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
-        Value::Number(number) => match number.as_f64() {
-            Some(value) if value.fract() != 0.0 => significant(value),
-            _ => number.to_string(),
-        },
-        _ => value.to_string(),
-    }
-}
-
-/// Returns a number with four significant digits.
-fn significant(value: f64) -> String {
-    let digits = 3 - value.abs().log10().floor() as i32;
-    match digits {
-        0..=8 => format!("{value:.*}", digits as usize),
-        _ => format!("{value:.3e}"),
+        Value::Number(number) => {
+            number.as_f64().map_or_else(|| number.to_string(), |value| unit.written(value))
+        }
+        Value::Array(values) => {
+            let all: Vec<String> = values.iter().map(|value| text(unit, value)).collect();
+            all.join(", ")
+        }
+        Value::Object(map) => {
+            let all = map.iter().map(|(key, value)| {
+                let (unit, key) = Unit::of_unknown(key);
+                format!("{} {}", spoken(key), text(unit, value))
+            });
+            all.collect::<Vec<_>>().join(", ")
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
+    /// Returns the table with a title, as rows of texts, with its columns first.
+    fn table(tables: &[Value], title: &str) -> Vec<Vec<String>> {
+        let own = tables.iter().find(|table| table["title"] == title).expect(title);
+        let cells = |row: &Value| serde_json::from_value(row.clone()).expect("texts");
+        let rows = own["rows"].as_array().expect("rows").iter().map(cells);
+        let columns: Vec<String> = cells(&own["columns"]);
+        Some(columns).filter(|columns| !columns.is_empty()).into_iter().chain(rows).collect()
+    }
+
     #[test]
-    fn a_summary_is_told_in_rows_of_names_and_values() {
+    fn a_summary_is_told_in_tables_with_names_and_units() {
         let summary = json!({
             "status": "ok", "particles": 6561, "settled": true, "wall_seconds": 3.5,
-            "strain": { "warp_max": 0.012345678 },
-            "measures": { "drape": { "coefficient": 43.21987, "box": [1, -2.5] }, "tiny": 1.5e-7 },
+            "simulated_seconds": 3.5, "strain": { "traction_max": 0.012_345_678 },
+            "contact": { "min_distance": 0.000_156_71, "intersections": 0, "grown": 1.0 },
+            "energy": { "kinetic": 1.8e-3, "gravity": -2.25 },
+            "measures": {
+                "seam_gap_max": 0.0,
+                "free_edges": [{ "edge": "hem.left", "height_mean": 0.4213, "length": 0.128 }],
+                "openings": [
+                    { "edges": ["hem.left", "hem.right"], "length": 0.631, "ease": -0.0081, "body": null },
+                    { "edges": ["neck.top"], "folds": 4 },
+                ],
+                "strain": {
+                    "shear": { "max": 0.4237, "min": -0.4089 }, "warp": { "max": 0.0364, "min": -0.0776 },
+                },
+            },
         });
+        let tables = tables(&summary);
+        let titles: Vec<&Value> = tables.iter().map(|table| &table["title"]).collect();
         let expected = [
-            ["status", "ok"],
-            ["particles", "6561"],
-            ["settled", "yes"],
-            ["strain · warp max", "0.01235"],
-            ["drape · box", "1, -2.500"],
-            ["drape · coefficient", "43.22"],
-            ["tiny", "1.500e-7"],
+            "run",
+            "garment",
+            "edges that are not sewn",
+            "openings",
+            "strain of the garment",
+            "strain at the end",
+            "contact",
+            "balance of the energy",
         ];
-        assert_eq!(rows(&summary), expected.map(|row| row.map(str::to_owned)));
+        assert_eq!(titles, expected);
+        let run = [
+            ["status", "ok"],
+            ["at rest", "yes"],
+            ["simulated time", "3.50 s"],
+            ["particles", "6561"],
+        ];
+        assert_eq!(table(&tables, "run"), run);
+        assert_eq!(table(&tables, "garment"), [["widest gap of a seam", "0 mm"]]);
+        let openings: [&[&str]; 5] = [
+            &["hem.left, hem.right"],
+            &["length", "631 mm"],
+            &["ease", "−8.10 mm"],
+            &["neck.top"],
+            &["folds", "4"],
+        ];
+        assert_eq!(table(&tables, "openings"), openings);
+        let strain: [&[&str]; 3] = [
+            &["shear", "warp"],
+            &["smallest", "−23.4°", "−7.76 %"],
+            &["largest", "24.3°", "3.64 %"],
+        ];
+        assert_eq!(table(&tables, "strain of the garment"), strain);
+        let energy = [["kinetic", "1.80 mJ"], ["gravity", "−2.25 J"]];
+        assert_eq!(table(&tables, "balance of the energy"), energy);
+    }
+
+    #[test]
+    fn keys_that_nobody_knows_are_words_and_no_json() {
+        let summary = json!({
+            "measures": {
+                "sway_deg": 12.25, "odd": { "deep": { "one_mm": 2.5, "two": [1, -2.5] }, "text": "x" },
+                "list": [{ "what": true, "nested": [{ "name": "a", "b": 1 }] }, 3],
+                "sides": { "left": { "a": 1 }, "right": { "a": null } },
+                "plain": [0.25, 0.5],
+            },
+            "contact": { "new_count": 3 },
+        });
+        let tables = tables(&summary);
+        assert_eq!(table(&tables, "garment"), [["sway", "12.2°"]]);
+        let odd: [&[&str]; 4] =
+            [&["deep"], &["one", "2.50 mm"], &["two", "1, −2.50"], &["text", "x"]];
+        assert_eq!(table(&tables, "odd"), odd);
+        let list: [&[&str]; 6] =
+            [&["1"], &["nested"], &["a"], &["b", "1"], &["what", "yes"], &["2", "3"]];
+        assert_eq!(table(&tables, "list"), list);
+        assert_eq!(table(&tables, "sides"), [&["left", "right"][..], &["a", "1", "none"]]);
+        assert_eq!(table(&tables, "plain"), [["plain", "0.250, 0.500"]]);
+        assert_eq!(table(&tables, "contact"), [["new count", "3"]]);
+        for cell in tables
+            .iter()
+            .flat_map(|own| own["rows"].as_array().expect("rows"))
+            .flat_map(|row| row.as_array().expect("cells"))
+        {
+            let text = cell.as_str().expect("a text");
+            assert!(!text.contains(['{', '[', '"', '_']), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_long_list_says_how_many_rows_it_leaves_out() {
+        let edges: Vec<Value> =
+            (0..150).map(|k| json!({ "edge": k.to_string(), "length": 1 })).collect();
+        let tables = tables(&json!({ "measures": { "free_edges": edges } }));
+        let rows = table(&tables, "edges that are not sewn");
+        assert_eq!(rows.len(), ROWS_MAX + 1);
+        assert_eq!(rows[ROWS_MAX], ["100 more rows are in summary.json"]);
     }
 }

@@ -1,15 +1,15 @@
 //! Scene: one run as the elements of a page.
 
-use std::collections::BTreeSet;
-
 use drape_frames::{EnergyTable, Error, Frame, Part, Recording};
 use serde_json::{Value, json};
 
 use super::bits::{Bounds, Differences, deflated, octet};
-use super::measures::rows;
+use super::json_element;
+use super::measures::tables;
 use super::named::Named;
 use super::samples::{Chosen, Samples, Shown};
-use crate::{colour, scale};
+use crate::palette::{FabricPalette, hex};
+use crate::scale;
 
 /// Least number of bytes of a vertex of the cloth in a frame of the page; waving cloth has 7. Frames
 /// that cannot fit by it are not read.
@@ -24,14 +24,18 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Returns the scene of a run with so few frames that its elements have at most `size` bytes, or
-    /// with two.
-    pub(super) fn of_size(run: &Named<'_>, size: usize) -> Result<Scene, Error> {
+    /// Returns the scene of a run in the colours of `palette`, with so few frames that its elements have
+    /// at most `size` bytes, or with two.
+    pub(super) fn of_size(
+        run: &Named<'_>,
+        palette: &FabricPalette,
+        size: usize,
+    ) -> Result<Scene, Error> {
         let samples = Samples::new(run.recording, size / BYTES_OF_SAMPLE)?;
         let last = samples.frames.len() - 1;
         let mut stride = 1;
         loop {
-            let scene = Scene::new(run, &samples, stride)?;
+            let scene = Scene::new(run, palette, &samples, stride)?;
             let is = scene.elements(0).len();
             if is <= size || stride >= last {
                 return Ok(scene);
@@ -41,7 +45,12 @@ impl Scene {
     }
 
     /// Returns the scene of every so many of some frames, and of the last one.
-    fn new(run: &Named<'_>, samples: &Samples, stride: usize) -> Result<Scene, Error> {
+    fn new(
+        run: &Named<'_>,
+        palette: &FabricPalette,
+        samples: &Samples,
+        stride: usize,
+    ) -> Result<Scene, Error> {
         let recording = run.recording;
         let last = samples.frames.len() - 1;
         let mut chosen: Vec<usize> = (0..last).step_by(stride.max(1)).collect();
@@ -51,19 +60,17 @@ impl Scene {
         let path = recording.folder().to_owned();
         let unreadable = |reason: String| Error::Unreadable { path, reason };
         let data = deflated(&content.bytes).map_err(|error| unreadable(error.to_string()))?;
-        let meta = meta(run, &frames, &fields, &content)?;
+        let mut meta = meta(run, &frames, &fields, &content)?;
+        meta["panels"] =
+            recording.manifest().panels.iter().map(|part| panel(part, palette)).collect();
         Ok(Scene { frames: frames.iter().map(|frame| frame.number).collect(), meta, data })
     }
 
     /// Returns the elements of the page that hold the scene, with its number among the runs.
     pub(super) fn elements(&self, number: usize) -> String {
-        // No text can end the element that holds it.
-        let meta = self.meta.to_string().replace('<', "\\u003c");
-        format!(
-            "<script type=\"application/json\" id=\"run-{number}\">{meta}</script>\n\
-             <script type=\"text/plain\" id=\"data-{number}\">{}</script>\n",
-            self.data
-        )
+        let meta = json_element(&format!("run-{number}"), &self.meta);
+        let data = &self.data;
+        format!("{meta}<script type=\"text/plain\" id=\"data-{number}\">{data}</script>\n")
     }
 }
 
@@ -151,7 +158,16 @@ fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
     words
 }
 
-/// Returns what the page says of a run.
+/// Returns what the page says of a panel, with the colours of its fabric.
+fn panel(part: &Part, palette: &FabricPalette) -> Value {
+    let [front, back] = palette.sides(&part.fabric);
+    json!({
+        "name": part.name, "triangles": part.triangles, "fabric": part.fabric,
+        "colour": hex(front), "back": hex(back),
+    })
+}
+
+/// Returns what the page says of a run, without its panels.
 fn meta(
     run: &Named<'_>,
     frames: &[&Frame],
@@ -159,16 +175,6 @@ fn meta(
     content: &Content,
 ) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
-    let fabrics: BTreeSet<&str> = manifest.panels.iter().map(|part| &part.fabric[..]).collect();
-    let panel = |part: &Part| {
-        let number = fabrics.iter().position(|fabric| *fabric == part.fabric);
-        let [front, back] = colour::of_fabric(number.unwrap_or(0));
-        json!({
-            "name": part.name, "triangles": part.triangles, "fabric": part.fabric,
-            "colour": front, "back": back,
-        })
-    };
-    let panels: Vec<Value> = manifest.panels.iter().map(panel).collect();
     let corners = |bounds: &Bounds| json!([bounds.low, bounds.high]);
     let body = |(part, bounds): (&Part, &Bounds)| {
         json!({
@@ -207,11 +213,10 @@ fn meta(
         "bodyVertices": frames[0].bodies.len(), "bodyTriangles": topology.bodies.len(),
         "bodyStates": body_states, "pairs": manifest.seam_pairs.len(),
         "box": corners(&content.bounds),
-        "panels": panels,
         "bodies": bodies.collect::<Vec<Value>>(),
         "frames": frames.iter().enumerate().map(frame).collect::<Vec<Value>>(),
         "fields": fields.iter().map(field).collect::<Vec<Value>>(),
-        "measures": rows(&summary.unwrap_or(Value::Null)),
+        "measures": tables(&summary.unwrap_or(Value::Null)),
         "energy": energy,
     }))
 }

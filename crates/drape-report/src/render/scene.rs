@@ -39,6 +39,9 @@ pub struct Surface<'a> {
     pub line_spacing: f64,
     /// Colours: one per vertex, instead of the two colours of the sides.
     pub tints: Option<&'a [Colour]>,
+    /// Colours of the front and the back: one pair per triangle, instead of the two colours of the
+    /// sides. Triangles that share a vertex have the same colours.
+    pub sides: Option<&'a [[Colour; 2]]>,
     /// Colour of the front, from which the triangles run anticlockwise.
     pub front: Colour,
     /// Colour of the back.
@@ -57,6 +60,7 @@ impl<'a> Surface<'a> {
             triangles,
             coordinates: None,
             tints: None,
+            sides: None,
             line_spacing: 0.05,
             front: FRONT,
             back: BACK,
@@ -80,6 +84,12 @@ impl<'a> Surface<'a> {
     #[must_use]
     pub fn with_tints(self, tints: &'a [Colour]) -> Surface<'a> {
         Surface { tints: Some(tints), ..self }
+    }
+
+    /// Returns the surface with colours of the front and the back for each triangle.
+    #[must_use]
+    pub fn with_sides(self, sides: &'a [[Colour; 2]]) -> Surface<'a> {
+        Surface { sides: Some(sides), ..self }
     }
 
     /// Returns the positions of the vertices, in m.
@@ -115,6 +125,12 @@ impl<'a> Surface<'a> {
         {
             let expected = format!("one for each of {vertices} vertices");
             return Err(bad_length("tints", tints.len(), expected));
+        }
+        if let Some(sides) = self.sides
+            && sides.len() != self.triangles.len()
+        {
+            let expected = format!("one for each of {} triangles", self.triangles.len());
+            return Err(bad_length("sides", sides.len(), expected));
         }
         let what = "the thickness of the cloth (m)";
         check_range(what, self.thickness, "from 0 to 1", (0.0..=1.0).contains(&self.thickness))?;

@@ -83,6 +83,9 @@ pub(crate) struct Shader<'a> {
     camera: &'a Camera,
     /// Colours of front and back of each cloth and then of each body, in linear light.
     colours: Vec<[Vector; 2]>,
+    /// Colours of front and back of each triangle, in linear light, of each cloth and then of each body
+    /// that has them.
+    sides: Vec<Vec<[Vector; 2]>>,
     /// Linear light of the colour of each vertex, where some surface has one per vertex.
     tints: Vec<[f32; 3]>,
     /// Material coordinates of each vertex, where some surface has them, in m.
@@ -128,11 +131,16 @@ impl<'a> Shader<'a> {
                 vertex.source.value(surface.triangles, place)
             })
         };
+        let sides = |surface: &Surface<'_>| {
+            let all = surface.sides.unwrap_or_default().iter();
+            all.map(|sides| sides.map(|colour| colour.map(decode))).collect()
+        };
         Shader {
             scene,
             tessellation,
             camera,
             colours: surfaces().map(|s| [s.front, s.back].map(|c| c.map(decode))).collect(),
+            sides: surfaces().map(sides).collect(),
             tints: if is_tinted { vertices.iter().map(tint).collect() } else { Vec::new() },
             coordinates: if has_lines { vertices.iter().map(place).collect() } else { Vec::new() },
             inks: INK.map(|ink| ink.map(decode)),
@@ -194,9 +202,13 @@ impl<'a> Shader<'a> {
             + GROUND * 0.5 * (1.0 - normal[1])
             + HEADLIGHT * dot(normal, to_eye).max(0.0);
         let surface = surface(self.scene, facet.part);
-        let [of_front, of_back] = match facet.part {
-            Part::Cloth(k) | Part::Rim(k) => self.colours[k],
-            Part::Body(k) => self.colours[self.scene.cloths.len() + k],
+        let part = match facet.part {
+            Part::Cloth(k) | Part::Rim(k) => k,
+            Part::Body(k) => self.scene.cloths.len() + k,
+        };
+        let [of_front, of_back] = match self.sides[part].get(corners[0].source.triangle as usize) {
+            Some(sides) => *sides,
+            None => self.colours[part],
         };
         let base = match (surface.tints, facet.part) {
             (Some(_), _) => {

@@ -40,9 +40,25 @@ pub(crate) fn materials(
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;
         let fabric = changed(checker, name, fabric)?;
-        Some(Material { name: name.clone(), file, fabric })
+        let colour = colour(checker, name)?;
+        Some(Material { name: name.clone(), file, fabric, colour })
     };
     file.fabric.iter().map(read).collect()
+}
+
+/// Returns the colour that the scene states for a fabric, if any; nothing where it is no colour.
+fn colour(checker: &mut Checker<'_>, name: &str) -> Option<Option<[u8; 3]>> {
+    let Some(text) = &checker.file.fabric[name].colour else { return Some(None) };
+    let digits = text.strip_prefix('#').unwrap_or_default();
+    let is_hexadecimal = digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+    if let (true, Ok(number)) = (is_hexadecimal, u32::from_str_radix(digits, 16)) {
+        let [_, red, green, blue] = number.to_be_bytes();
+        return Some(Some([red, green, blue]));
+    }
+    let key = format!("fabric.{}.colour", toml_key(name));
+    let message = format!("\"{}\" is no colour", excerpt(text));
+    checker.fail(&key, message, "write it as #RRGGBB, such as colour = \"#b03a2e\"");
+    None
 }
 
 /// Returns a fabric with the numbers of its `set` table in the scene in place of its own.

@@ -16,6 +16,8 @@ pub struct Material {
     pub file: PathBuf,
     /// Fabric.
     pub fabric: Fabric,
+    /// Colour in sRGB that the scene states for pictures of the fabric.
+    pub colour: Option<[u8; 3]>,
 }
 
 /// Request of a scene for a fabric.

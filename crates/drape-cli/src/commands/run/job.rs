@@ -1,6 +1,6 @@
 //! Job: one run of a scene, from its start or from a checkpoint to its pictures.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
@@ -75,31 +75,53 @@ impl Job<'_> {
         let ended = run.run(&mut progress);
         progress.finish();
         let ended = ended?;
-        if !options.no_picture {
-            draw(&Shown { view, is_garment }, &ended, folder)?;
-        }
+        let drawn = match options.no_picture {
+            true => Vec::new(),
+            false => draw(&Shown { view, is_garment }, &ended, folder)?,
+        };
         let summary = ended.close();
         if !options.json {
             say(describe(&summary))?;
             for warning in &summary.warnings {
                 say(format_args!("warning: {warning}"))?;
             }
-            say_written(format_args!("results in {}", folder.display()))?;
+            say_written(results(folder, &drawn))?;
         }
         Ok(summary)
     }
 }
 
-/// Stores the view and the pictures; of an interrupted run those that take no time.
-fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<(), Failure> {
+/// File of a run that a person opens.
+struct Drawn {
+    /// What the file is, in a word or two.
+    kind: &'static str,
+    path: PathBuf,
+}
+
+/// Returns the line that says where the results of a run are, and which files of them to open.
+fn results(folder: &Path, drawn: &[Drawn]) -> String {
+    let file = |Drawn { kind, path }: &Drawn| format!("{kind} {}", path.display());
+    let files: Vec<String> = drawn.iter().map(file).collect();
+    match files[..] {
+        [] => format!("results in {}", folder.display()),
+        _ => format!("results in {}: {}", folder.display(), files.join(", ")),
+    }
+}
+
+/// Stores the view and the pictures, of an interrupted run those that take no time, and returns their
+/// files.
+fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<Vec<Drawn>, Failure> {
     let EndedRun { summary, output, last, .. } = ended;
     let Shown { view, is_garment } = shown;
+    let mut drawn = Vec::new();
+    let mut keep = |kind, name: &str| drawn.push(Drawn { kind, path: folder.join(name) });
     if let Some(since) = signal::since() {
         if since <= PICTURE_MAX {
             let picture = Pictures::new(last)?.draw(*view, picture::SIZE)?;
             save(&picture, &output.path("picture.png"))?;
+            keep("picture", "picture.png");
         }
-        return Ok(());
+        return Ok(drawn);
     }
     let page = ViewerPage::new(&[Recording::open(folder)?], VIEWER_SIZE_MAX)?;
     file::write(&output.path("view.html"), page.html)?;
@@ -109,15 +131,18 @@ fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<(), Failure> {
         _ => pictures.draw(*view, picture::SIZE)?,
     };
     save(&picture, &output.path("picture.png"))?;
+    keep("picture", "picture.png");
+    keep("page", "view.html");
     if let Some(place) = summary.place {
         let near = picture::near(last, place);
         let picture = Pictures::new(&near)?.draw(*view, picture::SIZE)?;
         save(&picture, &output.path("place.png"))?;
+        keep("picture of the seam", "place.png");
     }
     if *is_garment {
         file::write(&output.path("strain.svg"), draw_strains(last, &pictures)?)?;
     }
-    Ok(())
+    Ok(drawn)
 }
 
 fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
