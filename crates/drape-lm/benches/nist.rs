@@ -44,7 +44,7 @@ fn uncertainty(c: &mut Criterion) {
         b.iter(|| minimise(&problem, &parameters, &settings).sum);
     });
     group.bench_function("covariance", |b| {
-        b.iter(|| Covariance::of(&problem, &parameters, &report, Loss::Squares).residual_deviation);
+        b.iter(|| Covariance::new(&problem, &parameters, &report, Loss::Squares).residual_deviation);
     });
     group.bench_function("profile", |b| {
         b.iter(|| {

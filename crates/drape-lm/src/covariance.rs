@@ -78,7 +78,7 @@ pub enum Undetermined {
 /// let problem = Mean([1.0, 2.0, 3.0, 4.0]);
 /// let start = [Parameter::new(0.0)];
 /// let report = minimise(&problem, &start, &MinimiserSettings::default());
-/// let covariance = Covariance::of(&problem, &start, &report, Loss::Squares);
+/// let covariance = Covariance::new(&problem, &start, &report, Loss::Squares);
 /// let error = covariance.standard_error(0)?;
 /// assert!((error - (5.0f64 / 3.0).sqrt() / 2.0).abs() < 1e-9);
 /// # Ok::<(), drape_lm::Undetermined>(())
@@ -103,7 +103,7 @@ pub struct Covariance {
 impl Covariance {
     /// Computes the covariance at the end of a minimisation with the given loss.
     #[must_use]
-    pub fn of(
+    pub fn new(
         problem: &impl Problem,
         parameters: &[Parameter],
         report: &Report,

@@ -116,7 +116,7 @@ pub fn profile(
     settings: &ProfileSettings,
 ) -> Vec<Result<Interval, Undetermined>> {
     let ProfileSettings { level, minimiser } = *settings;
-    let covariance = Covariance::of(problem, parameters, report, minimiser.loss);
+    let covariance = Covariance::new(problem, parameters, report, minimiser.loss);
     let count = parameters.len().min(report.parameters.len());
     let profile = Profile {
         problem,

@@ -14,7 +14,7 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     let parameters = starts(&[1.0, 1.0]);
     let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
-    let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&problem, &parameters, &report, Loss::Squares);
     for (j, interval) in profile(
         &problem,
         &parameters,
@@ -92,7 +92,7 @@ fn a_parameter_at_its_bound_has_a_one_sided_interval_and_no_error() {
     let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     assert_eq!(report.parameters[1], -0.45);
-    let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&problem, &parameters, &report, Loss::Squares);
     let reason = Undetermined::AtBound(-0.45);
     assert_eq!(covariance.standard_error(1), Err(reason));
     assert!(covariance.standard_error(0).is_ok());
