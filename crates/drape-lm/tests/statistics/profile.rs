@@ -175,8 +175,9 @@ fn interval(problem: &(impl Problem + Sync), parameter: Parameter) -> Interval {
 
 #[test]
 fn a_model_that_ends_beyond_its_interval_has_both_ends_in_any_unit() {
-    // The residual ⅔((1 + p)^1.5 − 1) has no value below p = −1. The others make its error such that
-    // the level is at ±½: the step of the linear model, ½, is too short below and too long above.
+    // The residual ⅔((1 + p)^1.5 − 1) has no value below p = −1. The others make its error such
+    // that the level is at ±½: the step of the linear model, ½, is too short below and too long
+    // above.
     let quantile = student_quantile(0.95, 21);
     for unit in [1e-3, 1.0, 1e3] {
         let bent = model(22, move |p, r| {
