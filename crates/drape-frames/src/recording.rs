@@ -81,7 +81,7 @@ impl Recording {
 
     /// Returns the number of frames, which is at least 1.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn frame_count(&self) -> usize {
         match &self.frames {
             Frames::Obj(count) => *count,
             Frames::Arrays(entries) => entries.len(),
@@ -131,8 +131,8 @@ impl Recording {
     /// # Errors
     /// There is none of that number, or a file is missing or is not as a run writes it.
     pub fn frame(&self, number: usize) -> Result<Frame, Error> {
-        if number >= self.frames() {
-            let (folder, last) = (self.folder.clone(), self.frames() - 1);
+        if number >= self.frame_count() {
+            let (folder, last) = (self.folder.clone(), self.frame_count() - 1);
             return Err(Error::NoFrame { folder, number, last });
         }
         let mut frame = match &self.frames {
@@ -144,7 +144,7 @@ impl Recording {
             }
         };
         let last = self.last_pressures();
-        if number + 1 == self.frames() && frame.pressures.is_none() && last.exists() {
+        if number + 1 == self.frame_count() && frame.pressures.is_none() && last.exists() {
             let count = self.manifest.cloth_counts().vertices;
             frame.pressures = Some(array::exact_pressures(&last, count)?);
         }
@@ -167,7 +167,7 @@ impl Recording {
     /// The file is not as a run writes it.
     pub fn energy(&self) -> Result<Option<EnergyTable>, Error> {
         let path = self.folder.join("energy.csv");
-        path.exists().then(|| EnergyTable::read(&path, self.frames())).transpose()
+        path.exists().then(|| EnergyTable::read(&path, self.frame_count())).transpose()
     }
 
     /// Returns the file in which older runs have the pressures of the last frame.

@@ -219,7 +219,7 @@ fn meta(
 /// Returns how many frames are shown, and how exactly.
 fn note(recording: &Recording, frames: &[&Frame], bounds: &Bounds) -> String {
     let size = (0..3).map(|axis| bounds.high[axis] - bounds.low[axis]).fold(0.0, f64::max);
-    let all = recording.frames();
+    let all = recording.frame_count();
     let shown = match frames.len() {
         count if count == all => format!("{all} frames"),
         count => format!("{count} of {all} frames"),

@@ -51,7 +51,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failu
             say(headline(folder, recording))?;
         }
         let mut verdicts = Vec::new();
-        for number in 0..recording.frames() {
+        for number in 0..recording.frame_count() {
             let verdict = verifier.verify(number)?;
             if !json {
                 say(describe(recording, &verdict))?;
@@ -86,7 +86,7 @@ fn headline(folder: &Path, recording: &Recording) -> String {
     format!(
         "{}: {} frames of {} panels and {} bodies, {} triangles; {promise}{end}",
         folder.display(),
-        recording.frames(),
+        recording.frame_count(),
         manifest.panels.len(),
         manifest.bodies.len(),
         recording.topology().cloth.len() + recording.topology().bodies.len()
