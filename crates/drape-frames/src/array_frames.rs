@@ -6,7 +6,7 @@ use crate::array;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::index::Entry;
-use crate::manifest::{Manifest, Part};
+use crate::manifest::{Manifest, SurfacePart};
 use crate::topology::{Topology, check_corners};
 
 /// Returns the name of the file of a frame.
@@ -19,7 +19,7 @@ pub(crate) fn topology(folder: &Path, manifest: &Manifest) -> Result<Topology, E
     let (cloth, bodies) = (manifest.cloth_counts(), manifest.body_counts());
     let file = folder.join("material.npy");
     let material = array::coordinates(&file, "material coordinates", cloth.vertices)?;
-    let triangles = |name: &str, count: usize, parts: &[Part]| {
+    let triangles = |name: &str, count: usize, parts: &[SurfacePart]| {
         let file = folder.join(name);
         let triangles = array::corners(&file, count)?;
         check_corners(&file, &triangles, parts)?;

@@ -34,7 +34,7 @@ mod recording;
 pub use energy_table::EnergyTable;
 pub use error::Error;
 pub use frame::Frame;
-pub use manifest::{Manifest, Part};
+pub use manifest::{Manifest, SurfacePart};
 pub use recording::Recording;
 pub use surface::curvature::curvatures;
 pub use surface::vector;

@@ -22,9 +22,9 @@ pub struct Manifest {
     #[serde(rename = "guarded")]
     pub surface_contact: bool,
     /// Panels of cloth, in the order of the vertices in a frame.
-    pub panels: Vec<Part>,
+    pub panels: Vec<SurfacePart>,
     /// Bodies, in the order of the vertices in a file of bodies.
-    pub bodies: Vec<Part>,
+    pub bodies: Vec<SurfacePart>,
     /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the cloth,
     /// above 0 and at most 1.
     #[serde(rename = "thinned", default = "one")]
@@ -39,7 +39,7 @@ pub struct Manifest {
 
 /// Panel or body of a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Part {
+pub struct SurfacePart {
     /// Name in the scene.
     pub name: String,
     /// Number of its vertices.
@@ -73,7 +73,7 @@ fn along_width() -> [f64; 2] {
     [1.0, 0.0]
 }
 
-impl Part {
+impl SurfacePart {
     /// Returns the point in the panel's own frame, in m, that has some weft and warp coordinates.
     #[must_use]
     pub fn pattern_point(&self, [u, v]: [f64; 2]) -> [f64; 2] {
@@ -143,8 +143,8 @@ pub(crate) struct Counts {
 }
 
 impl Counts {
-    fn of(parts: &[Part]) -> Counts {
-        let sum = |of: fn(&Part) -> usize| parts.iter().map(of).sum();
+    fn of(parts: &[SurfacePart]) -> Counts {
+        let sum = |of: fn(&SurfacePart) -> usize| parts.iter().map(of).sum();
         Counts { vertices: sum(|part| part.vertices), triangles: sum(|part| part.triangles) }
     }
 }
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn pattern_points_lie_along_the_weft_and_a_quarter_turn_anticlockwise_from_it() {
         for weft in [[1.0, 0.0], [0.6, 0.8], [0.0, 1.0], [-0.8, 0.6]] {
-            let part = Part {
+            let part = SurfacePart {
                 name: "front".to_owned(),
                 vertices: 3,
                 triangles: 1,

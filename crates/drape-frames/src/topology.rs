@@ -20,7 +20,7 @@ pub struct Topology {
 pub(crate) fn check_corners(
     path: &Path,
     triangles: &[[u32; 3]],
-    parts: &[Part],
+    parts: &[SurfacePart],
 ) -> Result<(), Error> {
     let (mut vertex, mut triangle) = (0, 0);
     for part in parts {

@@ -179,7 +179,10 @@ fn what_a_killed_run_listed_is_read() {
     write(folder.path(), "frames.csv", list.as_bytes());
     write(folder.path(), "frame-00001.npy", b"half");
     let recording = Recording::open(folder.path()).unwrap();
-    assert_eq!((recording.frame_count(), recording.ended(), recording.time(0)), (1, false, Some(0.5)));
+    assert_eq!(
+        (recording.frame_count(), recording.ended(), recording.time(0)),
+        (1, false, Some(0.5))
+    );
     assert!(matches!(recording.frame(1), Err(Error::NoFrame { last: 0, .. })));
     write(folder.path(), "summary.json", b"{ \"frames\": 2 }\n");
     let error = Recording::open(folder.path()).unwrap_err().to_string();

@@ -1,6 +1,6 @@
 //! Triangles of a run with the parts to which they belong and the vertices that are sewn together.
 
-use drape_frames::{Manifest, Part, Topology};
+use drape_frames::{Manifest, SurfacePart, Topology};
 
 use crate::joints::{Joints, Sewn};
 use crate::triangle::Vertex;
@@ -24,7 +24,7 @@ pub struct Mesh {
     pub(crate) part: Vec<u32>,
     /// First triangle of each part.
     first: Vec<usize>,
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<SurfacePart>,
     panels: usize,
     /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the cloth.
     pub(crate) pinch_fraction: f64,
@@ -43,7 +43,8 @@ impl Mesh {
         let bodies = topology.bodies.iter().map(|triangle| triangle.map(|corner| corner + cloth));
         let triangles: Vec<_> = topology.cloth.iter().copied().chain(bodies).collect();
         let material = topology.material.clone();
-        let parts: Vec<Part> = manifest.panels.iter().chain(&manifest.bodies).cloned().collect();
+        let parts: Vec<SurfacePart> =
+            manifest.panels.iter().chain(&manifest.bodies).cloned().collect();
         let mut first = Vec::new();
         let mut part = Vec::with_capacity(triangles.len());
         for (number, own) in parts.iter().enumerate() {
@@ -66,7 +67,7 @@ impl Mesh {
 
     /// Parts of the run, panels before bodies.
     #[must_use]
-    pub fn parts(&self) -> &[Part] {
+    pub fn parts(&self) -> &[SurfacePart] {
         &self.parts
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use drape_frames::{EnergyTable, Error, Frame, Part, Recording};
+use drape_frames::{EnergyTable, Error, Frame, Recording, SurfacePart};
 use serde_json::{Value, json};
 
 use super::bits::{Bounds, Differences, deflated, octet};
@@ -115,9 +115,9 @@ impl Content {
 }
 
 /// Returns the box of each body over all frames.
-fn body_bounds(bodies: &[Part], frames: &[&Frame]) -> Vec<Bounds> {
+fn body_bounds(bodies: &[SurfacePart], frames: &[&Frame]) -> Vec<Bounds> {
     let mut first = 0;
-    let of = |body: &Part| {
+    let of = |body: &SurfacePart| {
         let own = first..first + body.vertices;
         first = own.end;
         frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.bodies[own.clone()]))
@@ -141,7 +141,7 @@ fn body_states(frames: &[&Frame]) -> Vec<usize> {
     states
 }
 
-fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
+fn body_words(bodies: &[SurfacePart], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
     let mut vertices = frame.bodies.iter();
     let mut words = Vec::new();
     for (body, bounds) in bodies.iter().zip(bounds) {
@@ -160,7 +160,7 @@ fn meta(
 ) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
     let fabrics: BTreeSet<&str> = manifest.panels.iter().map(|part| &part.fabric[..]).collect();
-    let panel = |part: &Part| {
+    let panel = |part: &SurfacePart| {
         let number = fabrics.iter().position(|fabric| *fabric == part.fabric);
         let [front, back] = colour::of_fabric(number.unwrap_or(0));
         json!({
@@ -170,7 +170,7 @@ fn meta(
     };
     let panels: Vec<Value> = manifest.panels.iter().map(panel).collect();
     let corners = |bounds: &Bounds| json!([bounds.low, bounds.high]);
-    let body = |(part, bounds): (&Part, &Bounds)| {
+    let body = |(part, bounds): (&SurfacePart, &Bounds)| {
         json!({
             "name": part.name, "vertices": part.vertices, "triangles": part.triangles,
             "box": corners(bounds),

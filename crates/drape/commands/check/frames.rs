@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::frames::{Part, Recording};
+use drape::frames::{Recording, SurfacePart};
 use drape::verify::{ClosePair, PartNumber, Verdict, Verifier};
 use serde_json::{Value, json};
 
@@ -63,7 +63,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failu
         }
         let holds = verdicts.iter().all(Verdict::holds);
         let (guarded, ended) = (recording.manifest().surface_contact, recording.ended());
-        let names = |part: &Part| part.name.clone();
+        let names = |part: &SurfacePart| part.name.clone();
         found.push(json!({
             "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
             "panels": recording.manifest().panels.iter().map(names).collect::<Vec<_>>(),
