@@ -3,7 +3,7 @@
 //! # Tour
 //!
 //! A [`Checkpoint`] has an [`Identity`] and sections; a [`Store`] writes it to a folder and reads the
-//! newest one that is intact, as [`Found`].
+//! newest one that is intact, as [`StoredCheckpoints`].
 //!
 //! Layers, lowest first: `error`, `identity`, `checkpoint` (sections and their bytes), `store` (files).
 
@@ -15,4 +15,4 @@ mod store;
 pub use checkpoint::Checkpoint;
 pub use error::{Damage, Error};
 pub use identity::{Digest, Identity};
-pub use store::{Damaged, Found, Store};
+pub use store::{DamagedCheckpoint, Store, StoredCheckpoints};

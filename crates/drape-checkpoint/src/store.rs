@@ -21,16 +21,16 @@ pub struct Store {
 
 /// Checkpoints of a folder.
 #[derive(Debug)]
-pub struct Found {
+pub struct StoredCheckpoints {
     /// Newest one that is intact.
     pub newest: Option<Checkpoint>,
     /// Newer ones that are not, the newest first.
-    pub damaged: Vec<Damaged>,
+    pub damaged: Vec<DamagedCheckpoint>,
 }
 
 /// Checkpoint whose bytes have changed since it was written, or that is incomplete.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Damaged {
+pub struct DamagedCheckpoint {
     /// File.
     pub path: PathBuf,
     /// Fault.
@@ -43,13 +43,13 @@ struct Numbered {
     path: PathBuf,
 }
 
-impl Found {
+impl StoredCheckpoints {
     /// Removes those that are damaged, so that they are not among the two that are kept.
     ///
     /// # Errors
     /// When one cannot be removed.
     pub fn remove_damaged(&self) -> Result<(), Error> {
-        for Damaged { path, .. } in &self.damaged {
+        for DamagedCheckpoint { path, .. } in &self.damaged {
             let fail = |reason| Error::Write { path: path.clone(), reason };
             fs::remove_file(path).map_err(fail)?;
         }
@@ -97,17 +97,17 @@ impl Store {
     ///
     /// # Errors
     /// When the folder cannot be read.
-    pub fn read(&self) -> Result<Found, Error> {
+    pub fn read(&self) -> Result<StoredCheckpoints, Error> {
         let mut damaged = Vec::new();
         for Numbered { path, .. } in self.files()? {
             let bytes = fs::read(&path);
             let unreadable = |error: io::Error| Damage::Unreadable { reason: error.to_string() };
             match bytes.map_err(unreadable).and_then(|bytes| Checkpoint::decode(&bytes)) {
-                Ok(newest) => return Ok(Found { newest: Some(newest), damaged }),
-                Err(fault) => damaged.push(Damaged { path, fault }),
+                Ok(newest) => return Ok(StoredCheckpoints { newest: Some(newest), damaged }),
+                Err(fault) => damaged.push(DamagedCheckpoint { path, fault }),
             }
         }
-        Ok(Found { newest: None, damaged })
+        Ok(StoredCheckpoints { newest: None, damaged })
     }
 
     /// Returns whether there is no checkpoint, intact or not.
