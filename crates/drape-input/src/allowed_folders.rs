@@ -21,21 +21,21 @@ const LINKS_MAX: usize = 40;
 ///
 /// ```
 /// use std::path::Path;
-/// use drape_input::Places;
+/// use drape_input::AllowedFolders;
 ///
-/// let places = Places::new(Path::new("src"), &[]);
+/// let places = AllowedFolders::new(Path::new("src"), &[]);
 /// assert!(places.check(Path::new("src/../Cargo.toml")).is_ok());
 /// let misplaced = places.check(Path::new("../../../etc/passwd")).unwrap_err();
 /// assert!(misplaced.help().contains("--allow-path"));
 /// ```
 #[derive(Debug, Clone, Default)]
-pub struct Places {
+pub struct AllowedFolders {
     folders: Vec<PathBuf>,
 }
 
 /// Reason why a path that a document names is not followed.
 #[derive(Debug)]
-pub enum Misplaced {
+pub enum ForbiddenPath {
     /// It leads out of the folders.
     Outside {
         /// Where it leads.
@@ -59,7 +59,7 @@ pub enum Misplaced {
     },
 }
 
-impl Places {
+impl AllowedFolders {
     /// Creates the places of a document in a folder; the user allows others, files or folders.
     #[must_use]
     pub fn new(folder: &Path, allowed: &[PathBuf]) -> Self {
@@ -74,18 +74,18 @@ impl Places {
     ///
     /// # Errors
     /// It leads elsewhere, or nowhere.
-    pub fn check(&self, path: &Path) -> Result<(), Misplaced> {
+    pub fn check(&self, path: &Path) -> Result<(), ForbiddenPath> {
         check_length(path)?;
         let place = resolve(path)
-            .map_err(|reason| Misplaced::Unresolved { path: path.to_owned(), reason })?;
+            .map_err(|reason| ForbiddenPath::Unresolved { path: path.to_owned(), reason })?;
         if self.folders.iter().any(|folder| place.starts_with(folder)) {
             return Ok(());
         }
-        Err(Misplaced::Outside { place, folders: self.folders.clone() })
+        Err(ForbiddenPath::Outside { place, folders: self.folders.clone() })
     }
 }
 
-impl Misplaced {
+impl ForbiddenPath {
     /// Returns a remedy.
     #[must_use]
     pub fn help(&self) -> String {
@@ -102,7 +102,7 @@ impl Misplaced {
     }
 }
 
-impl fmt::Display for Misplaced {
+impl fmt::Display for ForbiddenPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Outside { place, folders } => {
@@ -121,7 +121,7 @@ impl fmt::Display for Misplaced {
     }
 }
 
-impl std::error::Error for Misplaced {}
+impl std::error::Error for ForbiddenPath {}
 
 /// Quotes a path for a shell where it needs that.
 fn shell(path: &Path) -> String {
@@ -130,12 +130,12 @@ fn shell(path: &Path) -> String {
     if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
 
-fn check_length(path: &Path) -> Result<(), Misplaced> {
+fn check_length(path: &Path) -> Result<(), ForbiddenPath> {
     let bytes = path.as_os_str().len();
     let longest = path.components().map(|part| part.as_os_str().len()).max().unwrap_or(0);
     if bytes > PATH_MAX || longest > NAME_MAX {
         let path = excerpt(&path.display().to_string());
-        return Err(Misplaced::TooLong { path, bytes });
+        return Err(ForbiddenPath::TooLong { path, bytes });
     }
     Ok(())
 }
@@ -192,13 +192,13 @@ mod tests {
         symlink(&other, own.join("out")).expect("linked");
         symlink("deep", own.join("in")).expect("linked");
         symlink("round", own.join("round")).expect("linked");
-        let places = Places::new(&own, &[]);
+        let places = AllowedFolders::new(&own, &[]);
         let may = |name: &str| places.check(&own.join(name)).is_ok();
         assert!(may("a.toml") && may("deep/../b") && may("in/../c") && may("in/new/file"));
         assert!(!may("../other/a.toml") && !may("out/a.toml") && !may("out") && !may("out/new"));
         assert!(!may("in/../../other") && !may("../own-too") && !may("deep/../../x"));
         assert!(!may("/etc/passwd") && !may("round") && !may("round/x"));
-        let allowed = Places::new(&own, &[other.join("a.toml")]);
+        let allowed = AllowedFolders::new(&own, &[other.join("a.toml")]);
         assert!(allowed.check(&own.join("out/a.toml")).is_ok());
         assert!(allowed.check(&own.join("out/b.toml")).is_err());
         let long = places.check(&own.join("x".repeat(5000))).expect_err("it is too long");

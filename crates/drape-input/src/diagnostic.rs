@@ -155,7 +155,7 @@ impl Diagnostics {
 
     /// Returns the number of the other mistakes in words, if there are some.
     #[must_use]
-    pub fn rest(&self) -> Option<String> {
+    pub fn hidden_count_text(&self) -> Option<String> {
         match self.0.len() - self.shown().len() {
             0 => None,
             1 => Some("and 1 more mistake".into()),
@@ -178,7 +178,7 @@ impl fmt::Display for Diagnostics {
             }
             write!(f, "{diagnostic}")?;
         }
-        match self.rest() {
+        match self.hidden_count_text() {
             Some(rest) => write!(f, "\n{rest}"),
             None => Ok(()),
         }

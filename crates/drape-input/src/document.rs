@@ -11,6 +11,7 @@ use std::sync::OnceLock;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
+use crate::allowed_folders::{AllowedFolders, ForbiddenPath};
 use crate::decode::{Change, Decoded, Fault, Faults, decode};
 use crate::diagnostic::edit::Edit;
 use crate::diagnostic::subject::Subject;
@@ -19,7 +20,6 @@ use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
 use crate::node::key_path::{Part, parts};
 use crate::node::{Node, Value};
-use crate::places::{Misplaced, Places};
 use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
 use size_limit::SizeLimit;
@@ -120,7 +120,7 @@ impl Document {
     ///
     /// # Errors
     /// The file is not below its folder, the working folder or a folder that is allowed.
-    pub fn beside(&self, name: impl AsRef<Path>) -> Result<PathBuf, Misplaced> {
+    pub fn beside(&self, name: impl AsRef<Path>) -> Result<PathBuf, ForbiddenPath> {
         let path = self.folder().join(name);
         self.permit(&path)?;
         Ok(path)
@@ -130,8 +130,8 @@ impl Document {
     ///
     /// # Errors
     /// As for [`beside`](Self::beside).
-    pub fn permit(&self, path: &Path) -> Result<(), Misplaced> {
-        Places::new(self.folder(), &self.allowed).check(path)
+    pub fn permit(&self, path: &Path) -> Result<(), ForbiddenPath> {
+        AllowedFolders::new(self.folder(), &self.allowed).check(path)
     }
 
     fn folder(&self) -> &Path {
@@ -145,8 +145,9 @@ impl Document {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
         let fail = |message: String| Diagnostic::new(path, message);
-        let metadata = std::fs::metadata(path)
-            .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearest_file(path)))?;
+        let metadata = std::fs::metadata(path).map_err(|e| {
+            fail(format!("cannot open the file: {e}")).help(missing_file_help(path))
+        })?;
         if !metadata.is_file() {
             return Err(fail("this is not a file".into()).help("name a TOML file").into());
         }
@@ -388,9 +389,9 @@ fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
 
 /// Returns advice on a path that does not exist: the file beside it that was probably meant.
 #[must_use]
-pub fn nearest_file(path: &Path) -> String {
+pub fn missing_file_help(path: &Path) -> String {
     let folder = folder_of(path);
-    match near_file(path) {
+    match similar_file(path) {
         Some(name) => format!("did you mean {}?", folder.join(name).display()),
         None if !folder.is_dir() => format!("there is no folder {}", folder.display()),
         None => format!("looked in {}", folder.display()),
@@ -399,7 +400,7 @@ pub fn nearest_file(path: &Path) -> String {
 
 /// Returns the name of the file beside a path that does not exist that was probably meant.
 #[must_use]
-pub fn near_file(path: &Path) -> Option<String> {
+pub fn similar_file(path: &Path) -> Option<String> {
     let entries = std::fs::read_dir(folder_of(path)).ok()?;
     let mut names: Vec<String> =
         entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
@@ -517,7 +518,7 @@ mod tests {
         // A table takes all of its values along.
         let text = "[solvr]\nmethod = \"newton\"\nlinear.size = [1, 2] # two\n";
         let edits = Document::new("a.toml", text).renamed("solvr", "solver");
-        let changed = crate::edited(text, &edits).expect("they fit");
+        let changed = crate::apply_edits(text, &edits).expect("they fit");
         let expected = "[solver]\nlinear.size = [1, 2]\nmethod = \"newton\"\n";
         let table = |text: &str| Document::new("a.toml", text).decode::<toml::Table>();
         assert_eq!(table(&changed), table(expected), "{changed}");

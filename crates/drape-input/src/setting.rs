@@ -77,7 +77,7 @@ impl Setting {
     /// Returns the setting with its origin as messages name it, which is "set on the command line"
     /// otherwise.
     #[must_use]
-    pub fn given_in(self, origin: &str) -> Self {
+    pub fn with_origin(self, origin: &str) -> Self {
         Self { origin: origin.into(), ..self }
     }
 
@@ -285,7 +285,7 @@ mod tests {
         assert!(own.message.contains("set on the command line: time.end=-1"), "{own}");
         // A mistake of a list of which an element was set has its line, and names what was set.
         let set: Setting = "panel.0.size.1=-2".parse().expect("a setting");
-        let set = set.given_in("set by the study");
+        let set = set.with_origin("set by the study");
         let document = Document::new("s.toml", TEXT).with_settings(&[set]).expect("it can be set");
         let own = document.at("panel[0].size", "too small");
         assert_eq!(own.line, Some(6));

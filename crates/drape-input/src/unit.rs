@@ -350,7 +350,7 @@ pub fn is_unit(text: &str) -> bool {
 
 /// Number with its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Written {
+pub struct NumberWithUnit {
     /// Number as written, whatever its unit.
     pub number: f64,
     /// Unit that it is written in.
@@ -358,7 +358,7 @@ pub struct Written {
 }
 
 /// Parses a number with its unit, `"1.2e-5 N.m"`, or `"0.118"` in the laboratory's unit.
-pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitError> {
+pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, UnitError> {
     let text = text.trim();
     // The longest leading part that is a number; the rest is the unit.
     let split = (1..=text.len().min(NUMBER_MAX))
@@ -381,7 +381,7 @@ pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitErr
             ..error
         })?,
     };
-    Ok(Written { number, unit })
+    Ok(NumberWithUnit { number, unit })
 }
 
 /// Returns the normal form of a unit, for `gf·cm²/cm`, `gf*cm^2/cm` and `gf cm2/cm` alike.
@@ -534,7 +534,7 @@ mod tests {
             ("12", Quantity::MassPerArea, 0.12),
         ];
         for (text, quantity, si) in cases {
-            let Written { number, unit } = parse_quantity(text, quantity).unwrap();
+            let NumberWithUnit { number, unit } = parse_quantity(text, quantity).unwrap();
             let error = (number * unit.factor / si - 1.0).abs();
             assert!(error < 1e-14, "{text} reads as {} {}", number, unit.spelling);
         }

@@ -11,7 +11,7 @@ use crate::given;
 use crate::node::{Entry, Node, Value};
 use crate::quoting::{toml_key, toml_string};
 use crate::spelling::closest;
-use crate::unit::{Quantity, Written, parse_quantity};
+use crate::unit::{NumberWithUnit, Quantity, parse_quantity};
 
 use super::stand_in::{Kind, StandIn};
 use super::state::{Change, Fault, State};
@@ -199,11 +199,11 @@ impl<'a> Reader<'a> {
         };
         let has_unit = text.trim().parse::<f64>().is_err();
         match parse_quantity(text, quantity) {
-            Ok(Written { number, .. }) if !number.is_finite() => {
+            Ok(NumberWithUnit { number, .. }) if !number.is_finite() => {
                 self.infinite(number);
                 visitor.visit_f64(1.0)
             }
-            Ok(Written { number, unit }) if has_unit => {
+            Ok(NumberWithUnit { number, unit }) if has_unit => {
                 visitor.visit_seq(SeqDeserializer::new([number, unit.factor].into_iter()))
             }
             Ok(_) => {

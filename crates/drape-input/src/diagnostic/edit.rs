@@ -1,6 +1,6 @@
 //! Edits: changes of single values of a TOML file, which remedy a mistake.
 //!
-//! A [`Diagnostic`](crate::Diagnostic) has them beside its remedy in words. [`edited`] makes them in
+//! A [`Diagnostic`](crate::Diagnostic) has them beside its remedy in words. [`apply_edits`] makes them in
 //! a text and leaves its comments and its layout as they are.
 
 use std::fmt;
@@ -63,18 +63,18 @@ impl std::error::Error for EditError {}
 /// not looked at.
 ///
 /// ```
-/// use drape_input::{Edit, edited};
+/// use drape_input::{Edit, apply_edits};
 ///
 /// let text = "[seam.side]  # of the skirt\nsides = [[\"a.left\"], [\"b.right\"]]\n";
 /// let (file, key) = ("skirt.toml".into(), "seam.side.reversed".into());
 /// let edit = Edit { file, key, old: None, new: Some("true".into()) };
 /// let expected = format!("{text}reversed = true\n");
-/// assert_eq!(edited(text, &[edit]), Ok(expected));
+/// assert_eq!(apply_edits(text, &[edit]), Ok(expected));
 /// ```
 ///
 /// # Errors
 /// An edit does not fit the text.
-pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
+pub fn apply_edits(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse().map_err(|_| EditError::Grammar)?;
     for edit in edits {
         edit.make(document.as_table_mut())?;
@@ -234,7 +234,7 @@ motion = { times = [0, 1], shift = [[0, 0, 0], [0, 0, 8]] }
 
     /// Makes an edit and returns the lines that are new.
     fn made(key: &str, old: Option<&str>, new: Option<&str>) -> Vec<String> {
-        let text = edited(TEXT, &[edit(key, old, new)]).expect("it fits");
+        let text = apply_edits(TEXT, &[edit(key, old, new)]).expect("it fits");
         let is_new = |line: &&str| !line.is_empty() && !TEXT.lines().any(|own| own == *line);
         text.lines().filter(is_new).map(str::to_owned).collect()
     }
@@ -258,7 +258,8 @@ motion = { times = [0, 1], shift = [[0, 0, 0], [0, 0, 8]] }
 
     #[test]
     fn an_edit_is_refused_where_it_does_not_fit() {
-        let refused = |text: &str, edit: Edit| edited(text, &[edit]).expect_err("it does not fit");
+        let refused =
+            |text: &str, edit: Edit| apply_edits(text, &[edit]).expect_err("it does not fit");
         let key = || "spacing".to_owned();
         let stale = refused(TEXT, edit("spacing", Some("0.03"), Some("0.01")));
         assert_eq!(stale, EditError::Changed { key: key() });

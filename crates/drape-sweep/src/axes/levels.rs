@@ -121,7 +121,7 @@ impl Reader<'_> {
         for path in paths {
             if !path.exists() {
                 let message = format!("there is no {}", path.display());
-                self.fail(place, message, drape_input::nearest_file(&path));
+                self.fail(place, message, drape_input::missing_file_help(&path));
                 return None;
             }
             if is_base && let Err(misplaced) = self.document.permit(&path) {

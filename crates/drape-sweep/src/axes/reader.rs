@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_input::{
-    Diagnostic, Document, Setting, SettingError, excerpt, nearest_file, toml_key, toml_string,
+    Diagnostic, Document, Setting, SettingError, excerpt, missing_file_help, toml_key, toml_string,
 };
 
 use crate::axes::covariance::{Covariance, CovarianceError};
@@ -165,7 +165,7 @@ impl Reader<'_> {
             }),
             false => Err(CovarianceError {
                 message: format!("there is no {}", path.display()),
-                help: nearest_file(&path),
+                help: missing_file_help(&path),
             }),
         });
         let sampled = fabric.and_then(|fabric| {
