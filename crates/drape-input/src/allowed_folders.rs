@@ -1,4 +1,4 @@
-//! Places: the folders below which the files lie that a document may name.
+//! Allowed folders: the folders that contain the files that a document may name.
 
 use std::fmt;
 use std::io;
@@ -6,27 +6,26 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::figure::excerpt;
 
-/// Longest name of a file or a folder, and longest path, in bytes: those of common file systems.
+/// Longest name of a file or folder in common file systems, in bytes.
 const NAME_MAX: usize = 255;
+
+/// Longest path in common file systems, in bytes.
 const PATH_MAX: usize = 4095;
 
-/// Largest number of links on the way to a file.
-const LINKS_MAX: usize = 40;
-
-/// Folders below which the files lie that a document may name: its own, the working folder, and
-/// those that a user allows.
+/// Folders that contain the files that a document may name: the folder of the document, the working
+/// folder, and the folders that a user allows.
 ///
-/// Paths are compared as they are on the disk, links followed, so that neither `..` nor a link leads
-/// out.
+/// Paths are compared after links have been followed, so that neither `..` nor a link leads out of
+/// the folders.
 ///
 /// ```
 /// use std::path::Path;
 /// use drape_input::AllowedFolders;
 ///
-/// let places = AllowedFolders::new(Path::new("src"), &[]);
-/// assert!(places.check(Path::new("src/../Cargo.toml")).is_ok());
-/// let misplaced = places.check(Path::new("../../../etc/passwd")).unwrap_err();
-/// assert!(misplaced.help().contains("--allow-path"));
+/// let folders = AllowedFolders::new(Path::new("src"), &[]);
+/// assert!(folders.check(Path::new("src/../Cargo.toml")).is_ok());
+/// let forbidden = folders.check(Path::new("../../../etc/passwd")).unwrap_err();
+/// assert!(forbidden.help().contains("--allow-path"));
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct AllowedFolders {
@@ -36,44 +35,47 @@ pub struct AllowedFolders {
 /// Reason why a path that a document names is not followed.
 #[derive(Debug)]
 pub enum ForbiddenPath {
-    /// It leads out of the folders.
+    /// The path leads out of the allowed folders.
     Outside {
-        /// Where it leads.
+        /// File or folder to which the path leads.
         place: PathBuf,
-        /// Folders below which it could lie.
+        /// Allowed folders.
         folders: Vec<PathBuf>,
     },
-    /// It is longer than any file system takes.
+    /// The path is longer than common file systems allow.
     TooLong {
-        /// Its beginning.
+        /// Beginning of the path.
         path: String,
-        /// Its length in bytes.
+        /// Length of the path, in bytes.
         bytes: usize,
     },
-    /// Its links lead in a circle, or cannot be followed.
+    /// The links of the path lead in a circle, or cannot be followed.
     Unresolved {
-        /// Path as it is written.
+        /// Path as the document writes it.
         path: PathBuf,
-        /// Reason.
+        /// Message of the system.
         reason: io::Error,
     },
 }
 
 impl AllowedFolders {
-    /// Creates the places of a document in a folder; the user allows others, files or folders.
+    /// Creates the allowed folders of a document in `folder`. The user allows the files and folders
+    /// `allowed` as well.
     #[must_use]
     pub fn new(folder: &Path, allowed: &[PathBuf]) -> Self {
-        let own = [folder, Path::new("")];
-        let folders = own.into_iter().chain(allowed.iter().map(PathBuf::as_path));
-        let mut folders: Vec<PathBuf> = folders.filter_map(|path| resolve(path).ok()).collect();
+        let working_folder = Path::new("");
+        let paths =
+            [folder, working_folder].into_iter().chain(allowed.iter().map(PathBuf::as_path));
+        let mut folders: Vec<PathBuf> = paths.filter_map(|path| resolve(path).ok()).collect();
         folders.dedup();
         Self { folders }
     }
 
-    /// Checks that a path, which need not be there yet, leads to a place below one of the folders.
+    /// Checks that `path` leads to a file or folder in one of the allowed folders. The file or
+    /// folder need not exist.
     ///
     /// # Errors
-    /// It leads elsewhere, or nowhere.
+    /// [`ForbiddenPath`] if `path` leads out of the folders, is too long or cannot be followed.
     pub fn check(&self, path: &Path) -> Result<(), ForbiddenPath> {
         check_length(path)?;
         let place = resolve(path)
@@ -86,7 +88,7 @@ impl AllowedFolders {
 }
 
 impl ForbiddenPath {
-    /// Returns a remedy.
+    /// Returns the remedy for the user, which names `--allow-path` if that helps.
     #[must_use]
     pub fn help(&self) -> String {
         match self {
@@ -123,13 +125,14 @@ impl fmt::Display for ForbiddenPath {
 
 impl std::error::Error for ForbiddenPath {}
 
-/// Quotes a path for a shell where it needs that.
+/// Returns `path` as a word of a shell, in quotes if the shell needs them.
 fn shell(path: &Path) -> String {
     let text = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "/._-+,".contains(c);
-    if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
+    let is_plain = text.chars().all(|letter| letter.is_alphanumeric() || "/._-+,".contains(letter));
+    if is_plain { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
 
+/// Checks that `path` and its longest name are not longer than common file systems allow.
 fn check_length(path: &Path) -> Result<(), ForbiddenPath> {
     let bytes = path.as_os_str().len();
     let longest = path.components().map(|part| part.as_os_str().len()).max().unwrap_or(0);
@@ -140,40 +143,44 @@ fn check_length(path: &Path) -> Result<(), ForbiddenPath> {
     Ok(())
 }
 
-/// Returns where a path leads, as an absolute path without links and dots. What is not there leads
-/// to where it would be.
+/// Returns the absolute path to which `path` leads, without links and dots. The parts of a path
+/// that do not exist are taken as names of files and folders.
 fn resolve(path: &Path) -> io::Result<PathBuf> {
-    let start =
-        std::path::absolute(if path.as_os_str().is_empty() { Path::new(".") } else { path });
-    let mut rest: Vec<PathBuf> = parts(&start?);
-    let mut place = PathBuf::new();
+    /// Largest number of links on the way to a file.
+    const LINKS_MAX: usize = 40;
+
+    let relative = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    let mut remaining: Vec<PathBuf> = reversed_parts(&std::path::absolute(relative)?);
+    let mut resolved = PathBuf::new();
     let mut links = 0;
-    while let Some(part) = rest.pop() {
+    while let Some(part) = remaining.pop() {
         match part.components().next() {
             Some(Component::ParentDir) => {
-                place.pop();
+                resolved.pop();
                 continue;
             }
             Some(Component::CurDir) | None => continue,
-            // Of a link too, whose target begins anew at the root.
-            Some(_) => place.push(&part),
+            // The root of an absolute target of a link replaces the path so far.
+            Some(_) => resolved.push(&part),
         }
-        if !std::fs::symlink_metadata(&place).is_ok_and(|found| found.is_symlink()) {
+
+        let metadata = std::fs::symlink_metadata(&resolved);
+        if !metadata.is_ok_and(|metadata| metadata.is_symlink()) {
             continue;
         }
         links += 1;
         if links > LINKS_MAX {
             return Err(io::Error::other("its links lead in a circle"));
         }
-        let target = std::fs::read_link(&place)?;
-        place.pop();
-        rest.extend(parts(&target));
+        let target = std::fs::read_link(&resolved)?;
+        resolved.pop();
+        remaining.extend(reversed_parts(&target));
     }
-    Ok(place)
+    Ok(resolved)
 }
 
-/// Returns the parts of a path, the last one first.
-fn parts(path: &Path) -> Vec<PathBuf> {
+/// Returns the parts of `path`, the last part first.
+fn reversed_parts(path: &Path) -> Vec<PathBuf> {
     path.components().rev().map(|part| PathBuf::from(part.as_os_str())).collect()
 }
 
@@ -185,23 +192,25 @@ mod tests {
     #[test]
     fn neither_dots_nor_links_lead_out() {
         let folder = std::env::temp_dir().join(format!("drape-places-{}", std::process::id()));
-        let (own, other) = (folder.join("own"), folder.join("other"));
-        std::fs::create_dir_all(own.join("deep")).expect("made");
+        let (inner, other) = (folder.join("inner"), folder.join("other"));
+        std::fs::create_dir_all(inner.join("deep")).expect("made");
         std::fs::create_dir_all(&other).expect("made");
         std::fs::write(other.join("a.toml"), "").expect("written");
-        symlink(&other, own.join("out")).expect("linked");
-        symlink("deep", own.join("in")).expect("linked");
-        symlink("round", own.join("round")).expect("linked");
-        let places = AllowedFolders::new(&own, &[]);
-        let may = |name: &str| places.check(&own.join(name)).is_ok();
+        symlink(&other, inner.join("out")).expect("linked");
+        symlink("deep", inner.join("in")).expect("linked");
+        symlink("round", inner.join("round")).expect("linked");
+
+        let folders = AllowedFolders::new(&inner, &[]);
+        let may = |name: &str| folders.check(&inner.join(name)).is_ok();
         assert!(may("a.toml") && may("deep/../b") && may("in/../c") && may("in/new/file"));
         assert!(!may("../other/a.toml") && !may("out/a.toml") && !may("out") && !may("out/new"));
-        assert!(!may("in/../../other") && !may("../own-too") && !may("deep/../../x"));
+        assert!(!may("in/../../other") && !may("../inner-too") && !may("deep/../../x"));
         assert!(!may("/etc/passwd") && !may("round") && !may("round/x"));
-        let allowed = AllowedFolders::new(&own, &[other.join("a.toml")]);
-        assert!(allowed.check(&own.join("out/a.toml")).is_ok());
-        assert!(allowed.check(&own.join("out/b.toml")).is_err());
-        let long = places.check(&own.join("x".repeat(5000))).expect_err("it is too long");
+
+        let allowed = AllowedFolders::new(&inner, &[other.join("a.toml")]);
+        assert!(allowed.check(&inner.join("out/a.toml")).is_ok());
+        assert!(allowed.check(&inner.join("out/b.toml")).is_err());
+        let long = folders.check(&inner.join("x".repeat(5000))).expect_err("it is too long");
         assert!(long.to_string().len() < 300, "{long}");
         std::fs::remove_dir_all(&folder).expect("removed");
     }

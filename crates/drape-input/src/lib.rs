@@ -2,20 +2,21 @@
 //!
 //! # Tour
 //!
-//! * `document`: [`Document`], the text of a TOML file with its path; it decodes the text into a
-//!   structure and locates a key for a message. [`SizeLimit`], how large files may be.
-//! * `decode`: what decodes it, with all mistakes at once, and [`Faults`], which say what was left out.
-//! * `grammar`: mistakes of the text itself.
-//! * `given`: [`Given`], a number of a structure that may stand with a unit; `unit`: the units.
+//! * `document`: [`Document`], the text of a TOML file with its path. A document decodes the text
+//!   into a structure and locates a key for a message. [`SizeLimit`] limits the size of files.
+//! * `decode`: the decoder, which reports all mistakes at once, and [`Faults`], the mistakes with
+//!   the keys whose values were left out.
+//! * `grammar`: mistakes of TOML grammar.
+//! * `given`: [`Given`], a number with or without a unit. `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
-//!   error type of this crate: all mistakes of an input.
-//!   [`Subject`] is the part of an input that a mistake speaks of, [`Edit`] a change of a file that
-//!   remedies one, made by [`apply_edits`].
-//! * `spelling`: [`closest`], the known word nearest to a misspelt one.
-//! * `setting`: [`Setting`], a value given beside a text, such as on a command line.
-//! * `places`: [`AllowedFolders`], the folders below which the files lie that a document may name.
+//!   error type of this crate: all mistakes of an input. [`Subject`] is the part of an input that a
+//!   mistake concerns. An [`Edit`] is a change of a file that corrects a mistake. [`apply_edits`]
+//!   makes such changes.
+//! * `spelling`: [`closest`], the known word nearest to a misspelt word.
+//! * `setting`: [`Setting`], a value that replaces a value of a text, such as on a command line.
+//! * `allowed_folders`: [`AllowedFolders`], the folders with the files that a document may name.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
-//! * `schema`: JSON Schema of such numbers, with the feature of that name.
+//! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
 //! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
 
 mod allowed_folders;
