@@ -7,7 +7,7 @@
 //!   fitted fabrics; `measure`: [`Measure`], a value of all summaries, and
 //!   [`Convergence`], its limit as the spacing goes to 0.
 //! * `point`: [`Point`], one run of a study; `key`: digests of what it reads.
-//! * `place`: [`Place`], where a point has its results, its lock and its record:
+//! * `place`: [`PointStorage`], where a point has its results, its lock and its record:
 //!   [`Record`], what came of it; `manifest`: the list of all points.
 //! * `table`: [`Table`], inputs, measures and records of all points; `effects`: means over levels.
 //! * `engine`: files by which others run a study: Slurm, HyperQueue, Dask.
@@ -21,8 +21,8 @@ mod file;
 mod key;
 mod manifest;
 mod measure;
-mod place;
 mod point;
+mod storage;
 mod study;
 mod table;
 
@@ -35,8 +35,8 @@ pub use error::Error;
 pub use file::study_schema;
 pub use manifest::manifest;
 pub use measure::Measure;
-pub use measure::convergence::{Approach, Convergence, GridValue, ORDER};
-pub use place::{Outcome, Place, PlaceLock, Record};
+pub use measure::convergence::{Approach, Convergence, GRID_ORDER, GridValue};
 pub use point::{Point, Shard};
+pub use storage::{Outcome, PointLock, PointStorage, Record};
 pub use study::{Keep, Study};
 pub use table::{Column, Table};

@@ -34,7 +34,7 @@ pub struct Shard {
 impl Shard {
     /// Returns whether a point is in this part, by its number in the order of the plan.
     #[must_use]
-    pub fn has(self, index: usize) -> bool {
+    pub fn contains(self, index: usize) -> bool {
         index % self.count == self.index - 1
     }
 }
@@ -65,7 +65,7 @@ mod tests {
     fn shards_share_all_points() {
         for index in 0..10 {
             let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().expect("right"));
-            assert_eq!(shards.iter().filter(|shard| shard.has(index)).count(), 1);
+            assert_eq!(shards.iter().filter(|shard| shard.contains(index)).count(), 1);
         }
         for wrong in ["0/3", "4/3", "1", "a/b", "1/0"] {
             assert!(wrong.parse::<Shard>().expect_err("wrong").contains("such as 1/4"));

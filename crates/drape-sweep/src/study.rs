@@ -147,7 +147,7 @@ impl Study {
 
     /// Returns the number of all points.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub fn point_count(&self) -> usize {
         self.groups.iter().map(Group::len).product()
     }
 
@@ -158,8 +158,8 @@ impl Study {
     /// A key of an axis leads nowhere at one of the points.
     pub fn points(&self, program: &str, shard: Option<Shard>) -> Result<Vec<Point>, Error> {
         let mut digests = Digests::new(self.base, &self.options);
-        let is_asked = |index: &usize| shard.is_none_or(|shard| shard.has(*index));
-        let indices = (0..self.count()).filter(is_asked);
+        let is_asked = |index: &usize| shard.is_none_or(|shard| shard.contains(*index));
+        let indices = (0..self.point_count()).filter(is_asked);
         indices.map(|index| self.point(index, program, &mut digests)).collect()
     }
 

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 
 use crate::axes::value_of;
 use crate::error::Error;
-use crate::place::Place;
 use crate::point::Point;
+use crate::storage::PointStorage;
 use crate::study::Study;
 use crate::table::summary::{cell, chosen, flatten};
 
@@ -55,7 +55,7 @@ impl Table {
         let mut records: Vec<[String; 5]> = Vec::new();
         let mut measures: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for (row, point) in points.iter().enumerate() {
-            let place = Place::new(study, point);
+            let place = PointStorage::new(study, point);
             let record = place.record();
             let summary = record.as_ref().and_then(|record| place.summary_of(record));
             let mut values = Vec::new();

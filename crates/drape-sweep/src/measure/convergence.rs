@@ -1,11 +1,11 @@
 //! Convergence: what the spacing of a grid leaves in a value, by Richardson's extrapolation.
 //!
 //! The error of a value is taken as C hᵖ, h being the spacing and p the order. Three spacings give
-//! the value, C and p [Cel08]; of two, p is [`ORDER`]. The uncertainty is a multiple of the error so
+//! the value, C and p [Cel08]; of two, p is [`GRID_ORDER`]. The uncertainty is a multiple of the error so
 //! found [Roa94].
 
 /// Order of the cloth's grid, which is the highest that is used.
-pub const ORDER: f64 = 2.0;
+pub const GRID_ORDER: f64 = 2.0;
 
 /// Lowest order with which a limit is given.
 const ORDER_MIN: f64 = 0.5;
@@ -28,10 +28,10 @@ pub struct GridValue {
 /// How the values of several grids approach a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Approach {
-    /// With an order that the three finest grids give, at most [`ORDER`]: it is 2 too where they give a
+    /// With an order that the three finest grids give, at most [`GRID_ORDER`]: it is 2 too where they give a
     /// higher one.
     Measured(f64),
-    /// With the order [`ORDER`], which two grids cannot give.
+    /// With the order [`GRID_ORDER`], which two grids cannot give.
     Assumed,
     /// Not at all: the values swing, or their differences do not become smaller.
     None,
@@ -58,16 +58,16 @@ impl Convergence {
     /// use drape_sweep::{Convergence, GridValue};
     ///
     /// let value = |spacing: f64| GridValue { spacing, value: 422.0 + 0.024 * spacing * spacing };
-    /// let found = Convergence::of(&[20.0, 14.0, 10.0].map(value)).expect("three grids");
+    /// let found = Convergence::new(&[20.0, 14.0, 10.0].map(value)).expect("three grids");
     /// assert!((found.limit - 422.0).abs() < 1e-9);
     /// assert!((found.uncertainty - 1.25 * 2.4).abs() < 1e-9);
     /// ```
     #[must_use]
-    pub fn of(values: &[GridValue]) -> Option<Self> {
+    pub fn new(values: &[GridValue]) -> Option<Self> {
         let mut values = values.to_vec();
         values.sort_by(|a, b| a.spacing.total_cmp(&b.spacing));
         let found = match values[..] {
-            [fine, coarse] => Self::with_order(ORDER, [fine, coarse], Approach::Assumed),
+            [fine, coarse] => Self::with_order(GRID_ORDER, [fine, coarse], Approach::Assumed),
             [fine, middle, coarse, ..] => match order([fine, middle, coarse]) {
                 Some(order) => Self::with_order(order, [fine, middle], Approach::Measured(order)),
                 None => {
@@ -101,19 +101,19 @@ impl Convergence {
     pub fn at(&self, spacing: f64) -> f64 {
         let order = match self.approach {
             Approach::Measured(order) => order,
-            Approach::Assumed | Approach::None => ORDER,
+            Approach::Assumed | Approach::None => GRID_ORDER,
         };
         self.limit + self.coefficient * spacing.powf(order)
     }
 }
 
-/// Returns the order p with which three values, finest first, approach a limit, at most [`ORDER`];
+/// Returns the order p with which three values, finest first, approach a limit, at most [`GRID_ORDER`];
 /// `None` if it is below [`ORDER_MIN`], or if there is none.
 fn order(values: [GridValue; 3]) -> Option<f64> {
     let [fine, middle, coarse] = values;
     let differences = [middle.value - fine.value, coarse.value - middle.value];
     if differences == [0.0, 0.0] {
-        return Some(ORDER);
+        return Some(GRID_ORDER);
     }
     let ratio = differences[1] / differences[0];
     // The ratio of the differences grows with the order.
@@ -124,9 +124,9 @@ fn order(values: [GridValue; 3]) -> Option<f64> {
     if ratio.is_nan() || ratio < ratio_of(ORDER_MIN) {
         return None;
     }
-    let (mut low, mut high) = (ORDER_MIN, ORDER);
-    if ratio >= ratio_of(ORDER) {
-        return Some(ORDER);
+    let (mut low, mut high) = (ORDER_MIN, GRID_ORDER);
+    if ratio >= ratio_of(GRID_ORDER) {
+        return Some(GRID_ORDER);
     }
     while high - low > 1e-12 {
         let middle = 0.5 * (low + high);
@@ -147,7 +147,7 @@ mod tests {
     fn a_power_of_the_spacing_is_found_with_its_limit() {
         for order in [0.7, 1.0, 1.6, 2.0] {
             let value = |h: f64| (h, 5.0 - 0.3 * h.powf(order));
-            let found = Convergence::of(&values(&[0.5, 2.0, 1.3].map(value))).expect("three");
+            let found = Convergence::new(&values(&[0.5, 2.0, 1.3].map(value))).expect("three");
             let Approach::Measured(measured) = found.approach else { panic!("{found:?}") };
             assert!((measured - order).abs() < 1e-9, "{order}: {found:?}");
             assert!((found.limit - 5.0).abs() < 1e-9, "{found:?}");
@@ -159,23 +159,23 @@ mod tests {
     #[test]
     fn a_higher_order_is_taken_as_that_of_the_grid() {
         let value = |h: f64| (h, 1.0 + h.powi(4));
-        let found = Convergence::of(&values(&[1.0, 2.0, 4.0].map(value))).expect("three");
-        assert_eq!(found.approach, Approach::Measured(ORDER));
+        let found = Convergence::new(&values(&[1.0, 2.0, 4.0].map(value))).expect("three");
+        assert_eq!(found.approach, Approach::Measured(GRID_ORDER));
         assert!((found.limit - (2.0 - 15.0 / 3.0)).abs() < 1e-12, "{found:?}");
     }
 
     #[test]
     fn two_grids_have_the_order_assumed_and_a_wider_uncertainty() {
-        let found = Convergence::of(&values(&[(2.0, 14.0), (1.0, 11.0)])).expect("two");
+        let found = Convergence::new(&values(&[(2.0, 14.0), (1.0, 11.0)])).expect("two");
         assert_eq!((found.approach, found.limit), (Approach::Assumed, 10.0));
         assert_eq!(found.uncertainty, 3.0);
-        assert_eq!(Convergence::of(&values(&[(2.0, 14.0)])), None);
+        assert_eq!(Convergence::new(&values(&[(2.0, 14.0)])), None);
     }
 
     #[test]
     fn values_that_swing_or_spread_have_no_limit() {
         for own in [[1.0, 2.0, 1.5], [1.0, 2.0, 2.5], [1.0, 1.0, 2.0]] {
-            let found = Convergence::of(&values(&[(1.0, own[0]), (2.0, own[1]), (4.0, own[2])]));
+            let found = Convergence::new(&values(&[(1.0, own[0]), (2.0, own[1]), (4.0, own[2])]));
             let found = found.expect("three");
             if own == [1.0, 1.0, 2.0] {
                 // The fine grids agree: nothing is left.
@@ -189,7 +189,7 @@ mod tests {
                     < 1e-12
             );
         }
-        let same = Convergence::of(&values(&[(1.0, 3.0), (2.0, 3.0), (4.0, 3.0)])).expect("three");
+        let same = Convergence::new(&values(&[(1.0, 3.0), (2.0, 3.0), (4.0, 3.0)])).expect("three");
         assert_eq!((same.limit, same.uncertainty), (3.0, 0.0));
     }
 }

@@ -49,7 +49,7 @@ impl Table {
         }
         places.sort_unstable();
         places.dedup_by_key(|place| place.0);
-        let missing = study.count().saturating_sub(places.len());
+        let missing = study.point_count().saturating_sub(places.len());
         let pick = |column: &dyn Fn(&Self) -> Option<&Column>, name: &str| {
             let cells: Vec<Option<&Column>> = parts.iter().map(column).collect();
             let cell = |&(_, part, row): &(usize, usize, usize)| {

@@ -15,29 +15,29 @@ pub use record::{Outcome, Record};
 
 /// Place of a point: `points/ab/KEY`, with its lock and its record beside it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct PointStorage {
     key: String,
     folder: PathBuf,
 }
 
 /// Lock of a point, until it is dropped or its process ends, however it does.
 #[derive(Debug)]
-pub struct PlaceLock {
+pub struct PointLock {
     file: File,
     path: PathBuf,
 }
 
-impl PlaceLock {
+impl PointLock {
     /// Removes the file of the lock, which no one needs once the point has a record: whoever takes
     /// the lock looks for one first.
-    pub fn retire(self) {
+    pub fn remove(self) {
         // Where it cannot be removed it is in nobody's way.
         let _ = std::fs::remove_file(&self.path);
         drop(self.file);
     }
 }
 
-impl Place {
+impl PointStorage {
     /// Returns the place of a point of a study.
     #[must_use]
     pub fn new(study: &Study, point: &Point) -> Self {
@@ -62,7 +62,7 @@ impl Place {
     ///
     /// # Errors
     /// The folder cannot be written.
-    pub fn lock(&self) -> Result<Option<PlaceLock>, Error> {
+    pub fn lock(&self) -> Result<Option<PointLock>, Error> {
         let path = self.folder.with_extension("lock");
         if let Some(shelf) = path.parent() {
             std::fs::create_dir_all(shelf).map_err(Error::io("create", shelf))?;
@@ -70,7 +70,7 @@ impl Place {
         let file = File::options().write(true).create(true).truncate(false).open(&path);
         let file = file.map_err(Error::io("write", &path))?;
         match file.try_lock() {
-            Ok(()) => Ok(Some(PlaceLock { file, path })),
+            Ok(()) => Ok(Some(PointLock { file, path })),
             Err(TryLockError::WouldBlock) => Ok(None),
             Err(TryLockError::Error(error)) => Err(Error::io("lock", &path)(error)),
         }
@@ -120,7 +120,7 @@ impl Place {
     ///
     /// # Errors
     /// The text is not JSON, or the summary cannot be written.
-    pub fn summarise(&self, report: &[u8]) -> Result<(), Error> {
+    pub fn write_summary(&self, report: &[u8]) -> Result<(), Error> {
         let path = self.folder.join("summary.json");
         let report: Value = serde_json::from_slice(report)
             .map_err(|error| Error::io("write", &path)(error.into()))?;
@@ -139,7 +139,7 @@ impl Place {
 
     /// Returns whether its folder holds a run that was begun and was cut off.
     #[must_use]
-    pub fn is_begun(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         let status = self.summary().map(|summary| summary["status"].clone());
         self.folder.join("run.json").is_file() && status.is_none_or(|is| is == "interrupted")
     }
@@ -202,8 +202,8 @@ mod tests {
     use super::*;
 
     /// Place in a folder, with files of its run.
-    fn place(root: &Path, files: &[(&str, &str)]) -> Place {
-        let place = Place { key: "ab12".into(), folder: root.join("ab12") };
+    fn place(root: &Path, files: &[(&str, &str)]) -> PointStorage {
+        let place = PointStorage { key: "ab12".into(), folder: root.join("ab12") };
         std::fs::create_dir_all(&place.folder).expect("a folder");
         for (name, text) in files {
             std::fs::write(place.folder.join(name), text).expect("a file");
@@ -216,7 +216,7 @@ mod tests {
         let is = |files: &[(&str, &str)]| {
             let root = tempfile::tempdir().expect("a folder");
             let place = place(root.path(), files);
-            (place.is_finished(), place.is_begun())
+            (place.is_finished(), place.is_interrupted())
         };
         let run = ("run.json", "{}");
         let [ok, stopped] = [r#"{"status": "ok"}"#, r#"{"status": "interrupted"}"#];

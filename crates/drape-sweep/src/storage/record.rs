@@ -54,7 +54,7 @@ impl Outcome {
     /// Returns how a process ended, by its exit code; `None` for one that a signal ended, which
     /// stands for a worker that failed, as do failures of files.
     #[must_use]
-    pub fn of(exit_code: Option<i32>) -> Self {
+    pub fn from_exit_code(exit_code: Option<i32>) -> Self {
         match exit_code {
             Some(0) => Self::Done,
             None | Some(6 | 8 | 129..) => Self::WorkerFailed,
