@@ -125,8 +125,9 @@ fn every_frame_has_its_pressures_and_its_energy() {
     let folder = results();
     let results = folder.path().join("results");
     let recording = Recording::open(&results).expect("a run");
-    let frames: Vec<Frame> =
-        (0..recording.frames()).map(|number| recording.frame(number).expect("reads")).collect();
+    let frames: Vec<Frame> = (0..recording.frame_count())
+        .map(|number| recording.frame(number).expect("reads"))
+        .collect();
     let pressures = |number: usize| frames[number].pressures.as_ref().expect("they are kept apart");
     let largest = |number: usize| pressures(number).iter().copied().fold(0.0, f64::max);
     // Sheets of a tenth of a kilogram per square metre press by a few pascals where they lie.

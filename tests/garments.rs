@@ -69,7 +69,7 @@ fn unsewn(folder: &Path) -> f64 {
     let mut command = drape();
     command.arg("run").arg(&path).arg("-o").arg(&output).assert().success();
     let recording = Recording::open(&output).expect("a run");
-    let last = recording.frame(recording.frames() - 1).expect("a frame");
+    let last = recording.frame(recording.frame_count() - 1).expect("a frame");
     last.cloth.iter().map(|[_, y, _]| *y).fold(f64::INFINITY, f64::min)
 }
 

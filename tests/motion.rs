@@ -22,7 +22,7 @@ fn run(folder: &Path, scene: &str, fabric: &str) -> (Value, [Vec<[f64; 3]>; 2]) 
     let recording = Recording::open(&output).expect("a run");
     let frame = |number| recording.frame(number).expect("a frame").cloth;
     let summary = serde_json::from_slice(&result.stdout).expect("a summary");
-    (summary, [0, recording.frames() - 1].map(frame))
+    (summary, [0, recording.frame_count() - 1].map(frame))
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn number(summary: &Value, key: &str) -> f64 {
 /// Returns the heights of the cloth's particles, row by row along the warp.
 fn heights(output: &Path) -> Vec<f64> {
     let recording = Recording::open(output).expect("a run");
-    let last = recording.frame(recording.frames() - 1).expect("a frame");
+    let last = recording.frame(recording.frame_count() - 1).expect("a frame");
     last.cloth.iter().map(|[_, y, _]| *y).collect()
 }
 

@@ -115,7 +115,7 @@ pub fn frames(folder: &Path) -> bool {
     let Ok(verifier) = Verifier::open(folder) else { return false };
     let recording = verifier.recording();
     let _ = recording.energy();
-    let frames = recording.frames().min(4);
+    let frames = recording.frame_count().min(4);
     (0..frames).all(|number| recording.frame(number).is_ok() & verifier.verify(number).is_ok())
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use drape::input::{Edit, EditError, edited};
+use drape::input::{Edit, EditError, apply_edits};
 
 /// Files by their names.
 #[derive(Debug, Clone, Default)]
@@ -59,7 +59,7 @@ impl Files {
         for edit in edits {
             let name = edit.file.to_str().expect("it is text");
             let text = files.0.get_mut(name).expect("the page has the file");
-            *text = edited(text, std::slice::from_ref(edit))?;
+            *text = apply_edits(text, std::slice::from_ref(edit))?;
         }
         Ok(files)
     }

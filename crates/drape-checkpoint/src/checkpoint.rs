@@ -20,159 +20,187 @@ const IDENTITY: &str = "identity";
 /// Length of a checksum, in bytes.
 const CHECKSUM: usize = 32;
 
-/// State of a computation: an identity and named sections.
+/// Saved state of a computation: an identity and named sections.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {
     identity: Identity,
     sections: Vec<Section>,
 }
 
-/// Section: the name of a value and its encoded bytes.
+/// Name of a value and the encoded bytes of the value.
 #[derive(Debug, Clone, PartialEq)]
 struct Section {
     name: String,
     content: Vec<u8>,
 }
 
-/// Bytes that are left of a file.
-struct Rest<'a>(&'a [u8]);
+/// Bytes of a file that have not been read yet.
+struct Unread<'a>(&'a [u8]);
 
-impl<'a> Rest<'a> {
-    /// Takes a number of bytes.
+impl<'a> Unread<'a> {
+    /// Removes the next `count` bytes and returns them.
     fn take(&mut self, count: usize) -> Result<&'a [u8], Damage> {
-        let (taken, rest) = self.0.split_at_checked(count).ok_or(Damage::Length)?;
-        self.0 = rest;
+        let (taken, remaining) = self.0.split_at_checked(count).ok_or(Damage::Length)?;
+        self.0 = remaining;
         Ok(taken)
     }
 
-    /// Takes a number of bytes that is known to the compiler.
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
+    /// Removes the next `N` bytes and returns them.
+    fn take_array<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
         self.take(N)?.try_into().map_err(|_| Damage::Length)
     }
 }
 
 impl Checkpoint {
-    /// Makes a checkpoint without sections.
+    /// Creates a checkpoint with the given `identity` and without sections.
     #[must_use]
     pub fn new(identity: Identity) -> Self {
         Self { identity, sections: Vec::new() }
     }
 
-    /// Identity of what wrote it.
+    /// Returns the [`Identity`] of the program that wrote the checkpoint.
     #[must_use]
     pub fn identity(&self) -> &Identity {
         &self.identity
     }
 
-    /// Adds a section, or replaces that of the same name.
+    /// Adds a section with the given `name` and `value`. A section of that name is replaced.
     ///
     /// # Errors
-    /// A value that serde cannot write, or a name of more than 65 535 bytes.
+    /// [`Error::Encode`] if serde cannot write `value`, or if `name` has more than 65 535 bytes.
     pub fn put<T: Serialize + ?Sized>(&mut self, name: &str, value: &T) -> Result<(), Error> {
-        let fail = |reason: String| Error::Encode { section: name.into(), reason };
-        u16::try_from(name.len()).map_err(|error| fail(error.to_string()))?;
-        let content = postcard::to_stdvec(value).map_err(|error| fail(error.to_string()))?;
+        let content = u16::try_from(name.len())
+            .map_err(|error| error.to_string())
+            .and_then(|_| postcard::to_stdvec(value).map_err(|error| error.to_string()))
+            .map_err(|reason| Error::Encode { section: name.into(), reason })?;
         self.sections.retain(|section| section.name != name);
         self.sections.push(Section { name: name.into(), content });
         Ok(())
     }
 
-    /// Returns the value of a section.
+    /// Returns the value of the section `name`.
     ///
     /// # Errors
-    /// The section is missing, or is no value of this type and nothing else.
+    /// [`Error::Section`] if the section is missing, or if its content is not exactly one value of
+    /// type `T`.
     pub fn get<T: DeserializeOwned>(&self, name: &str) -> Result<T, Error> {
-        let fail = |reason: &str| Error::Section { section: name.into(), reason: reason.into() };
         let section = self.sections.iter().find(|section| section.name == name);
-        let section = section.ok_or_else(|| fail("it is missing"))?;
-        section.value().map_err(|reason| fail(&reason))
+        section
+            .ok_or_else(|| "it is missing".to_owned())
+            .and_then(Section::value)
+            .map_err(|reason| Error::Section { section: name.into(), reason })
     }
 
-    /// Writes the bytes of a file.
+    /// Writes the bytes of the checkpoint to `writer`.
     ///
     /// # Errors
-    /// Those of the writer.
-    pub fn encode(&self, to: &mut dyn Write) -> io::Result<()> {
+    /// An error of `writer`, or of the encoding of the identity.
+    pub fn encode(&self, writer: &mut dyn Write) -> io::Result<()> {
         let identity = postcard::to_stdvec(&self.identity).map_err(io::Error::other)?;
-        let mut whole = blake3::Hasher::new();
-        let mut put = |bytes: &[u8]| {
-            whole.update(bytes);
-            to.write_all(bytes)
-        };
+        let mut file = HashingWriter { writer, hasher: blake3::Hasher::new() };
         let count = u32::try_from(self.sections.len() + 1).map_err(io::Error::other)?;
-        put(MAGIC)?;
-        put(&VERSION.to_le_bytes())?;
-        put(&count.to_le_bytes())?;
-        let own = self.sections.iter().map(|own| (own.name.as_str(), own.content.as_slice()));
-        for (name, content) in [(IDENTITY, identity.as_slice())].into_iter().chain(own) {
-            let length = u16::try_from(name.len()).map_err(io::Error::other)?.to_le_bytes();
-            let content_length = (content.len() as u64).to_le_bytes();
-            let mut checksum = blake3::Hasher::new();
-            for bytes in [&length[..], name.as_bytes(), &content_length, content] {
-                checksum.update(bytes);
-                put(bytes)?;
-            }
-            put(checksum.finalize().as_bytes())?;
+        file.write(MAGIC)?;
+        file.write(&VERSION.to_le_bytes())?;
+        file.write(&count.to_le_bytes())?;
+
+        // The identity comes first, so that a reader knows the program before it reads a value.
+        file.write_section(IDENTITY, &identity)?;
+        for Section { name, content } in &self.sections {
+            file.write_section(name, content)?;
         }
-        to.write_all(whole.finalize().as_bytes())
+
+        let checksum = file.hasher.finalize();
+        file.writer.write_all(checksum.as_bytes())
     }
 
-    /// Returns the checkpoint of the bytes of a file.
+    /// Returns the checkpoint in `bytes`, the content of a file.
     ///
     /// # Errors
-    /// What is wrong with them: nothing is returned unless every byte is as it was written.
+    /// [`Damage`] if any byte differs from the bytes that [`Checkpoint::encode`] wrote.
     pub fn decode(bytes: &[u8]) -> Result<Self, Damage> {
-        let mut rest = Rest(bytes);
-        if rest.take(MAGIC.len()).is_ok_and(|magic| magic != MAGIC) {
+        let mut unread = Unread(bytes);
+        if unread.take(MAGIC.len()).is_ok_and(|magic| magic != MAGIC) {
             return Err(Damage::Magic);
         }
-        let version = u32::from_le_bytes(rest.array()?);
+        let version = u32::from_le_bytes(unread.take_array()?);
         if version != VERSION {
             return Err(Damage::Version { found: version, known: VERSION });
         }
-        let count = u32::from_le_bytes(rest.array()?);
+
+        let count = u32::from_le_bytes(unread.take_array()?);
         let mut sections = Vec::new();
         for number in 0..count as usize {
-            sections.push(take_section(&mut rest, number)?);
+            sections.push(take_section(&mut unread, number)?);
         }
-        let covered = bytes.len() - rest.0.len();
-        let whole = rest.take(CHECKSUM)?;
-        if !rest.0.is_empty() {
+
+        // Checksums of sections do not cover the header, the checksum of the file does.
+        let covered = bytes.len() - unread.0.len();
+        let checksum = unread.take(CHECKSUM)?;
+        if !unread.0.is_empty() {
             return Err(Damage::Length);
         }
-        if blake3::hash(&bytes[..covered]).as_bytes() != whole {
+        if blake3::hash(&bytes[..covered]).as_bytes() != checksum {
             return Err(Damage::Whole);
         }
+
         let first = (!sections.is_empty()).then(|| sections.remove(0));
         let header = first.filter(|first| first.name == IDENTITY).ok_or(Damage::Whole)?;
-        let identity = header.value();
-        Ok(Self { identity: identity.map_err(|_| Damage::Whole)?, sections })
+        let identity = header.value().map_err(|_| Damage::Whole)?;
+        Ok(Self { identity, sections })
     }
 }
 
 impl Section {
-    /// Value of the section, or why its content is no value of this type and nothing else.
+    /// Returns the value of the section.
+    ///
+    /// # Errors
+    /// The reason, in words, why the content is not exactly one value of type `T`.
     fn value<T: DeserializeOwned>(&self) -> Result<T, String> {
-        let (value, rest) =
+        let (value, remaining) =
             postcard::take_from_bytes(&self.content).map_err(|error| error.to_string())?;
-        if rest.is_empty() { Ok(value) } else { Err("it is longer than its value".into()) }
+        if remaining.is_empty() { Ok(value) } else { Err("it is longer than its value".into()) }
     }
 }
 
-/// Reads the next section and verifies its checksum.
-fn take_section(rest: &mut Rest<'_>, number: usize) -> Result<Section, Damage> {
-    let start = rest.0;
-    let length = u16::from_le_bytes(rest.array()?);
-    let name = rest.take(length.into())?;
-    let length = u64::from_le_bytes(rest.array()?);
-    let content = rest.take(usize::try_from(length).map_err(|_| Damage::Length)?)?;
-    let covered = start.len() - rest.0.len();
-    let checksum = rest.take(CHECKSUM)?;
-    let fault = || Damage::Section { number };
-    if blake3::hash(&start[..covered]).as_bytes() != checksum {
-        return Err(fault());
+/// Writer that computes the checksum of a file.
+struct HashingWriter<'a> {
+    writer: &'a mut dyn Write,
+    hasher: blake3::Hasher,
+}
+
+impl HashingWriter<'_> {
+    /// Writes `bytes` and adds them to the checksum of the file.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.hasher.update(bytes);
+        self.writer.write_all(bytes)
     }
-    let name = String::from_utf8(name.to_vec()).map_err(|_| fault())?;
+
+    /// Writes the section `name` with the given `content` and the checksum of the section.
+    fn write_section(&mut self, name: &str, content: &[u8]) -> io::Result<()> {
+        let name_length = u16::try_from(name.len()).map_err(io::Error::other)?.to_le_bytes();
+        let content_length = (content.len() as u64).to_le_bytes();
+        let mut section_hasher = blake3::Hasher::new();
+        for bytes in [&name_length[..], name.as_bytes(), &content_length, content] {
+            section_hasher.update(bytes);
+            self.write(bytes)?;
+        }
+        self.write(section_hasher.finalize().as_bytes())
+    }
+}
+
+/// Removes section `number` from `unread`, verifies its checksum and returns it.
+fn take_section(unread: &mut Unread<'_>, number: usize) -> Result<Section, Damage> {
+    let start = unread.0;
+    let name_length = u16::from_le_bytes(unread.take_array()?);
+    let name = unread.take(name_length.into())?;
+    let content_length = u64::from_le_bytes(unread.take_array()?);
+    let content = unread.take(usize::try_from(content_length).map_err(|_| Damage::Length)?)?;
+    let covered = start.len() - unread.0.len();
+    let checksum = unread.take(CHECKSUM)?;
+    if blake3::hash(&start[..covered]).as_bytes() != checksum {
+        return Err(Damage::Section { number });
+    }
+    let name = String::from_utf8(name.to_vec()).map_err(|_| Damage::Section { number })?;
     Ok(Section { name, content: content.to_vec() })
 }
 
@@ -240,7 +268,7 @@ mod tests {
         let at = 16 + 2 + IDENTITY.len();
         huge[at..at + 8].fill(0xff);
         assert_eq!(Checkpoint::decode(&huge), Err(Damage::Length));
-        // So many sections are said to follow.
+        // More sections than the file has are said to follow.
         let mut many = bytes();
         many[12..16].fill(0xff);
         assert!(Checkpoint::decode(&many).is_err());

@@ -1,4 +1,4 @@
-//! Errors of this crate, and what may be wrong with a checkpoint.
+//! Errors of this crate, and faults of the bytes of a checkpoint.
 
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub enum Error {
         /// Message of the encoder.
         reason: String,
     },
-    /// A section is missing or is no value of the type that is asked for.
+    /// A section is missing, or its content is not a value of the requested type.
     #[error("the checkpoint has no right section \"{section}\": {reason}")]
     Section {
         /// Name of the section.
@@ -44,27 +44,27 @@ pub enum Error {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Damage {
-    /// The file does not begin as a checkpoint does.
+    /// The file does not begin with the first bytes of a checkpoint.
     #[error("it is no checkpoint")]
     Magic,
-    /// The file is of another version of the format.
+    /// The file has an unknown version of the format.
     #[error("it has version {found} of the format, not {known}")]
     Version {
         /// Version of the file.
         found: u32,
-        /// Version that is known.
+        /// Version that this crate reads.
         known: u32,
     },
     /// Wrong length: the file is truncated, or has bytes after its checksum.
     #[error("it is cut off, or goes on behind its end")]
     Length,
-    /// A section is not as it was written.
+    /// The bytes of a section have changed since the section was written.
     #[error("its section {number} is not as it was written")]
     Section {
         /// Number of the section, from 0.
         number: usize,
     },
-    /// The file as a whole is not as it was written.
+    /// Bytes outside the sections have changed, or the file has no readable identity.
     #[error("it is not as it was written")]
     Whole,
     /// The file cannot be read.

@@ -1,4 +1,4 @@
-//! Identity: which program wrote a checkpoint, and from what.
+//! Identity: the program that wrote a checkpoint, and the digests of its input.
 
 use std::path::Path;
 
@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 /// BLAKE3 digest.
 pub type Digest = [u8; 32];
 
-/// Program that wrote a checkpoint, and the digests of what it read.
+/// Program that wrote a checkpoint, and the digests of the sources that it read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     program: String,
     sources: Vec<Source>,
 }
 
-/// Something that the program read, such as a file.
+/// Source that the program read, such as a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 struct Source {
     name: String,
@@ -22,65 +22,71 @@ struct Source {
 }
 
 impl Identity {
-    /// Makes the identity of a program with its version.
+    /// Creates an identity without sources. `program` is the name of a program with its version.
     #[must_use]
     pub fn new(program: impl Into<String>) -> Self {
         Self { program: program.into(), sources: Vec::new() }
     }
 
-    /// Adds something that the program read, by its name and its bytes.
+    /// Adds a source with the given `name` and the bytes `content`.
     #[must_use]
     pub fn with(self, name: impl Into<String>, content: &[u8]) -> Self {
         self.with_digest(name, *blake3::hash(content).as_bytes())
     }
 
-    /// Adds a file by its content, which is read in pieces; one that cannot be read counts as empty.
+    /// Adds a source with the given `name` and the content of `file`, which is read in pieces.
+    ///
+    /// A file that cannot be read counts as empty.
     #[must_use]
     pub fn with_file(self, name: impl Into<String>, file: &Path) -> Self {
-        let digest = || {
-            let mut hasher = blake3::Hasher::new();
-            hasher.update_reader(std::fs::File::open(file)?)?;
-            Ok::<_, std::io::Error>(hasher.finalize())
-        };
-        let digest = digest().unwrap_or_else(|_| blake3::hash(b""));
-        self.with_digest(name, *digest.as_bytes())
+        let hash = hash_file(file).unwrap_or_else(|_| blake3::hash(b""));
+        self.with_digest(name, *hash.as_bytes())
     }
 
-    /// Adds the same by its digest.
+    /// Adds a source with the given `name` and `digest`.
     #[must_use]
     pub fn with_digest(mut self, name: impl Into<String>, digest: Digest) -> Self {
         self.sources.push(Source { name: name.into(), digest });
         self
     }
 
-    /// Program with its version.
+    /// Returns the name of the program with its version, as given to [`Identity::new`].
     #[must_use]
     pub fn program(&self) -> &str {
         &self.program
     }
 
-    /// Returns the names of all that differs from an earlier identity: the program, what has
-    /// changed, what is new, and what is gone.
+    /// Returns the names of everything that differs from the identity `earlier`: the program, and
+    /// the sources that changed, are new, or are gone.
     #[must_use]
     pub fn changes(&self, earlier: &Self) -> Vec<String> {
         let mut changes = Vec::new();
         if self.program != earlier.program {
             changes.push(format!("the program ({}, now {})", earlier.program, self.program));
         }
-        let of = |identity: &Self, name: &str| {
-            identity.sources.iter().find(|own| own.name == name).map(|own| own.digest)
-        };
         for Source { name, digest } in &self.sources {
-            match of(earlier, name) {
+            match earlier.digest(name) {
                 Some(before) if before == *digest => {}
                 Some(_) => changes.push(name.clone()),
                 None => changes.push(format!("{name} (new)")),
             }
         }
-        let gone = earlier.sources.iter().filter(|own| of(self, &own.name).is_none());
-        changes.extend(gone.map(|own| format!("{} (gone)", own.name)));
+        let gone = earlier.sources.iter().filter(|source| self.digest(&source.name).is_none());
+        changes.extend(gone.map(|source| format!("{} (gone)", source.name)));
         changes
     }
+
+    /// Returns the digest of the first source with the given `name`.
+    fn digest(&self, name: &str) -> Option<Digest> {
+        self.sources.iter().find(|source| source.name == name).map(|source| source.digest)
+    }
+}
+
+/// Returns the hash of the content of `file`.
+fn hash_file(file: &Path) -> std::io::Result<blake3::Hash> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(std::fs::File::open(file)?)?;
+    Ok(hasher.finalize())
 }
 
 #[cfg(test)]

@@ -2,10 +2,11 @@
 //!
 //! # Tour
 //!
-//! A [`Checkpoint`] has an [`Identity`] and sections; a [`Store`] writes it to a folder and reads the
-//! newest one that is intact, as [`Found`].
+//! A [`Checkpoint`] has an [`Identity`] and sections. A [`Store`] writes checkpoints to a folder.
+//! [`Store::read`] returns the newest intact checkpoint, as [`StoredCheckpoints`].
 //!
-//! Layers, lowest first: `error`, `identity`, `checkpoint` (sections and their bytes), `store` (files).
+//! Layers, lowest first: `error`, `identity`, `checkpoint` (sections and their bytes), `store`
+//! (files).
 
 mod checkpoint;
 mod error;
@@ -15,4 +16,4 @@ mod store;
 pub use checkpoint::Checkpoint;
 pub use error::{Damage, Error};
 pub use identity::{Digest, Identity};
-pub use store::{Damaged, Found, Store};
+pub use store::{DamagedCheckpoint, Store, StoredCheckpoints};

@@ -1,4 +1,6 @@
-//! Store: checkpoints in a folder, written whole or not at all; the last two are kept.
+//! Store: checkpoints in a folder.
+//!
+//! A checkpoint is written completely or not at all. The last two checkpoints are kept.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
@@ -7,10 +9,10 @@ use std::path::{Path, PathBuf};
 use crate::checkpoint::Checkpoint;
 use crate::error::{Damage, Error};
 
-/// Number of checkpoints that are kept: where the newest one is damaged, the one before it is read.
+/// Number of checkpoints that are kept. If the newest one is damaged, the one before it is read.
 const KEPT: usize = 2;
 
-/// Name of the temporary file of a checkpoint, which is renamed once it is complete.
+/// Name of the temporary file of a checkpoint. The file is renamed once it is complete.
 const TEMPORARY: &str = "checkpoint.part";
 
 /// Folder with checkpoints.
@@ -19,107 +21,114 @@ pub struct Store {
     folder: PathBuf,
 }
 
-/// Checkpoints of a folder.
+/// Newest checkpoints of a folder, as [`Store::read`] finds them.
 #[derive(Debug)]
-pub struct Found {
-    /// Newest one that is intact.
+pub struct StoredCheckpoints {
+    /// Newest intact checkpoint, if there is one.
     pub newest: Option<Checkpoint>,
-    /// Newer ones that are not, the newest first.
-    pub damaged: Vec<Damaged>,
+    /// Damaged checkpoints that are newer than `newest`, the newest first.
+    pub damaged: Vec<DamagedCheckpoint>,
 }
 
-/// Checkpoint whose bytes have changed since it was written, or that is incomplete.
+/// Checkpoint that cannot be used because its bytes have changed or are incomplete.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Damaged {
-    /// File.
+pub struct DamagedCheckpoint {
+    /// File of the checkpoint.
     pub path: PathBuf,
-    /// Fault.
+    /// Fault of the file.
     pub fault: Damage,
 }
 
-/// File of a checkpoint.
-struct Numbered {
+/// File of a checkpoint, with the number in its name.
+struct CheckpointFile {
     number: u32,
     path: PathBuf,
 }
 
-impl Found {
-    /// Removes those that are damaged, so that they are not among the two that are kept.
+impl StoredCheckpoints {
+    /// Removes the `damaged` files, so that they do not count among the two checkpoints that are
+    /// kept.
     ///
     /// # Errors
-    /// When one cannot be removed.
+    /// [`Error::Write`] if a file cannot be removed.
     pub fn remove_damaged(&self) -> Result<(), Error> {
-        for Damaged { path, .. } in &self.damaged {
-            let fail = |reason| Error::Write { path: path.clone(), reason };
-            fs::remove_file(path).map_err(fail)?;
+        for DamagedCheckpoint { path, .. } in &self.damaged {
+            fs::remove_file(path).map_err(|reason| Error::Write { path: path.clone(), reason })?;
         }
         Ok(())
     }
 }
 
 impl Store {
-    /// Store in a folder, which need not be there before the first checkpoint is written.
+    /// Returns the store in `folder`, which must exist before [`Store::write`] is called.
     #[must_use]
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into() }
     }
 
-    /// Writes a checkpoint as the newest one, and then removes all but the last two. When it
-    /// returns, the checkpoint outlasts a loss of power.
+    /// Writes `checkpoint` as the newest one, and then removes all checkpoints but the last two.
+    /// When the method returns, the checkpoint outlasts a loss of power.
     ///
     /// # Errors
-    /// When a file cannot be written; the checkpoints before it are then as they were.
+    /// [`Error::Write`] or [`Error::Read`] if a file or the folder is not accessible. A failure to
+    /// write the checkpoint leaves the earlier checkpoints unchanged.
     pub fn write(&self, checkpoint: &Checkpoint) -> Result<(), Error> {
         let mut files = self.files()?;
         let number = files.first().map_or(0, |newest| newest.number).saturating_add(1);
         let path = self.folder.join(format!("checkpoint-{number:08}.bin"));
         let temporary = self.folder.join(TEMPORARY);
-        let write = || -> io::Result<()> {
-            let mut to = BufWriter::new(File::create(&temporary)?);
-            checkpoint.encode(&mut to)?;
-            to.into_inner().map_err(|error| error.into_error())?.sync_all()?;
-            fs::rename(&temporary, &path)?;
-            sync_folder(&self.folder)
-        };
-        if let Err(reason) = write() {
-            // The failure is told, not that of the removal.
+        if let Err(reason) = self.write_file(checkpoint, &temporary, &path) {
+            // An error of the removal would hide the reason, which matters more.
             let _ = fs::remove_file(&temporary);
             return Err(Error::Write { path, reason });
         }
-        files.insert(0, Numbered { number, path });
-        for Numbered { path, .. } in files.into_iter().skip(KEPT) {
+
+        files.insert(0, CheckpointFile { number, path });
+        for CheckpointFile { path, .. } in files.into_iter().skip(KEPT) {
             fs::remove_file(&path).map_err(|reason| Error::Write { path, reason })?;
         }
         Ok(())
     }
 
-    /// Reads the newest checkpoint that is intact.
-    ///
-    /// # Errors
-    /// When the folder cannot be read.
-    pub fn read(&self) -> Result<Found, Error> {
-        let mut damaged = Vec::new();
-        for Numbered { path, .. } in self.files()? {
-            let bytes = fs::read(&path);
-            let unreadable = |error: io::Error| Damage::Unreadable { reason: error.to_string() };
-            match bytes.map_err(unreadable).and_then(|bytes| Checkpoint::decode(&bytes)) {
-                Ok(newest) => return Ok(Found { newest: Some(newest), damaged }),
-                Err(fault) => damaged.push(Damaged { path, fault }),
-            }
-        }
-        Ok(Found { newest: None, damaged })
+    /// Writes `checkpoint` to the file `temporary` and renames this file to `path`.
+    fn write_file(&self, checkpoint: &Checkpoint, temporary: &Path, path: &Path) -> io::Result<()> {
+        let mut writer = BufWriter::new(File::create(temporary)?);
+        checkpoint.encode(&mut writer)?;
+        writer.into_inner().map_err(|error| error.into_error())?.sync_all()?;
+        fs::rename(temporary, path)?;
+        sync_folder(&self.folder)
     }
 
-    /// Returns whether there is no checkpoint, intact or not.
+    /// Reads the newest intact checkpoint, and the faults of the damaged checkpoints that are
+    /// newer.
+    ///
+    /// # Errors
+    /// [`Error::Read`] if the folder cannot be read.
+    pub fn read(&self) -> Result<StoredCheckpoints, Error> {
+        let mut damaged = Vec::new();
+        for CheckpointFile { path, .. } in self.files()? {
+            let checkpoint = fs::read(&path)
+                .map_err(|error| Damage::Unreadable { reason: error.to_string() })
+                .and_then(|bytes| Checkpoint::decode(&bytes));
+            match checkpoint {
+                Ok(newest) => return Ok(StoredCheckpoints { newest: Some(newest), damaged }),
+                Err(fault) => damaged.push(DamagedCheckpoint { path, fault }),
+            }
+        }
+        Ok(StoredCheckpoints { newest: None, damaged })
+    }
+
+    /// Returns `true` if the folder has no checkpoint, neither intact nor damaged, and `false` if
+    /// it cannot be read.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.files().is_ok_and(|files| files.is_empty())
     }
 
-    /// Removes all checkpoints, and what is left of one that was not finished.
+    /// Removes all checkpoints, and the temporary file of a checkpoint that was not completed.
     ///
     /// # Errors
-    /// When a file cannot be removed.
+    /// [`Error::Write`] if a file cannot be removed, [`Error::Read`] if the folder cannot be read.
     pub fn clear(&self) -> Result<(), Error> {
         let files = self.files()?.into_iter().map(|file| file.path);
         for path in files.chain([self.folder.join(TEMPORARY)]) {
@@ -133,32 +142,38 @@ impl Store {
         Ok(())
     }
 
-    /// Returns the files of checkpoints, the newest first.
-    fn files(&self) -> Result<Vec<Numbered>, Error> {
-        let fail = |reason| Error::Read { path: self.folder.clone(), reason };
+    /// Returns the files of checkpoints, the newest first. A folder that does not exist has none.
+    fn files(&self) -> Result<Vec<CheckpointFile>, Error> {
         let entries = match fs::read_dir(&self.folder) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-            other => other.map_err(fail)?,
+            entries => entries,
         };
-        let mut files = Vec::new();
-        for entry in entries {
-            let path = entry.map_err(fail)?.path();
-            files.extend(number_of(&path).map(|number| Numbered { number, path }));
-        }
-        files.sort_by_key(|file| std::cmp::Reverse(file.number));
-        Ok(files)
+        entries
+            .and_then(checkpoint_files)
+            .map_err(|reason| Error::Read { path: self.folder.clone(), reason })
     }
 }
 
-/// Returns the number in the name of a checkpoint.
-fn number_of(path: &Path) -> Option<u32> {
+/// Returns the files of checkpoints among `entries` of a folder, the newest first.
+fn checkpoint_files(entries: fs::ReadDir) -> io::Result<Vec<CheckpointFile>> {
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry?.path();
+        files.extend(checkpoint_number(&path).map(|number| CheckpointFile { number, path }));
+    }
+    files.sort_by_key(|file| std::cmp::Reverse(file.number));
+    Ok(files)
+}
+
+/// Returns the number in the name of the file `path`, or `None` if it is no file of a checkpoint.
+fn checkpoint_number(path: &Path) -> Option<u32> {
     let name = path.file_name()?.to_str()?;
     let digits = name.strip_prefix("checkpoint-")?.strip_suffix(".bin")?;
     let is_number = digits.len() >= 8 && digits.bytes().all(|digit| digit.is_ascii_digit());
     is_number.then(|| digits.parse().ok())?
 }
 
-/// Makes the names of a folder outlast a loss of power.
+/// Makes the names of the files in `folder` outlast a loss of power.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
     File::open(folder)?.sync_all()
@@ -181,8 +196,8 @@ mod tests {
     }
 
     fn newest(store: &Store) -> Option<u64> {
-        let found = store.read().expect("the folder is read");
-        found.newest.map(|own| own.get("number").expect("a number"))
+        let stored = store.read().expect("the folder is read");
+        stored.newest.map(|checkpoint| checkpoint.get("number").expect("a number"))
     }
 
     #[test]
@@ -238,7 +253,7 @@ mod tests {
         let paths = names.map(|name| folder.path().join(name));
         paths.iter().for_each(|path| fs::write(path, "theirs").expect("written"));
         Store::new(folder.path()).clear().expect("it can be read");
-        assert!(paths.iter().all(|path| path.is_file() && number_of(path).is_none()));
+        assert!(paths.iter().all(|path| path.is_file() && checkpoint_number(path).is_none()));
     }
 
     #[test]

@@ -66,7 +66,10 @@ impl Failure {
         match self {
             Self::Input(mistakes) => {
                 mistakes.shown().iter().for_each(|mistake| tell_coloured(render(mistake)));
-                mistakes.rest().iter().for_each(|rest| tell(format_args!("error: {rest}")));
+                mistakes
+                    .hidden_count_text()
+                    .iter()
+                    .for_each(|rest| tell(format_args!("error: {rest}")));
             }
             Self::Batch | Self::Several { .. } => {}
             other => tell(format_args!("error: {other}")),

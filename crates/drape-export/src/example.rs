@@ -22,8 +22,8 @@ pub(crate) fn cube() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
 }
 
 /// Panels of some names.
-pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::Part> {
-    let part = |name| drape_frames::Part {
+pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::SurfacePart> {
+    let part = |name| drape_frames::SurfacePart {
         name,
         vertices: 0,
         triangles: 0,

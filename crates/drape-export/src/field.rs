@@ -152,7 +152,7 @@ impl<'a> Fields<'a> {
             Field::Pressure => self.recording.has_pressures(),
             Field::Distance => !manifest.bodies.is_empty(),
             Field::SeamGap => !manifest.seam_pairs.is_empty(),
-            Field::Speed => self.recording.frames() > 1,
+            Field::Speed => self.recording.frame_count() > 1,
             _ => true,
         }
     }

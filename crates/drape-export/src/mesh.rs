@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use drape_frames::{Frame, Part, Recording};
+use drape_frames::{Frame, Recording, SurfacePart};
 
 use crate::clip::Clip;
 use crate::colour::{self, Colour};
@@ -15,7 +15,7 @@ use crate::palette::{FabricPalette, light};
 #[derive(Debug, Clone)]
 pub(crate) struct Mesh<'a> {
     /// Panel or body of the run.
-    pub(crate) part: &'a Part,
+    pub(crate) part: &'a SurfacePart,
     /// Its name, which no other has.
     pub(crate) name: String,
     /// Its vertices, among those of the cloth or of the bodies.
@@ -64,7 +64,7 @@ pub(crate) fn meshes<'a>(recording: &'a Recording, frame: &Frame) -> Vec<Mesh<'a
 pub(crate) fn pattern(recording: &Recording) -> Vec<[f64; 2]> {
     let mut material = recording.topology().material.iter();
     let panels = recording.manifest().panels.iter();
-    let of_panel = |panel: &'_ Part| {
+    let of_panel = |panel: &'_ SurfacePart| {
         let points = material.by_ref().take(panel.vertices);
         points.map(|point| panel.pattern_point(*point)).collect::<Vec<_>>()
     };
@@ -72,12 +72,12 @@ pub(crate) fn pattern(recording: &Recording) -> Vec<[f64; 2]> {
 }
 
 /// Part, its vertices among those of all parts, its triangles with its own numbers of vertices.
-type Share<'a> = (&'a Part, Range<usize>, Vec<[u32; 3]>);
+type Share<'a> = (&'a SurfacePart, Range<usize>, Vec<[u32; 3]>);
 
 /// Divides vertices and triangles among their parts.
-fn divided<'a>(parts: &'a [Part], triangles: &[[u32; 3]]) -> Vec<Share<'a>> {
+fn divided<'a>(parts: &'a [SurfacePart], triangles: &[[u32; 3]]) -> Vec<Share<'a>> {
     let (mut vertex, mut triangle) = (0, 0);
-    let mut divide = |part: &'a Part| {
+    let mut divide = |part: &'a SurfacePart| {
         let vertices = vertex..vertex + part.vertices;
         let own = triangles[triangle..triangle + part.triangles].iter();
         let own = own.map(|corners| corners.map(|corner| corner - vertex as u32)).collect();

@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
-use drape_frames::Part;
+use drape_frames::SurfacePart;
 
 /// Returns the names of parts, each once: a name that was there before gets a number.
-pub(crate) fn unique<'a>(parts: impl IntoIterator<Item = &'a Part>) -> Vec<String> {
+pub(crate) fn unique<'a>(parts: impl IntoIterator<Item = &'a SurfacePart>) -> Vec<String> {
     let clean = |name: &str| name.replace(char::is_control, " ").trim().to_owned();
     numbered(parts.into_iter().map(|part| clean(&part.name)), |name, n| format!("{name} ({n})"))
 }

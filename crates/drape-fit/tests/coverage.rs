@@ -131,7 +131,7 @@ fn trial(case: &Case, noise: f64, seed: u64) -> Vec<Count> {
         .collect();
     let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
-    let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&problem, &parameters, &report, Loss::Squares);
     let intervals = profile(&problem, &parameters, &report, &ProfileSettings::default());
     let counts = truth.iter().zip(intervals).enumerate();
     counts

@@ -1,4 +1,4 @@
-//! Array: a table of numbers in the format of NumPy (`.npy`).
+//! Array: a table of numbers in NumPy's format (`.npy`).
 
 use std::io::Read;
 use std::path::Path;
@@ -9,112 +9,125 @@ use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order};
 use crate::error::Error;
 use crate::text::open;
 
-/// Bytes before the text of a header: the magic string, the version and the length of the text.
-const PREAMBLE: usize = 10;
-
-/// Longest header that is read, in bytes; a run writes 128.
+/// Longest header that is read, in bytes. A run writes a header of 128 bytes.
 const HEADER_MAX: usize = 1024;
 
-/// Largest number of digits in a header, so that the product of its dimensions is a number.
-const DIGITS_MAX: usize = 16;
-
-/// Largest coordinate that a run can have, in m.
+/// Largest magnitude of a coordinate, in m.
 pub(crate) const COORDINATE_MAX: f64 = 1e6;
 
-/// Array that is expected: `rows` rows of `N` numbers.
-struct Expected<'a> {
+/// File and expected content of an array.
+struct ExpectedArray<'a> {
     path: &'a Path,
-    /// Rows, in words.
+    /// Items that the rows describe, in words.
     what: &'static str,
-    rows: usize,
-    /// Type of the numbers as NumPy writes it.
-    number: &'static str,
+    /// Number of rows.
+    row_count: usize,
+    /// NumPy's name of the type of the numbers.
+    number_type: &'static str,
 }
 
-impl Expected<'_> {
+impl ExpectedArray<'_> {
+    /// Returns the error of an array with the fault `reason`.
     fn malformed(&self, reason: impl Into<String>) -> Error {
         Error::BadArray { path: self.path.to_owned(), reason: reason.into() }
     }
 
-    /// Reads the bytes of the file, at most one more than it can have.
-    fn bytes(&self, of_numbers: usize) -> Result<Vec<u8>, Error> {
-        let unreadable = |error: std::io::Error| {
-            let reason = error.to_string();
-            Error::Unreadable { path: self.path.to_owned(), reason }
-        };
-        let file = open(self.path).map_err(unreadable)?;
-        let limit = (HEADER_MAX + of_numbers) as u64;
-        let bytes = file.metadata().map_err(unreadable)?.len();
+    /// Reads the bytes of the file, whose numbers take `number_bytes`.
+    ///
+    /// If the file grows meanwhile, at most one byte more than the longest valid file is read.
+    fn read_bytes(&self, number_bytes: usize) -> Result<Vec<u8>, Error> {
+        let limit = (HEADER_MAX + number_bytes) as u64;
+        let file = open(self.path).map_err(|error| Error::unreadable(self.path, &error))?;
+        let metadata = file.metadata().map_err(|error| Error::unreadable(self.path, &error))?;
+        let bytes = metadata.len();
         if bytes > limit {
             return Err(Error::TooLarge { path: self.path.to_owned(), bytes, limit });
         }
         let mut content = Vec::new();
-        file.take(limit + 1).read_to_end(&mut content).map_err(unreadable)?;
+        file.take(limit + 1)
+            .read_to_end(&mut content)
+            .map_err(|error| Error::unreadable(self.path, &error))?;
         Ok(content)
     }
 
-    /// Returns the header, and where the numbers begin.
+    /// Returns the header of a file with the given `content`, and the position of the first number.
+    ///
+    /// # Errors
+    /// The header is invalid, or does not describe `row_count` rows of `N` numbers.
     fn header<const N: usize>(&self, content: &[u8]) -> Result<(NpyHeader, usize), Error> {
-        let no_header = || self.malformed("it has no header of NumPy, or is cut off in it");
-        let [low, high] = content.get(8..PREAMBLE).ok_or_else(no_header)? else {
-            return Err(no_header());
+        /// Bytes before the text of a header: the magic string, the version and the length of the
+        /// text.
+        const PREAMBLE: usize = 10;
+        /// Largest number of digits in a header, so that the product of its dimensions does not
+        /// overflow.
+        const DIGITS_MAX: usize = 16;
+
+        let no_header = "it has no header of NumPy, or is cut off in it";
+        let Some([low, high]) = content.get(8..PREAMBLE) else {
+            return Err(self.malformed(no_header));
         };
         let start = PREAMBLE + usize::from(u16::from_le_bytes([*low, *high]));
-        let header = content.get(..start).filter(|_| start <= HEADER_MAX).ok_or_else(no_header)?;
+        let Some(header) = content.get(..start).filter(|_| start <= HEADER_MAX) else {
+            return Err(self.malformed(no_header));
+        };
         let digits = header[PREAMBLE..].iter().filter(|byte| byte.is_ascii_digit()).count();
         if digits > DIGITS_MAX {
             return Err(self.malformed("its header has dimensions that no run has"));
         }
         let header =
             NpyHeader::from_reader(header).map_err(|error| self.malformed(error.to_string()))?;
-        let plain = match header.dtype() {
-            DType::Plain(number) => format!("{number}") == self.number,
+
+        // Rows of one number may be stored as a list. A table must be stored row by row.
+        let is_expected_type = match header.dtype() {
+            DType::Plain(number_type) => format!("{number_type}") == self.number_type,
             _ => false,
         };
-        let [found, columns] = match (plain, header.order(), header.shape()) {
-            (true, Order::C, &[rows, columns]) => [rows, columns],
-            (true, _, &[rows]) => [rows, 1],
+        let [rows, columns] = match (header.order(), header.shape()) {
+            (Order::C, &[rows, columns]) if is_expected_type => [rows, columns],
+            (_, &[rows]) if is_expected_type => [rows, 1],
             _ => {
-                let number = self.number;
-                let reason = format!("it is no table of numbers {number}, row by row");
+                let number_type = self.number_type;
+                let reason = format!("it is no table of numbers {number_type}, row by row");
                 return Err(self.malformed(reason));
             }
         };
+
         if columns != N as u64 {
             return Err(self.malformed(format!("it has {columns} columns, and needs {N}")));
         }
-        match usize::try_from(found) {
-            Ok(rows) if rows == self.rows => Ok((header, start)),
-            _ => Err(Error::WrongCount {
-                path: self.path.to_owned(),
-                what: self.what,
-                found: usize::try_from(found).unwrap_or(usize::MAX),
-                needed: self.rows,
-            }),
+        let found = usize::try_from(rows).unwrap_or(usize::MAX);
+        if rows != self.row_count as u64 {
+            let (path, what, needed) = (self.path.to_owned(), self.what, self.row_count);
+            return Err(Error::WrongCount { path, what, found, needed });
         }
+        Ok((header, start))
     }
 
+    /// Reads the rows of the array.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is not an array of `row_count` rows of `N` numbers.
     fn read<T: Deserialize + Copy, const N: usize>(&self) -> Result<Vec<[T; N]>, Error> {
-        let of_numbers = self.rows * N * size_of::<T>();
-        let content = self.bytes(of_numbers)?;
+        let number_bytes = self.row_count * N * size_of::<T>();
+        let content = self.read_bytes(number_bytes)?;
         let (header, start) = self.header::<N>(&content)?;
-        let numbers = &content[start..];
-        if numbers.len() != of_numbers {
-            let found = numbers.len();
+        let encoded = &content[start..];
+        if encoded.len() != number_bytes {
+            let found = encoded.len();
             return Err(self.malformed(format!(
-                "its numbers take {found} bytes, and {} {} need {of_numbers}: it is cut off, or something follows",
-                self.rows, self.what
+                "its numbers take {found} bytes, and {} {} need {number_bytes}: it is cut off, or something follows",
+                self.row_count, self.what
             )));
         }
-        let read = NpyFile::with_header(header, numbers).into_vec::<T>();
-        let read = read.map_err(|error| self.malformed(error.to_string()))?;
-        Ok(read.as_chunks::<N>().0.to_vec())
+        let numbers = NpyFile::with_header(header, encoded)
+            .into_vec::<T>()
+            .map_err(|error| self.malformed(error.to_string()))?;
+        Ok(numbers.as_chunks::<N>().0.to_vec())
     }
 
-    /// Returns numbers that are pressures: finite, and not below 0.
-    fn as_pressures(&self, numbers: Vec<f64>) -> Result<Vec<f64>, Error> {
-        let sound = |number: &f64| number.is_finite() && *number >= 0.0;
-        match numbers.iter().position(|number| !sound(number)) {
+    /// Returns `numbers` if all are pressures, which are finite and not below 0.
+    fn check_pressures(&self, numbers: Vec<f64>) -> Result<Vec<f64>, Error> {
+        match numbers.iter().position(|number| !(number.is_finite() && *number >= 0.0)) {
             None => Ok(numbers),
             Some(row) => Err(self.malformed(format!(
                 "row {row} (from 0) is {}, which is no pressure",
@@ -124,40 +137,53 @@ impl Expected<'_> {
     }
 }
 
-/// Reads coordinates in m, which are finite.
+/// Reads `row_count` rows of `N` finite coordinates, in m, from the file `path`. `what` is a word
+/// for the rows.
 pub(crate) fn coordinates<const N: usize>(
     path: &Path,
     what: &'static str,
-    rows: usize,
+    row_count: usize,
 ) -> Result<Vec<[f64; N]>, Error> {
-    let expected = Expected { path, what, rows, number: "<f8" };
-    let all = expected.read::<f64, N>()?;
-    // Written so that NaN fails.
-    let wrong = |row: &[f64; N]| !row.iter().all(|value| value.abs() <= COORDINATE_MAX);
-    match all.iter().position(wrong) {
-        None => Ok(all),
+    let expected = ExpectedArray { path, what, row_count, number_type: "<f8" };
+    let rows = expected.read::<f64, N>()?;
+    // The comparison is written so that NaN fails.
+    match rows.iter().position(|row| !row.iter().all(|value| value.abs() <= COORDINATE_MAX)) {
+        None => Ok(rows),
         Some(row) => Err(expected.malformed(format!(
             "row {row} (from 0) is {:?}, and coordinates are at most {COORDINATE_MAX} m",
-            all[row]
+            rows[row]
         ))),
     }
 }
 
-/// Reads a pressure in Pa for each vertex, in half precision.
-pub(crate) fn pressures(path: &Path, rows: usize) -> Result<Vec<f64>, Error> {
-    let expected = Expected { path, what: "vertices", rows, number: "<f2" };
-    let all = expected.read::<f16, 1>()?;
-    expected.as_pressures(all.into_iter().flatten().map(f64::from).collect())
+/// Reads the pressures of `vertex_count` vertices, in Pa, which the file `path` has in half
+/// precision.
+pub(crate) fn pressures(path: &Path, vertex_count: usize) -> Result<Vec<f64>, Error> {
+    let expected = vertex_array(path, vertex_count, "<f2");
+    let rows = expected.read::<f16, 1>()?;
+    expected.check_pressures(rows.into_iter().flatten().map(f64::from).collect())
 }
 
-/// Reads a pressure in Pa for each vertex, in double precision.
-pub(crate) fn exact_pressures(path: &Path, rows: usize) -> Result<Vec<f64>, Error> {
-    let expected = Expected { path, what: "vertices", rows, number: "<f8" };
-    let all = expected.read::<f64, 1>()?;
-    expected.as_pressures(all.into_iter().flatten().collect())
+/// Reads the pressures of `vertex_count` vertices, in Pa, which the file `path` has in double
+/// precision.
+pub(crate) fn exact_pressures(path: &Path, vertex_count: usize) -> Result<Vec<f64>, Error> {
+    let expected = vertex_array(path, vertex_count, "<f8");
+    let rows = expected.read::<f64, 1>()?;
+    expected.check_pressures(rows.into_iter().flatten().collect())
 }
 
-/// Reads the corners of triangles, not yet checked against their vertices.
-pub(crate) fn corners(path: &Path, rows: usize) -> Result<Vec<[u32; 3]>, Error> {
-    Expected { path, what: "triangles", rows, number: "<u4" }.read()
+/// Returns the array in the file `path` that has one number for each of `vertex_count` vertices.
+fn vertex_array<'a>(
+    path: &'a Path,
+    vertex_count: usize,
+    number_type: &'static str,
+) -> ExpectedArray<'a> {
+    ExpectedArray { path, what: "vertices", row_count: vertex_count, number_type }
+}
+
+/// Reads the corners of `triangle_count` triangles from the file `path`, without comparing them
+/// with the number of vertices.
+pub(crate) fn corners(path: &Path, triangle_count: usize) -> Result<Vec<[u32; 3]>, Error> {
+    let (what, row_count) = ("triangles", triangle_count);
+    ExpectedArray { path, what, row_count, number_type: "<u4" }.read()
 }

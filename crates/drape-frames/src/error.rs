@@ -1,6 +1,6 @@
-//! Error of a folder of frames that cannot be read.
+//! Errors of reading a folder of frames.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Reason why recorded frames cannot be read.
 ///
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The folder holds no run, or one of an older version.
+    /// The folder holds no run, or a run of an older version.
     #[error("{} has no surfaces.json; give the folder that `drape run` wrote its frames to", folder.display())]
     NotARun {
         /// The folder.
@@ -32,7 +32,7 @@ pub enum Error {
         /// Largest length that is read, in bytes.
         limit: u64,
     },
-    /// A file is not as the run wrote it.
+    /// A line of a text file differs from any line that a run writes.
     #[error("{}, line {line}: {reason}; run the scene again", path.display())]
     Malformed {
         /// The file.
@@ -50,12 +50,12 @@ pub enum Error {
         /// Fault, in words.
         reason: String,
     },
-    /// There is no frame of that number.
+    /// The folder has no frame of the given number.
     #[error("{} has no frame {number}; its frames are 0 to {last}", folder.display())]
     NoFrame {
         /// The folder.
         folder: PathBuf,
-        /// Number that was asked for.
+        /// Requested number.
         number: usize,
         /// Number of the last frame.
         last: usize,
@@ -75,14 +75,15 @@ pub enum Error {
     MissingFrame {
         /// The folder.
         folder: PathBuf,
-        /// First file that is missing.
+        /// Name of the first missing file.
         missing: String,
         /// Number of frames in the folder.
         found: usize,
         /// Number of frames that the summary gives, or that the largest frame number implies.
         needed: usize,
     },
-    /// A count differs from that in surfaces.json: the file is cut off, or belongs to another run.
+    /// A count differs from the count in surfaces.json: the file is cut off, or belongs to another
+    /// run.
     #[error("{} has {found} {what}, and surfaces.json says {needed}: it is cut off, or of another run", path.display())]
     WrongCount {
         /// The file.
@@ -94,7 +95,8 @@ pub enum Error {
         /// Number that surfaces.json gives.
         needed: usize,
     },
-    /// A triangle names a vertex of another part, or has other corners than in the first frame.
+    /// A triangle has a vertex of another part as a corner, or its corners differ from the first
+    /// frame.
     #[error("{}: triangle {triangle} has the corners {corners:?} (from 0): {reason}; run the scene again", path.display())]
     BadTriangle {
         /// The file.
@@ -106,4 +108,16 @@ pub enum Error {
         /// Fault, in words.
         reason: &'static str,
     },
+}
+
+impl Error {
+    /// Returns the error of a file or folder `path` that the operating system cannot read.
+    pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+        Error::Unreadable { path: path.to_owned(), reason: error.to_string() }
+    }
+
+    /// Returns the error of a fault in a line of the text file `path`.
+    pub(crate) fn malformed(path: &Path, line: usize, reason: impl Into<String>) -> Error {
+        Error::Malformed { path: path.to_owned(), line, reason: reason.into() }
+    }
 }

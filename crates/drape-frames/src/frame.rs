@@ -1,24 +1,25 @@
-//! Frame: cloth and bodies at one time, as their files have them.
+//! Frame: the positions of cloth and bodies at one time, as the files give them.
 
 use std::path::PathBuf;
 
-/// Cloth and bodies at one time.
+/// Positions of cloth and bodies at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Number of the frame, from 0.
     pub number: usize,
     /// File of the cloth.
     pub file: PathBuf,
-    /// Time, in s; some folders of format 1 give none.
+    /// Time, in s. Some folders of format 1 give no time.
     pub time: Option<f64>,
     /// Growth fraction of the minimum separation, above 0 and at most 1.
     pub growth: f64,
     /// Positions of the vertices of the cloth, panel after panel, in m.
     pub cloth: Vec<[f64; 3]>,
-    /// File of the bodies; none without bodies. Frames between which no body moved have the same file.
+    /// File of the bodies, or `None` in a run without bodies. Frames between which no body moved
+    /// share a file.
     pub bodies_file: Option<PathBuf>,
     /// Positions of the vertices of the bodies, body after body, in m.
     pub bodies: Vec<[f64; 3]>,
-    /// Pressure of contact at each vertex of the cloth, in Pa, where it was stored.
+    /// Pressure of contact at each vertex of the cloth, in Pa, if it was stored.
     pub pressures: Option<Vec<f64>>,
 }

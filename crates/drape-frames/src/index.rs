@@ -7,43 +7,47 @@ use serde::Deserialize;
 use crate::error::Error;
 use crate::text::read_complete_lines;
 
-/// Line of `frames.csv`.
+/// Line of `frames.csv`, which describes one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-pub(crate) struct Entry {
+pub(crate) struct IndexEntry {
     /// Number of the frame, from 0.
     pub(crate) number: usize,
-    /// Its time, in s.
+    /// Time of the frame, in s.
     pub(crate) time: f64,
     /// Growth fraction of the minimum separation, above 0 and at most 1.
     pub(crate) growth: f64,
-    /// Number of the frame whose file has the bodies; none without bodies.
+    /// Number of the frame whose file has the bodies, or `None` in a run without bodies.
     pub(crate) bodies: Option<usize>,
-    /// Number of vertices of the cloth under pressure of contact; none where it was not stored.
+    /// Number of vertices of the cloth under pressure of contact, or `None` if pressures were not
+    /// stored.
     #[serde(default)]
     pub(crate) touched: Option<usize>,
 }
 
-/// Reads the lines of `frames.csv` that are complete: a run that is killed leaves its last one cut.
-pub(crate) fn read(path: &Path) -> Result<Vec<Entry>, Error> {
+/// Reads the complete lines of the file `path`. The last line may be incomplete if the run was
+/// killed.
+pub(crate) fn read(path: &Path) -> Result<Vec<IndexEntry>, Error> {
     let text = read_complete_lines(path)?;
-    let malformed = |line, reason| Error::Malformed { path: path.to_owned(), line, reason };
-    let mut entries: Vec<Entry> = Vec::new();
+    let mut entries: Vec<IndexEntry> = Vec::new();
     let mut table = csv::Reader::from_reader(text.as_bytes());
     for (index, entry) in table.deserialize().enumerate() {
         let line = index + 2;
-        let entry: Entry = entry.map_err(|error| malformed(line, error.to_string()))?;
-        let Entry { number, time, growth, bodies, .. } = entry;
+        let entry: IndexEntry =
+            entry.map_err(|error| Error::malformed(path, line, error.to_string()))?;
+        let IndexEntry { number, time, growth, bodies, .. } = entry;
+
+        // Each line is the next frame, and its bodies were stored with it or earlier.
         if number != index || bodies.is_some_and(|bodies| bodies > number) {
-            return Err(malformed(line, "the frames are not numbered one after the other".into()));
+            let reason = "the frames are not numbered one after the other";
+            return Err(Error::malformed(path, line, reason));
         }
         if !time.is_finite() || entries.last().is_some_and(|last| last.time > time) {
-            return Err(malformed(
-                line,
-                format!("{time} s is no time after that of the frame before"),
-            ));
+            let reason = format!("{time} s is no time after that of the frame before");
+            return Err(Error::malformed(path, line, reason));
         }
         if !(growth > 0.0 && growth <= 1.0) {
-            return Err(malformed(line, format!("{growth} is no fraction of a distance")));
+            let reason = format!("{growth} is no fraction of a distance");
+            return Err(Error::malformed(path, line, reason));
         }
         entries.push(entry);
     }

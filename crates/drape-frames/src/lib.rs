@@ -2,12 +2,18 @@
 //!
 //! # Tour
 //!
-//! [`Recording`] opens a folder and reads a [`Frame`] of it. The [`Manifest`] names the panels and
+//! [`Recording`] opens a folder and reads each [`Frame`]. The [`Manifest`] names the panels and
 //! bodies, the [`Topology`] has their triangles.
 //!
-//! Layers, lowest first: `error`; `text`, `array` and `obj` read files; `manifest`, `topology`, `index`
-//! and `energy_table` are what all frames share; `obj_frames` and `array_frames` read a frame of either
-//! format; `recording` ties them to a folder. `surface` measures surfaces of triangles.
+//! Layers, lowest first:
+//!
+//! * `error`.
+//! * `text`, `array` and `obj` read files.
+//! * `manifest`, `topology`, `index` and `energy_table` are the data that all frames share.
+//! * `obj_frames` and `array_frames` read a frame of either format.
+//! * `recording` reads a folder in either format.
+//!
+//! `surface` measures surfaces of triangles.
 
 mod error;
 
@@ -16,7 +22,7 @@ mod array;
 mod obj;
 mod text;
 
-// What all frames share.
+// Data that all frames share.
 mod energy_table;
 mod index;
 mod manifest;
@@ -34,7 +40,7 @@ mod recording;
 pub use energy_table::EnergyTable;
 pub use error::Error;
 pub use frame::Frame;
-pub use manifest::{Manifest, Part};
+pub use manifest::{Manifest, SurfacePart};
 pub use recording::Recording;
 pub use surface::curvature::curvatures;
 pub use surface::vector;

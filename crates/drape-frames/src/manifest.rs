@@ -1,4 +1,4 @@
-//! Content of `surfaces.json`: the parts of a run and the distances that it promises.
+//! Manifest: the content of `surfaces.json`, the parts of a run and the distances that it promises.
 
 use std::path::Path;
 
@@ -6,28 +6,22 @@ use serde::{Deserialize, Deserializer};
 
 use crate::error::Error;
 
-/// Newest format of a folder that is read here.
-const FORMAT: u64 = 2;
-
-/// Largest number of vertices and triangles of all parts together; more is a fault of the file.
-const COUNT_MAX: usize = 1 << 27;
-
 /// Data that all frames of a run share: the content of `surfaces.json`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Manifest {
     /// Format of the folder: 2 with arrays, 1 with OBJ files.
     pub format: u64,
-    /// Whether contact kept surfaces apart; otherwise only particles met bodies, and no distance was
-    /// promised.
+    /// Whether contact kept surfaces apart. If not, only particles collided with bodies, and no
+    /// distance was promised.
     #[serde(rename = "guarded")]
     pub surface_contact: bool,
     /// Panels of cloth, in the order of the vertices in a frame.
-    pub panels: Vec<Part>,
+    pub panels: Vec<SurfacePart>,
     /// Bodies, in the order of the vertices in a file of bodies.
-    pub bodies: Vec<Part>,
-    /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the cloth,
-    /// above 0 and at most 1.
-    #[serde(rename = "thinned", default = "one")]
+    pub bodies: Vec<SurfacePart>,
+    /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the
+    /// cloth. The fraction is above 0 and at most 1.
+    #[serde(rename = "thinned", default = "full_separation")]
     pub pinch_fraction: f64,
     /// Pairs of cloth vertices that are sewn together and count as one.
     #[serde(rename = "twins", default)]
@@ -39,26 +33,26 @@ pub struct Manifest {
 
 /// Panel or body of a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Part {
+pub struct SurfacePart {
     /// Name in the scene.
     pub name: String,
     /// Number of its vertices.
     pub vertices: usize,
     /// Number of its triangles.
     pub triangles: usize,
-    /// Half of the activation distance: below the sum of two halves two parts repel each other, in m; 0
-    /// where nothing was promised.
+    /// Half of the activation distance, in m. Two parts repel each other if they are closer than
+    /// the sum of their halves. 0 if no distance was promised.
     #[serde(rename = "reach", default)]
     pub half_activation_distance: f64,
-    /// Half of the minimum separation: two parts stay the sum of two halves apart, in m; 0 where nothing
-    /// was promised.
+    /// Half of the minimum separation, in m. The distance of two parts is at least the sum of their
+    /// halves. 0 if no distance was promised.
     #[serde(rename = "separation", default)]
     pub half_min_separation: f64,
     /// Name of the fabric of a panel, empty for a body and in format 1.
     #[serde(default)]
     pub fabric: String,
-    /// Direction of the weft in the panel's own frame, whose x is its width and y its height; the warp
-    /// is a quarter turn anticlockwise from it.
+    /// Direction of the weft in the coordinates of the panel, whose x is its width and y its
+    /// height. The warp is a quarter turn anticlockwise from the weft.
     #[serde(default = "along_width")]
     pub weft: [f64; 2],
     /// Colour in sRGB that the scene states for the fabric of a panel; none where the scene states none,
@@ -67,12 +61,12 @@ pub struct Part {
     pub fabric_colour: Option<[u8; 3]>,
 }
 
-/// Pinch fraction of a run whose file gives none: the full separation holds everywhere.
-fn one() -> f64 {
+/// Returns the default of `pinch_fraction`, with which the full separation holds everywhere.
+fn full_separation() -> f64 {
     1.0
 }
 
-/// Direction of the weft of a body, and in format 1.
+/// Returns the default of `weft`, the direction of the weft of a body and of a panel in format 1.
 fn along_width() -> [f64; 2] {
     [1.0, 0.0]
 }
@@ -91,8 +85,11 @@ fn hex_colour<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u8; 3]>, D::
     Ok(Some([red, green, blue]))
 }
 
-impl Part {
-    /// Returns the point in the panel's own frame, in m, that has some weft and warp coordinates.
+impl SurfacePart {
+    /// Returns the point of the panel with the weft coordinate `u` and the warp coordinate `v`, in
+    /// m.
+    ///
+    /// The point has the coordinates of the panel, whose x is its width and y its height.
     #[must_use]
     pub fn pattern_point(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.weft;
@@ -101,55 +98,65 @@ impl Part {
 }
 
 impl Manifest {
+    /// Parses and checks `text`, the content of the file `path`.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, Error> {
-        let malformed = |line, reason| Error::Malformed { path: path.to_owned(), line, reason };
+        /// Newest format that this crate reads.
+        const FORMAT: u64 = 2;
+
         let manifest: Manifest = serde_json::from_str(text)
-            .map_err(|error| malformed(error.line(), error.to_string()))?;
+            .map_err(|error| Error::malformed(path, error.line(), error.to_string()))?;
         if !(1..=FORMAT).contains(&manifest.format) {
             let (format, known) = (manifest.format, FORMAT);
             return Err(Error::UnknownFormat { path: path.to_owned(), format, known });
         }
-        let parts = || manifest.panels.iter().chain(&manifest.bodies);
-        let mut total = 0_usize;
-        for part in parts() {
-            total = total.saturating_add(part.vertices).saturating_add(part.triangles);
-            let valid = |length: f64| (0.0..=1.0).contains(&length);
-            if !valid(part.half_activation_distance) || !valid(part.half_min_separation) {
-                return Err(malformed(1, format!("\"{}\" has no distances", part.name)));
-            }
-            let [x, y] = part.weft;
-            if !((x.hypot(y) - 1.0).abs() < 1e-6) {
-                return Err(malformed(
-                    1,
-                    format!("the weft of \"{}\" has no direction", part.name),
-                ));
-            }
-        }
-        if !(manifest.pinch_fraction > 0.0 && manifest.pinch_fraction <= 1.0) {
-            return Err(malformed(
-                1,
-                format!("{} is no fraction of a distance", manifest.pinch_fraction),
-            ));
-        }
-        if total > COUNT_MAX {
-            return Err(malformed(1, format!("{total} vertices and triangles are too many")));
-        }
-        let cloth: usize = manifest.panels.iter().map(|panel| panel.vertices).sum();
-        let mut sewn = manifest.seam_pairs.iter().flatten().chain(manifest.ties.iter().flatten());
-        if sewn.any(|&vertex| vertex as usize >= cloth) {
-            return Err(malformed(1, "a vertex is sewn that does not exist".to_owned()));
-        }
+        manifest.check().map_err(|reason| Error::malformed(path, 1, reason))?;
         Ok(manifest)
     }
 
-    /// Returns the numbers of vertices and triangles of the cloth.
-    pub(crate) fn cloth_counts(&self) -> Counts {
-        Counts::of(&self.panels)
+    /// Checks ranges and counts, so that a wrong file asks for no memory that it does not need.
+    ///
+    /// # Errors
+    /// The fault, in words.
+    fn check(&self) -> Result<(), String> {
+        /// Largest number of vertices and triangles of all parts together.
+        const COUNT_MAX: usize = 1 << 27;
+
+        let mut total = 0_usize;
+        for part in self.panels.iter().chain(&self.bodies) {
+            total = total.saturating_add(part.vertices).saturating_add(part.triangles);
+            let distances = [part.half_activation_distance, part.half_min_separation];
+            if !distances.iter().all(|distance| (0.0..=1.0).contains(distance)) {
+                return Err(format!("\"{}\" has no distances", part.name));
+            }
+            let [x, y] = part.weft;
+            if !((x.hypot(y) - 1.0).abs() < 1e-6) {
+                return Err(format!("the weft of \"{}\" has no direction", part.name));
+            }
+        }
+
+        if !(self.pinch_fraction > 0.0 && self.pinch_fraction <= 1.0) {
+            return Err(format!("{} is no fraction of a distance", self.pinch_fraction));
+        }
+        if total > COUNT_MAX {
+            return Err(format!("{total} vertices and triangles are too many"));
+        }
+
+        let cloth_vertices: usize = self.panels.iter().map(|panel| panel.vertices).sum();
+        let mut sewn = self.seam_pairs.iter().flatten().chain(self.ties.iter().flatten());
+        if sewn.any(|&vertex| vertex as usize >= cloth_vertices) {
+            return Err("a vertex is sewn that does not exist".to_owned());
+        }
+        Ok(())
     }
 
-    /// Returns the numbers of vertices and triangles of all bodies.
+    /// Returns the [`Counts`] of the cloth.
+    pub(crate) fn cloth_counts(&self) -> Counts {
+        Counts::sum(&self.panels)
+    }
+
+    /// Returns the [`Counts`] of all bodies.
     pub(crate) fn body_counts(&self) -> Counts {
-        Counts::of(&self.bodies)
+        Counts::sum(&self.bodies)
     }
 }
 
@@ -161,9 +168,12 @@ pub(crate) struct Counts {
 }
 
 impl Counts {
-    fn of(parts: &[Part]) -> Counts {
-        let sum = |of: fn(&Part) -> usize| parts.iter().map(of).sum();
-        Counts { vertices: sum(|part| part.vertices), triangles: sum(|part| part.triangles) }
+    /// Returns the numbers of vertices and triangles of all `parts`.
+    fn sum(parts: &[SurfacePart]) -> Counts {
+        Counts {
+            vertices: parts.iter().map(|part| part.vertices).sum(),
+            triangles: parts.iter().map(|part| part.triangles).sum(),
+        }
     }
 }
 
@@ -174,7 +184,7 @@ mod tests {
     #[test]
     fn pattern_points_lie_along_the_weft_and_a_quarter_turn_anticlockwise_from_it() {
         for weft in [[1.0, 0.0], [0.6, 0.8], [0.0, 1.0], [-0.8, 0.6]] {
-            let part = Part {
+            let part = SurfacePart {
                 name: "front".to_owned(),
                 vertices: 3,
                 triangles: 1,

@@ -1,4 +1,4 @@
-//! Files of format 1: frames as OBJ, each with its own triangles and material coordinates.
+//! Files of format 1: each frame is an OBJ file with triangles and material coordinates.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -9,28 +9,27 @@ use crate::manifest::Manifest;
 use crate::obj::Obj;
 use crate::topology::{Topology, check_corners};
 
-/// Frame as its files give it.
-struct Stored {
+/// Content of the files of a frame.
+struct FrameFiles {
+    /// File of the cloth.
     path: PathBuf,
     cloth: Obj,
+    /// File of the bodies, if the run has bodies.
     bodies_path: Option<PathBuf>,
     bodies: Obj,
 }
 
-/// Returns the name of the file of a frame.
+/// Returns the name of the file of frame `number`.
 pub(crate) fn name(number: usize) -> String {
     format!("frame-{number:05}.obj")
 }
 
-/// Returns the numbers of the frames of a folder in their order.
+/// Returns the numbers of the frames in `folder` in ascending order.
 pub(crate) fn numbers(folder: &Path) -> Result<Vec<usize>, Error> {
-    let unreadable = |error: std::io::Error| {
-        let reason = error.to_string();
-        Error::Unreadable { path: folder.to_owned(), reason }
-    };
+    let entries = std::fs::read_dir(folder).map_err(|error| Error::unreadable(folder, &error))?;
     let mut frames = BTreeSet::new();
-    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
+    for entry in entries {
+        let path = entry.map_err(|error| Error::unreadable(folder, &error))?.path();
         let file = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         let number = file.strip_prefix("frame-").and_then(|rest| rest.strip_suffix(".obj"));
         if let Some(number) = number.and_then(|number| number.parse().ok())
@@ -42,38 +41,39 @@ pub(crate) fn numbers(folder: &Path) -> Result<Vec<usize>, Error> {
     Ok(frames.into_iter().collect())
 }
 
-/// Reads the topology of a folder from its first frame.
+/// Reads the topology of a run from the first frame in `folder`.
 pub(crate) fn topology(folder: &Path, manifest: &Manifest) -> Result<Topology, Error> {
-    let Stored { cloth, bodies, .. } = Stored::read(folder, manifest, 0)?;
+    let FrameFiles { cloth, bodies, .. } = FrameFiles::read(folder, manifest, 0)?;
     let (material, cloth) = (cloth.material, cloth.triangles);
     Ok(Topology { material, cloth, bodies: bodies.triangles })
 }
 
-/// Reads a frame, which must have the topology of the first one.
+/// Reads frame `number` from `folder`. The frame must have the given `topology`.
 pub(crate) fn read(
     folder: &Path,
     manifest: &Manifest,
     topology: &Topology,
     number: usize,
 ) -> Result<Frame, Error> {
-    Stored::read(folder, manifest, number)?.into_frame(number, topology)
+    FrameFiles::read(folder, manifest, number)?.into_frame(number, topology)
 }
 
-impl Stored {
-    /// Reads the files of a frame.
-    fn read(folder: &Path, manifest: &Manifest, number: usize) -> Result<Stored, Error> {
+impl FrameFiles {
+    /// Reads the files of frame `number` and compares them with the counts in `manifest`.
+    fn read(folder: &Path, manifest: &Manifest, number: usize) -> Result<FrameFiles, Error> {
         let path = folder.join(name(number));
         let cloth = Obj::read(&path)?;
         let counts = manifest.cloth_counts();
-        needed(&path, "vertices", [cloth.vertices.len(), counts.vertices])?;
-        needed(&path, "material coordinates", [cloth.material.len(), counts.vertices])?;
-        needed(&path, "triangles", [cloth.triangles.len(), counts.triangles])?;
+        check_count(&path, "vertices", [cloth.vertices.len(), counts.vertices])?;
+        check_count(&path, "material coordinates", [cloth.material.len(), counts.vertices])?;
+        check_count(&path, "triangles", [cloth.triangles.len(), counts.triangles])?;
         check_corners(&path, &cloth.triangles, &manifest.panels)?;
+
         let (mut bodies_path, mut bodies) = (None, Obj::default());
         if !manifest.bodies.is_empty() {
             let name = cloth.bodies.as_deref().unwrap_or_default();
             let digits = name.strip_prefix("bodies-").and_then(|rest| rest.strip_suffix(".obj"));
-            // Any other name could be a path that leads out of the folder.
+            // A name of another form could be a path that leads out of the folder.
             if !digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit())) {
                 let reason =
                     format!("a frame names the file of its bodies, and \"{name}\" is none");
@@ -82,25 +82,27 @@ impl Stored {
             let path = folder.join(name);
             bodies = Obj::read(&path)?;
             let counts = manifest.body_counts();
-            needed(&path, "vertices", [bodies.vertices.len(), counts.vertices])?;
-            needed(&path, "triangles", [bodies.triangles.len(), counts.triangles])?;
+            check_count(&path, "vertices", [bodies.vertices.len(), counts.vertices])?;
+            check_count(&path, "triangles", [bodies.triangles.len(), counts.triangles])?;
             check_corners(&path, &bodies.triangles, &manifest.bodies)?;
             bodies_path = Some(path);
         }
-        Ok(Stored { path, cloth, bodies_path, bodies })
+
+        Ok(FrameFiles { path, cloth, bodies_path, bodies })
     }
 
-    /// Returns the frame, if it has the topology of the first one.
+    /// Returns frame `number`, if the files have the given `topology`.
     fn into_frame(self, number: usize, topology: &Topology) -> Result<Frame, Error> {
-        let Stored { path, cloth, bodies_path, bodies } = self;
-        same_triangles(&path, &cloth.triangles, &topology.cloth)?;
+        let FrameFiles { path, cloth, bodies_path, bodies } = self;
+        check_triangles(&path, &cloth.triangles, &topology.cloth)?;
         if let Some(path) = &bodies_path {
-            same_triangles(path, &bodies.triangles, &topology.bodies)?;
+            check_triangles(path, &bodies.triangles, &topology.bodies)?;
         }
         if cloth.material != topology.material {
             let reason = "the material coordinates are not those of the first frame".to_owned();
             return Err(Error::Malformed { path, line: 1, reason });
         }
+
         Ok(Frame {
             number,
             file: path,
@@ -114,8 +116,8 @@ impl Stored {
     }
 }
 
-/// Refuses triangles that are not those of the first frame.
-fn same_triangles(path: &Path, triangles: &[[u32; 3]], first: &[[u32; 3]]) -> Result<(), Error> {
+/// Checks that `triangles`, from the file `path`, equal the triangles of the first frame.
+fn check_triangles(path: &Path, triangles: &[[u32; 3]], first: &[[u32; 3]]) -> Result<(), Error> {
     match (0..triangles.len()).find(|&t| triangles[t] != first[t]) {
         None => Ok(()),
         Some(triangle) => {
@@ -126,10 +128,11 @@ fn same_triangles(path: &Path, triangles: &[[u32; 3]], first: &[[u32; 3]]) -> Re
     }
 }
 
-/// Refuses a file that has another number of items than the manifest gives.
-fn needed(path: &Path, what: &'static str, [found, needed]: [usize; 2]) -> Result<(), Error> {
-    match found == needed {
-        true => Ok(()),
-        false => Err(Error::WrongCount { path: path.to_owned(), what, found, needed }),
+/// Checks that the file `path` has the number `needed` of items, for which `what` is a word.
+fn check_count(path: &Path, what: &'static str, [found, needed]: [usize; 2]) -> Result<(), Error> {
+    if found == needed {
+        Ok(())
+    } else {
+        Err(Error::WrongCount { path: path.to_owned(), what, found, needed })
     }
 }

@@ -1,4 +1,4 @@
-//! Text files of a run.
+//! Text files of a run, and the opening of files.
 
 use std::fs::File;
 use std::io::Read;
@@ -6,10 +6,7 @@ use std::path::Path;
 
 use crate::error::Error;
 
-/// Longest file that is read, in bytes; 4 million particles take a quarter of it.
-const BYTES_MAX: u64 = 1 << 32;
-
-/// Reads the text of a file, whose last line must be complete.
+/// Reads the text of the file `path`, whose last line must be complete.
 pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     let text = read(path)?;
     if !text.ends_with('\n') {
@@ -19,14 +16,15 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     Ok(text)
 }
 
-/// Reads the complete lines of a file.
+/// Reads the complete lines of the file `path`. A last line without a line break is left out.
 pub(crate) fn read_complete_lines(path: &Path) -> Result<String, Error> {
     let mut text = read(path)?;
     text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
     Ok(text)
 }
 
-/// Opens a regular file: a pipe would wait for its writer, and a device may never end.
+/// Opens the file `path`, which must be a regular file: a pipe would wait for its writer, and a
+/// device may never end.
 pub(crate) fn open(path: &Path) -> std::io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(std::io::Error::other("it is no regular file"));
@@ -34,17 +32,20 @@ pub(crate) fn open(path: &Path) -> std::io::Result<File> {
     File::open(path)
 }
 
+/// Reads the text of the file `path`.
 fn read(path: &Path) -> Result<String, Error> {
-    let fail = |error: std::io::Error| {
-        let reason = error.to_string();
-        Error::Unreadable { path: path.to_owned(), reason }
-    };
-    let file = open(path).map_err(fail)?;
-    let bytes = file.metadata().map_err(fail)?.len();
+    /// Size of the largest file that is read, in bytes. A frame of 4 million particles takes a
+    /// quarter.
+    const BYTES_MAX: u64 = 1 << 32;
+
+    let file = open(path).map_err(|error| Error::unreadable(path, &error))?;
+    let bytes = file.metadata().map_err(|error| Error::unreadable(path, &error))?.len();
     if bytes > BYTES_MAX {
         return Err(Error::TooLarge { path: path.to_owned(), bytes, limit: BYTES_MAX });
     }
     let mut text = String::new();
-    file.take(BYTES_MAX).read_to_string(&mut text).map_err(fail)?;
+    file.take(BYTES_MAX)
+        .read_to_string(&mut text)
+        .map_err(|error| Error::unreadable(path, &error))?;
     Ok(text)
 }

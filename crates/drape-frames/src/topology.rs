@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::manifest::Part;
+use crate::manifest::SurfacePart;
 
 /// Triangles and material coordinates that all frames share.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,29 +16,34 @@ pub struct Topology {
     pub bodies: Vec<[u32; 3]>,
 }
 
-/// Refuses triangles whose corners are not three different vertices of their own part.
+/// Checks that the corners of each of `triangles` are three different vertices of its part.
+///
+/// `triangles` are the triangles of all `parts`, part after part, from the file `path`.
+///
+/// # Errors
+/// [`Error::BadTriangle`] for the first triangle that fails.
 pub(crate) fn check_corners(
     path: &Path,
     triangles: &[[u32; 3]],
-    parts: &[Part],
+    parts: &[SurfacePart],
 ) -> Result<(), Error> {
-    let (mut vertex, mut triangle) = (0, 0);
+    let (mut first_vertex, mut first_triangle) = (0, 0);
     for part in parts {
-        let own = vertex..vertex + part.vertices;
-        let range = triangles.iter().enumerate().skip(triangle).take(part.triangles);
-        for (index, &corners) in range {
+        let vertices = first_vertex..first_vertex + part.vertices;
+        let of_part = triangles.iter().enumerate().skip(first_triangle).take(part.triangles);
+        for (triangle, &corners) in of_part {
             let [a, b, c] = corners;
             let reason = if a == b || b == c || c == a {
                 "two are the same"
-            } else if !corners.iter().all(|&corner| own.contains(&(corner as usize))) {
+            } else if !corners.iter().all(|&corner| vertices.contains(&(corner as usize))) {
                 "not all are vertices of its part"
             } else {
                 continue;
             };
             let path = path.to_owned();
-            return Err(Error::BadTriangle { path, triangle: index, corners, reason });
+            return Err(Error::BadTriangle { path, triangle, corners, reason });
         }
-        (vertex, triangle) = (own.end, triangle + part.triangles);
+        (first_vertex, first_triangle) = (vertices.end, first_triangle + part.triangles);
     }
     Ok(())
 }

@@ -167,8 +167,8 @@ fn a_folder_of_an_older_version_has_the_pressures_of_its_last_frame() {
         let recording = Recording::open(folder.path()).unwrap();
         let pressures = |number: usize| recording.frame(number).unwrap().pressures;
         assert!(recording.has_pressures());
-        assert_eq!(pressures(recording.frames() - 1), Some(vec![0.0, 0.1, 0.0]));
-        assert!(recording.frames() == 1 || pressures(0).is_none());
+        assert_eq!(pressures(recording.frame_count() - 1), Some(vec![0.0, 0.1, 0.0]));
+        assert!(recording.frame_count() == 1 || pressures(0).is_none());
     }
 }
 
@@ -179,7 +179,10 @@ fn what_a_killed_run_listed_is_read() {
     write(folder.path(), "frames.csv", list.as_bytes());
     write(folder.path(), "frame-00001.npy", b"half");
     let recording = Recording::open(folder.path()).unwrap();
-    assert_eq!((recording.frames(), recording.ended(), recording.time(0)), (1, false, Some(0.5)));
+    assert_eq!(
+        (recording.frame_count(), recording.ended(), recording.time(0)),
+        (1, false, Some(0.5))
+    );
     assert!(matches!(recording.frame(1), Err(Error::NoFrame { last: 0, .. })));
     write(folder.path(), "summary.json", b"{ \"frames\": 2 }\n");
     let error = Recording::open(folder.path()).unwrap_err().to_string();

@@ -4,14 +4,15 @@ use crate::dahl::Dahl;
 use crate::response::Response;
 use crate::slip::Slip;
 
-/// Loads of the two elements of a [`BlimanSorine`] friction, in the unit of the load: its memory.
+/// Loads of the two elements of a [`BlimanSorine`] friction, in the unit of the load. The loads are
+/// the memory of the friction.
 pub type Loads = [f64; 2];
 
 /// Bliman–Sorine friction: one or two [`Dahl`] elements in parallel.
 ///
 /// * First order: one element.
-/// * Second order \[BS95; NB04, eq. 2\]: a fast element of plateau `$f_1$` and length `$\eta x_f$` and
-///   a slow, negative one of plateau `$-f_2$` and length `$x_f$`, with `$f_1 > f_2 \ge 0$` and
+/// * Second order \[BS95; NB04, eq. 2\]: a fast element of plateau `$f_1$` and length `$\eta x_f$`
+///   and a slow, negative one of plateau `$-f_2$` and length `$x_f$`, with `$f_1 > f_2 \ge 0$` and
 ///   `$0 < \eta < 1$`. From rest the load is
 ///   `$F = f_1\left(1 - e^{-u/\eta x_f}\right) - f_2\left(1 - e^{-u/x_f}\right)$`: it overshoots
 ///   (stiction) and settles at `$f_1 - f_2$` (the Stribeck drop).
@@ -28,7 +29,7 @@ pub type Loads = [f64; 2];
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlimanSorine {
-    /// The elements; one with a plateau of zero is absent.
+    /// The two elements. An element with a plateau of zero has no effect.
     pub elements: [Dahl; 2],
 }
 
@@ -45,33 +46,36 @@ impl BlimanSorine {
         Self::parallel(Dahl::NONE, Dahl::NONE)
     }
 
-    /// Returns one element with the given plateau (unit of the load) and friction length (unit of the
-    /// deformation).
+    /// Returns the friction of one element with the given `plateau` (in the unit of the load) and
+    /// friction `length` (in the unit of the deformation).
     #[must_use]
     pub fn first_order(plateau: f64, length: f64) -> Self {
         Self::parallel(Dahl::new(plateau, length), Dahl::NONE)
     }
 
-    /// Returns a fast element less a slow one: plateaus `fast_plateau` > `slow_plateau` ≥ 0 (unit of
-    /// the load), lengths `ratio × length` and `length` (unit of the deformation), 0 < `ratio` < 1.
+    /// Returns the friction of a fast element and a slow element of opposite sign.
+    ///
+    /// The plateaus are `fast_plateau` > `slow_plateau` ≥ 0 (in the unit of the load). The friction
+    /// lengths are `ratio × length` and `length` (in the unit of the deformation) with
+    /// 0 < `ratio` < 1.
     #[must_use]
     pub fn second_order(fast_plateau: f64, slow_plateau: f64, ratio: f64, length: f64) -> Self {
         Self::parallel(Dahl::new(fast_plateau, ratio * length), Dahl::new(-slow_plateau, length))
     }
 
-    /// Returns two elements in parallel.
+    /// Returns the friction of the elements `first` and `second` in parallel.
     #[must_use]
     pub fn parallel(first: Dahl, second: Dahl) -> Self {
         Self { elements: [first, second] }
     }
 
-    /// Plateau that a long slip reaches, in the unit of the load.
+    /// Returns the load that a long slip reaches, in the unit of the load.
     #[must_use]
     pub fn plateau(&self) -> f64 {
         self.elements[0].plateau + self.elements[1].plateau
     }
 
-    /// Returns the loads of the elements at the end of a piece, in the unit of the load.
+    /// Returns the loads of the elements at the end of the piece `slip` that began with `loads`.
     #[must_use]
     pub fn advance(&self, loads: Loads, slip: impl Into<Slip>) -> Loads {
         let slip = slip.into();
@@ -79,9 +83,9 @@ impl BlimanSorine {
         [first.advance(loads[0], slip), second.advance(loads[1], slip)]
     }
 
-    /// Returns the total load at the end of a piece and its derivative with respect to the amount of
-    /// the piece, in the unit of the load and in load per deformation. See [`Dahl::respond`] for a
-    /// reversal.
+    /// Returns the total load at the end of the piece `slip` that began with `loads`, and the
+    /// derivative of this load with respect to `slip.amount`, in load per deformation. See
+    /// [`Dahl::respond`] for a reversal.
     #[must_use]
     pub fn respond(&self, loads: Loads, slip: impl Into<Slip>) -> Response {
         let slip = slip.into();
@@ -90,7 +94,8 @@ impl BlimanSorine {
         Response { load: first.load + second.load, tangent: first.tangent + second.tangent }
     }
 
-    /// Returns the work of the total load over a piece, in load times deformation. See [`Dahl::work`].
+    /// Returns the work of the total load over the piece `slip` that began with `loads`, in load
+    /// times deformation. See [`Dahl::work`].
     #[must_use]
     pub fn work(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -98,14 +103,15 @@ impl BlimanSorine {
         first.work(loads[0], slip) + second.work(loads[1], slip)
     }
 
-    /// Energy that the elements return when unloaded, in load times deformation.
+    /// Returns the energy that the elements give back when they are unloaded from `loads`, in load
+    /// times deformation.
     #[must_use]
     pub fn stored(&self, loads: Loads) -> f64 {
         self.elements[0].stored(loads[0]) + self.elements[1].stored(loads[1])
     }
 
-    /// Returns the energy dissipated over a piece, in load times deformation. See
-    /// [`Dahl::dissipated`].
+    /// Returns the energy that is dissipated over the piece `slip` that began with `loads`, in load
+    /// times deformation. See [`Dahl::dissipated`].
     #[must_use]
     pub fn dissipated(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();

@@ -3,7 +3,7 @@
 use crate::response::Response;
 use crate::slip::Slip;
 
-/// Dahl friction element: the load rises like that of a spring and saturates at a plateau.
+/// Dahl friction element, whose load rises like the load of a spring and saturates at a plateau.
 ///
 /// Along a path of length `$u = \int|\mathrm{d}q|$` in the direction `$\sigma = \pm 1$`, with the
 /// plateau `$F_c$`, the friction length `$x_f$` and the weight `$w$` of the plateau,
@@ -12,19 +12,20 @@ use crate::slip::Slip;
 /// \frac{\mathrm{d}F}{\mathrm{d}u} = \frac{\sigma F_c\,w(u) - F}{x_f}
 /// ```
 ///
-/// This is Dahl's model with exponent one \[Dahl68\], the first-order model of \[BS95\] and eq. 1 of
-/// \[NB04\]; the rate model of \[THK03, eq. 3\] is the same with `$D_1 = 2F_c$` and
-/// `$\alpha = 1/x_f$`. Every method returns the exact solution for a weight that is linear along the
-/// piece; for `$w = 1$` and a slip `$\Delta q$`
+/// This is Dahl's model with exponent one \[Dahl68\], the first-order model of \[BS95\] and eq. 1
+/// of \[NB04\]. The rate model of \[THK03, eq. 3\] becomes this model with `$D_1 = 2F_c$` and
+/// `$\alpha = 1/x_f$`. Every method returns the exact solution for a weight that is linear along
+/// the piece. For `$w = 1$` and a slip `$\Delta q$` the load changes from `$F_0$` to
 ///
 /// ```math
 /// F_1 = \sigma F_c + (F_0 - \sigma F_c)\,e^{-|\Delta q|/x_f}
 /// ```
 ///
-/// so two half steps equal one step, and the result does not depend on how a path is cut.
+/// Two half steps therefore equal one step, and the result does not depend on how a path is
+/// divided.
 ///
-/// The caller chooses the units of load and deformation: N/m and a ratio for the tension of a yarn, N
-/// and 1/m for a bending moment per width.
+/// The caller chooses the units of load and deformation: N/m and a ratio for the tension of a yarn,
+/// N and 1/m for a bending moment per width.
 ///
 /// ```
 /// use drape_hysteresis::Dahl;
@@ -36,17 +37,19 @@ use crate::slip::Slip;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dahl {
-    /// Coulomb plateau `$F_c$`, in the unit of the load. Zero switches the element off; it is
-    /// negative only in the slow element of a second-order model.
+    /// Coulomb plateau `$F_c$`, in the unit of the load. Zero switches the element off. Only the
+    /// slow element of a second-order model has a negative plateau.
     pub plateau: f64,
-    /// Friction length `$x_f$`, in the unit of the deformation, greater than 0: up to it the surfaces
-    /// hardly slide (pre-sliding).
+    /// Friction length `$x_f$`, in the unit of the deformation, greater than 0. The surfaces hardly
+    /// slide over a shorter path (pre-sliding).
     pub length: f64,
 }
 
-/// Factors of the load at the start that are kept and lost over a piece.
+/// Change of the load at the start of a piece over the piece.
 struct Decay {
+    /// Fraction of the load that is kept.
     kept: f64,
+    /// Fraction of the load that is lost, `1.0 - kept`.
     lost: f64,
 }
 
@@ -54,25 +57,27 @@ impl Dahl {
     /// Element without friction.
     pub const NONE: Self = Self { plateau: 0.0, length: 1.0 };
 
-    /// Returns an element with the given plateau (unit of the load) and friction length (unit of the
-    /// deformation).
+    /// Returns an element with the given `plateau` (in the unit of the load) and friction `length`
+    /// (in the unit of the deformation).
     #[must_use]
     pub fn new(plateau: f64, length: f64) -> Self {
         Self { plateau, length }
     }
 
-    /// Stiffness at the start of a loading, `$F_c/x_f$`, in load per deformation.
+    /// Returns the stiffness at the start of a loading, `$F_c/x_f$`, in load per deformation.
     #[must_use]
     pub fn presliding_stiffness(&self) -> f64 {
         self.plateau / self.length
     }
 
+    /// Returns the decay of the load over a piece of the given `amount`.
     fn decay(&self, amount: f64) -> Decay {
         let lost = -(-amount.abs() / self.length).exp_m1();
         Decay { kept: 1.0 - lost, lost }
     }
 
-    /// Returns the load at the end of a piece that began with `load`, in the unit of the load.
+    /// Returns the load at the end of the piece `slip` that began with `load`, in the unit of the
+    /// load.
     #[must_use]
     pub fn advance(&self, load: f64, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -86,11 +91,11 @@ impl Dahl {
         load * kept + plateau * (slip.weight_from * lost + ramp * lag)
     }
 
-    /// Returns the load at the end of a piece and its derivative with respect to the amount of the
-    /// piece, in the unit of the load and in load per deformation.
+    /// Returns the load at the end of the piece `slip` that began with `load`, and the derivative
+    /// of this load with respect to `slip.amount`, in load per deformation.
     ///
-    /// At a reversal the derivative has two values: an amount of `+0.0` gives the one for an
-    /// increasing deformation, `-0.0` the other.
+    /// At a reversal the derivative has two values. An amount of `+0.0` gives the derivative for an
+    /// increasing deformation, and `-0.0` gives the derivative for a decreasing deformation.
     #[must_use]
     pub fn respond(&self, load: f64, slip: impl Into<Slip>) -> Response {
         let slip = slip.into();
@@ -102,10 +107,11 @@ impl Dahl {
         Response { load: end, tangent }
     }
 
-    /// Returns the work of the load over a piece, `$\int F\,\mathrm{d}q$`, in load times deformation.
+    /// Returns the work of the load over the piece `slip` that began with `load`,
+    /// `$\int F\,\mathrm{d}q$`, in load times deformation.
     ///
-    /// With the load at the start of a time step held fixed it is the potential of the element within
-    /// the step: its derivative with respect to the amount is [`Dahl::advance`].
+    /// If `load` is the load at the start of a time step, the work is the potential of the element
+    /// within the step: its derivative with respect to `slip.amount` is [`Dahl::advance`].
     #[must_use]
     pub fn work(&self, load: f64, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -122,18 +128,20 @@ impl Dahl {
         magnitude.copysign(magnitude * slip.amount)
     }
 
-    /// Energy that the element returns when it is unloaded, `$F^2 x_f / 2F_c$`, in load times
-    /// deformation.
+    /// Returns the energy that the element gives back when it is unloaded from `load`,
+    /// `$F^2 x_f / 2F_c$`, in load times deformation.
     #[must_use]
     pub fn stored(&self, load: f64) -> f64 {
         if self.plateau == 0.0 { 0.0 } else { 0.5 * load * load * self.length / self.plateau }
     }
 
-    /// Returns the energy dissipated over a piece, [`Dahl::work`] less the change of
-    /// [`Dahl::stored`], in load times deformation.
+    /// Returns the energy that is dissipated over the piece `slip` that began with `load`: the work
+    /// ([`Dahl::work`]) less the change of the stored energy ([`Dahl::stored`]), in load times
+    /// deformation.
     ///
-    /// With a weight of one it is `$\int F^2/F_c\,\mathrm{d}u \ge 0$`. Under a varying weight it may be
-    /// negative over part of a cycle; over every closed cycle it is positive.
+    /// With a weight of one the energy is `$\int F^2/F_c\,\mathrm{d}u \ge 0$`. With a varying
+    /// weight the energy may be negative over part of a cycle, but is positive over every closed
+    /// cycle.
     #[must_use]
     pub fn dissipated(&self, load: f64, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();

@@ -1,31 +1,33 @@
-//! Exponential in straight arithmetic, for the SIMD loops of the prepared elements.
-
-/// Argument below which the result is −1 to the last bit.
-const LEAST: f64 = -40.0;
-
-/// 1.5 · 2⁵², whose sum with a number has the rounded number in its last bits, plus the bias of an
-/// exponent.
-const ROUNDER: f64 = 6_755_399_441_055_744.0 + 1023.0;
-
-/// Natural logarithm of 2 in two parts; the first ends in enough zeros for its multiples to be exact.
-const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
-const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+//! Exponential function without branches, for the SIMD loops of the prepared elements.
 
 /// Returns `$e^x - 1$` for `$x \le 0$`, without branches, so that a loop over it is vectorised.
 ///
-/// With `$x = k\ln 2 + r$` and `$|r| \le \tfrac12\ln 2$` the result is `$2^k(e^r - 1) + (2^k - 1)$`. The
-/// Taylor polynomial of order 13 is off by at most `$2\times10^{-17}$` of `$e^r - 1$`; the relative error
-/// of the result is below `$5\times10^{-16}$`, also near zero. NaN stays NaN.
+/// With `$x = k\ln 2 + r$` and `$|r| \le \tfrac12\ln 2$` the result is
+/// `$2^k(e^r - 1) + (2^k - 1)$`. The Taylor polynomial of order 13 has an error of at most
+/// `$2\times10^{-17}$` of `$e^r - 1$`. The relative error of the result is below
+/// `$5\times10^{-16}$`, also near zero. The result for NaN is NaN.
 #[inline(always)]
 #[must_use]
 pub fn exp_m1(x: f64) -> f64 {
-    // Not `max`, so that NaN stays NaN.
+    /// Argument below which the result is −1 to the last bit.
+    const LEAST: f64 = -40.0;
+    /// 1.5 · 2⁵² plus the bias of an exponent. A number plus 1.5 · 2⁵² has the rounded number in
+    /// its last bits.
+    const ROUNDER: f64 = 6_755_399_441_055_744.0 + 1023.0;
+    /// High part of the natural logarithm of 2. It ends in enough zeros that `k` times it is exact.
+    const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
+    /// Low part of the natural logarithm of 2.
+    const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+
+    // `f64::max` would replace NaN by `LEAST`.
     let x = if x < LEAST { LEAST } else { x };
     let shifted = x * std::f64::consts::LOG2_E + ROUNDER;
     let k = shifted - ROUNDER;
     let r = (x - k * LN_2_HIGH) - k * LN_2_LOW;
     let power = f64::from_bits(shifted.to_bits() << 52);
-    // 1/2!, 1/3!, …: even and odd coefficients apart, so that two chains run in parallel.
+
+    // The coefficients are 1/2!, 1/3!, …. Even and odd powers are summed separately, so that the
+    // processor computes the two sums in parallel.
     let s = r * r;
     let even = 1.0 / 2.0
         + s * (1.0 / 24.0

@@ -2,15 +2,16 @@
 //!
 //! # Modules
 //!
-//! The crate stands at the bottom of the workspace: a fabric's laws add an elastic part to its
-//! friction, and the fit of KES curves drives those laws along measured paths.
+//! The crate is in the lowest layer of the workspace. The laws of a fabric add an elastic load to
+//! the friction, and the fit of KES curves drives the laws along measured paths.
 //!
 //! * The models: `dahl` (one element), `bliman_sorine` (one or two elements in parallel).
-//! * What goes in and comes out: `slip` (a monotone piece of a path), `response` (load and tangent).
-//! * The same for SIMD loops: `prepared` (an element evaluated without branches), `exponential` (its
-//!   exponential in straight arithmetic).
+//! * Argument and result of the models: `slip` (a monotone piece of a path), `response` (load and
+//!   tangent).
+//! * Dahl elements for SIMD loops: `prepared` (an element that is evaluated without branches),
+//!   `exponential` (the exponential function without branches).
 
-// What goes in and comes out.
+// Argument and result of the models.
 mod response;
 mod slip;
 
@@ -18,7 +19,7 @@ mod slip;
 mod bliman_sorine;
 mod dahl;
 
-// The same for SIMD loops.
+// Dahl elements for SIMD loops.
 mod exponential;
 mod prepared;
 

@@ -1,4 +1,6 @@
-//! Dahl element prepared for SIMD loops: the same results as [`Dahl`] on a whole path, without
+//! Dahl element prepared for SIMD loops.
+//!
+//! A [`PreparedDahl`] returns the results of a [`Dahl`] element over a straight path without
 //! branches. The batch laws of a fabric call it once per lane.
 
 use crate::dahl::Dahl;
@@ -7,9 +9,10 @@ use crate::exponential::exp_m1;
 /// Straight path from the remembered deformation to a trial, for [`PreparedDahl`].
 ///
 /// The weight of the plateau starts at `weight` and changes by `weight_slope` per unit of length.
-/// Where the path passes a knot of the weight, a [`PassedKnot`] adds the contribution of the change of
-/// slope there: the equation is linear in the weight, so contributions add. The results are those of
-/// the pieces between the knots, each a [`Slip`](crate::Slip).
+/// Where the path passes a knot of the weight, a [`PassedKnot`] adds the contribution of the change
+/// of slope at the knot. Contributions add because the equation is linear in the weight. The
+/// results equal the results of a [`Dahl`] element over the pieces between the knots, each a
+/// [`Slip`](crate::Slip).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
     /// Direction `$\sigma = \pm 1$`.
@@ -27,40 +30,47 @@ pub struct Stroke {
 pub struct PassedKnot {
     /// Change of the weight's slope along the path at the knot.
     pub slope_change: f64,
-    /// Length of the path beyond the knot, 0 where the path does not pass it.
+    /// Length of the path beyond the knot, or 0 if the path does not pass the knot.
     pub length: f64,
 }
 
-/// A [`Dahl`] element with its constants precomputed, for many evaluations.
+/// [`Dahl`] element with precomputed constants, for many evaluations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PreparedDahl {
     plateau: f64,
     length: f64,
-    inverse: f64,
+    /// Reciprocal of `length`.
+    inverse_length: f64,
 }
 
-/// Fraction of the load at the start that is lost over a length, and the length by which the load
-/// lags behind a linearly growing plateau.
+/// Decay of the load over a length.
 #[derive(Debug, Clone, Copy)]
 struct Decay {
+    /// Fraction of the load at the start that is lost.
     lost: f64,
+    /// Length by which the load lags behind a linearly growing plateau.
     lag: f64,
 }
 
 impl PreparedDahl {
-    /// Prepares an element.
+    /// Prepares `element`.
     #[must_use]
     pub fn new(element: Dahl) -> Self {
-        Self { plateau: element.plateau, length: element.length, inverse: 1.0 / element.length }
+        Self {
+            plateau: element.plateau,
+            length: element.length,
+            inverse_length: 1.0 / element.length,
+        }
     }
 
+    /// Returns the decay of the load over `length`.
     #[inline(always)]
     fn decay(&self, length: f64) -> Decay {
-        let lost = -exp_m1(-length * self.inverse);
+        let lost = -exp_m1(-length * self.inverse_length);
         Decay { lost, lag: length - self.length * lost }
     }
 
-    /// Returns the load at the end of a stroke that began with `load`, in the unit of the load.
+    /// Returns the load at the end of `stroke`, which began with `load`, in the unit of the load.
     #[inline(always)]
     #[must_use]
     pub fn load(&self, load: f64, stroke: Stroke) -> f64 {
@@ -69,23 +79,24 @@ impl PreparedDahl {
         load * (1.0 - lost) + stroke.sign * self.plateau * gained
     }
 
-    /// Returns the contribution of a knot to the load at the end of a stroke in the direction `sign`,
-    /// in the unit of the load.
+    /// Returns the contribution of `knot` to the load at the end of a stroke in the direction
+    /// `sign`, in the unit of the load.
     #[inline(always)]
     #[must_use]
     pub fn knot_load(&self, sign: f64, knot: PassedKnot) -> f64 {
         sign * self.plateau * knot.slope_change * self.decay(knot.length).lag
     }
 
-    /// Returns the derivative of the load with respect to the end of a stroke, in load per
-    /// deformation, where the load is `load` and the weight `weight`.
+    /// Returns the derivative of the load with respect to the deformation at the end of a stroke in
+    /// the direction `sign`, in load per deformation. At this end the load is `load` and the weight
+    /// is `weight`.
     #[inline(always)]
     #[must_use]
     pub fn tangent(&self, load: f64, sign: f64, weight: f64) -> f64 {
-        (self.plateau * weight - sign * load) * self.inverse
+        (self.plateau * weight - sign * load) * self.inverse_length
     }
 
-    /// Returns the work over a stroke that began with `load`, in load times deformation.
+    /// Returns the work over `stroke`, which began with `load`, in load times deformation.
     #[inline(always)]
     #[must_use]
     pub fn work(&self, load: f64, stroke: Stroke) -> f64 {
@@ -96,7 +107,7 @@ impl PreparedDahl {
         stroke.sign * load * self.length * lost + self.plateau * gained
     }
 
-    /// Returns the contribution of a knot to the work, in load times deformation.
+    /// Returns the contribution of `knot` to the work over a stroke, in load times deformation.
     #[inline(always)]
     #[must_use]
     pub fn knot_work(&self, knot: PassedKnot) -> f64 {
@@ -104,7 +115,8 @@ impl PreparedDahl {
         self.plateau * knot.slope_change * (0.5 * knot.length * knot.length - self.length * lag)
     }
 
-    /// Energy that the element returns when unloaded, as [`Dahl::stored`]; the plateau must not be 0.
+    /// Returns the energy that the element gives back when it is unloaded from `load`, like
+    /// [`Dahl::stored`]. The plateau must not be 0.
     #[inline(always)]
     #[must_use]
     pub fn stored(&self, load: f64) -> f64 {
@@ -125,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_past_a_knot_is_its_pieces_one_after_the_other() {
+    fn a_stroke_past_a_knot_equals_its_pieces_one_after_the_other() {
         let prepared = PreparedDahl::new(ELEMENT);
         for load in [-0.7, 0.0, 0.3] {
             for (from, to) in [(0.002_f64, 0.03), (0.03, 0.002), (0.0, 0.011), (0.2, -0.002)] {

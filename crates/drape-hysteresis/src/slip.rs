@@ -3,8 +3,8 @@
 /// Monotone piece of a deformation path, with the weight that multiplies the plateau along it.
 ///
 /// The weight runs linearly from `weight_from` to `weight_to`. A constant weight of one is plain
-/// Bliman–Sorine friction. A weight that grows with the shear angle widens the loop (KES 2HG5 > 2HG);
-/// one that starts below one describes the priming zone of a yarn \[NB04, §4.3.1\].
+/// Bliman–Sorine friction. A weight that grows with the shear angle widens the loop (KES 2HG5 >
+/// 2HG). A weight that starts below one describes the priming zone of a yarn \[NB04, §4.3.1\].
 ///
 /// ```
 /// use drape_hysteresis::{Dahl, Slip};
@@ -27,7 +27,8 @@ pub struct Slip {
 }
 
 impl Slip {
-    /// Returns a piece along which the weight of the plateau runs from `weight_from` to `weight_to`.
+    /// Returns a piece of the given `amount`, along which the weight of the plateau runs from
+    /// `weight_from` to `weight_to`.
     #[must_use]
     pub fn weighted(amount: f64, weight_from: f64, weight_to: f64) -> Self {
         Self { amount, weight_from, weight_to }
@@ -35,7 +36,7 @@ impl Slip {
 }
 
 impl From<f64> for Slip {
-    /// Returns a piece of constant weight one.
+    /// Returns a piece of the given `amount` with the constant weight one.
     fn from(amount: f64) -> Self {
         Self::weighted(amount, 1.0, 1.0)
     }

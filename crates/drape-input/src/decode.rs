@@ -1,18 +1,20 @@
-//! Decoding of a TOML text into a structure, with all of its mistakes at once.
+//! Decoding of a TOML text into a structure, with all mistakes of the text at once.
 //!
-//! A derived deserialiser stops at the first mistake. This one goes on: where a value is wrong or
-//! missing it writes the mistake down and hands over a stand-in. It reads the text a few times:
+//! A derived deserialiser stops at the first mistake. This decoder continues: where a value is
+//! wrong or missing, it records the mistake and passes a stand-in to the structure. The text is
+//! read a few times:
 //!
-//! 1. `serde` does not say which keys a structure needs before one is missing. Each reading that
-//!    ends at a missing key teaches that this structure needs it; the next one stands in for it in
-//!    every such structure. There are as many of these readings as needed keys are missing
-//!    somewhere, at most as many as the structures have, whatever the length of the text.
-//! 2. The reading that comes to the end has written down all mistakes.
-//! 3. If there are some, a last one leaves wrong values out, so that keys have their defaults where
-//!    they have some. What it makes can be checked further: [`Faults`] knows the keys that were left
-//!    out, about which nothing more is to be said.
+//! 1. `serde` only reveals that a structure needs a key when the key is missing. Each reading that
+//!    ends at a missing key records the key. The next reading uses a stand-in for this key in every
+//!    such structure. The number of these readings is the number of different keys that are
+//!    missing, and does not depend on the length of the text.
+//! 2. The reading that reaches the end has recorded all mistakes.
+//! 3. If there are mistakes, a last reading leaves wrong values out, so that their keys have their
+//!    defaults. The resulting structure can be checked further. [`Faults`] knows the keys that were
+//!    left out, about which no further mistake should be reported.
 //!
-//! `state` is what a reading has found, `reader` reads the values of the text, `stand_in` makes others; `stop` is what ends a reading.
+//! `state` holds the findings of a reading, `reader` reads the values of the text, `stand_in`
+//! creates stand-ins, and `stop` lists the reasons that end a reading.
 
 mod reader;
 mod stand_in;
@@ -21,6 +23,7 @@ mod stop;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::ops::Bound;
 
 use serde::de::DeserializeOwned;
 
@@ -29,8 +32,8 @@ use crate::node::Node;
 
 pub(crate) use self::state::{Change, Fault};
 
-use self::reader::{Path, Reader};
-use self::state::State;
+use self::reader::{Reader, ValuePath};
+use self::state::ReadingState;
 use self::stop::Stop;
 
 /// Mistakes of a decoded text, with the keys whose values were left out.
@@ -41,84 +44,91 @@ pub struct Faults {
 }
 
 impl Faults {
+    /// Returns the faults of a text with the given `mistakes`, whose values at `keys` were left
+    /// out.
     pub(crate) fn new(mistakes: Vec<Diagnostic>, keys: BTreeSet<String>) -> Self {
         Self { mistakes, keys }
     }
 
-    /// Returns whether the value at a key path, or one in it, or one that it is in, was left out:
-    /// then nothing more is known of it.
+    /// Returns whether the value at the key path `key`, a value in it, or a value around it was
+    /// left out. Nothing is then known about the value.
     #[must_use]
     pub fn cover(&self, key: &str) -> bool {
         if self.keys.is_empty() {
             return false;
         }
-        let bounded = |long: &str, short: &str| {
-            long.strip_prefix(short)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        };
-        let ends = key.char_indices().filter(|(_, letter)| matches!(letter, '.' | '['));
-        let outer = ends.map(|(end, _)| &key[..end]).any(|outer| self.keys.contains(outer));
-        let from = || {
-            self.keys.range::<str, _>((std::ops::Bound::Included(key), std::ops::Bound::Unbounded))
-        };
-        let inner = from().take_while(|own| own.starts_with(key)).any(|own| bounded(own, key));
-        outer || inner
+        let mut ends = key.char_indices().filter(|(_, letter)| matches!(letter, '.' | '['));
+        let is_inside = ends.any(|(end, _)| self.keys.contains(&key[..end]));
+
+        // Keys that begin with `key` are neighbours in the set. Of them, `disc` and `disc[0]` cover
+        // `disc`, but `discus` does not.
+        let mut longer = self
+            .keys
+            .range::<str, _>((Bound::Included(key), Bound::Unbounded))
+            .map_while(|covered| covered.strip_prefix(key));
+        let is_around = longer.any(|rest| rest.is_empty() || rest.starts_with(['.', '[']));
+        is_inside || is_around
     }
 
-    /// Returns the mistakes.
+    /// Returns the mistakes as a list of [`Diagnostic`]s.
     #[must_use]
     pub fn into_mistakes(self) -> Vec<Diagnostic> {
         self.mistakes
     }
 
-    /// Returns whether there are none.
+    /// Returns whether there are no mistakes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.mistakes.is_empty()
     }
 }
 
-/// Structure that was decoded, if it could be, with its mistakes.
+/// Result of decoding a text.
 pub(crate) struct Decoded<T> {
+    /// Structure, if one could be made.
     pub(crate) value: Option<T>,
+    /// Mistakes of the text.
     pub(crate) faults: Vec<Fault>,
     /// Keys whose values were left out.
     pub(crate) keys: BTreeSet<String>,
 }
 
-/// Decodes a text.
+/// Decodes `root`, the content of a text, into a structure of type `T`.
 pub(crate) fn decode<T: DeserializeOwned>(root: &Node) -> Decoded<T> {
-    let state = RefCell::new(State::default());
+    let state_cell = RefCell::new(ReadingState::default());
     loop {
-        let read = T::deserialize(Reader { node: root, path: &Path::root(), state: &state });
-        let mut now = state.borrow_mut();
-        let value = match read {
+        let reader = Reader { node: root, path: &ValuePath::root(), state: &state_cell };
+        let reading = T::deserialize(reader);
+
+        let mut state = state_cell.borrow_mut();
+        let value = match reading {
             Ok(value) => Some(value),
             Err(Stop::Needs { structure, key }) => {
-                // A key that is needed although it was stood in for cannot be helped.
-                if now.needed.insert((structure, key)) {
-                    if !now.is_last {
-                        now.faults.clear();
-                        now.wrong.clear();
-                        now.keys.clear();
+                // The reading is repeated with a stand-in, unless there was one already.
+                if state.needed.insert((structure, key)) {
+                    if !state.is_last {
+                        state.faults.clear();
+                        state.wrong.clear();
+                        state.keys.clear();
                     }
                     continue;
                 }
                 None
             }
             Err(Stop::Other(message)) => {
-                if !now.is_last {
-                    now.faults.push(Fault { message, ..Fault::default() });
+                if !state.is_last {
+                    state.faults.push(Fault { message, ..Fault::default() });
                 }
                 None
             }
             Err(Stop::Missing(_)) => None,
         };
-        if now.faults.is_empty() || now.is_last || value.is_none() {
-            let State { faults, keys, .. } = std::mem::take(&mut *now);
+
+        if state.faults.is_empty() || state.is_last || value.is_none() {
+            let ReadingState { faults, keys, .. } = std::mem::take(&mut *state);
             return Decoded { value, faults, keys };
         }
-        now.is_last = true;
+        state.is_last = true;
     }
 }
 

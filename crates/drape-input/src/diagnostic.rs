@@ -1,7 +1,7 @@
 //! Mistakes of an input, each with its place and its remedy.
 //!
-//! `document` makes them; the crates that own a structure add their own, and the command line
-//! prints them.
+//! `document` reports mistakes of TOML. The crates that define a structure report mistakes of its
+//! values, and the command line prints all mistakes.
 
 pub(crate) mod edit;
 pub(crate) mod subject;
@@ -14,12 +14,6 @@ use self::edit::Edit;
 use self::subject::Subject;
 use crate::figure::cut;
 
-/// Largest number of letters of a message or a remedy.
-const LETTERS_MAX: usize = 1000;
-
-/// Largest number of mistakes of an input that are shown.
-const SHOWN_MAX: usize = 20;
-
 /// One mistake of an input, with its place and its remedy.
 ///
 /// ```
@@ -30,27 +24,27 @@ const SHOWN_MAX: usize = 20;
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// File that was read.
+    /// File with the mistake.
     pub file: PathBuf,
-    /// Line of the mistake, from 1, where it has a place in the text.
+    /// Line of the mistake, from 1, if the mistake has a place in the text.
     pub line: Option<usize>,
     /// Column of the mistake, from 1, in characters.
     pub column: Option<usize>,
     /// Bytes of the text that the mistake covers.
     pub span: Option<Range<usize>>,
-    /// Description of the mistake, with the value.
+    /// Description of the mistake, with the wrong value.
     pub message: String,
-    /// Remedy.
+    /// Remedy, if one is known.
     pub help: Option<String>,
-    /// Part of the input that the mistake speaks of, where it is one.
+    /// Part of the input that the mistake concerns, if it has a name.
     pub subject: Option<Subject>,
-    /// Changes of files that make the remedy, all of them together; empty where the remedy is no
-    /// change that a program can make alone. Of several remedies the first counts.
+    /// Changes of files that together are the remedy. Empty if a program cannot make the remedy
+    /// alone. If there are several remedies, these changes are the first one.
     pub edits: Vec<Edit>,
 }
 
 impl Diagnostic {
-    /// Creates a mistake that concerns a whole file.
+    /// Creates a mistake that concerns the whole of `file`.
     #[must_use]
     pub fn new(file: impl Into<PathBuf>, message: impl Into<String>) -> Self {
         Self {
@@ -65,28 +59,28 @@ impl Diagnostic {
         }
     }
 
-    /// Adds the remedy.
+    /// Adds the remedy `help`.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(shorten(help.into()));
         self
     }
 
-    /// Adds the part of the input that the mistake speaks of.
+    /// Adds `subject`, the part of the input that the mistake concerns.
     #[must_use]
     pub fn about(mut self, subject: Subject) -> Self {
         self.subject = Some(subject);
         self
     }
 
-    /// Adds the changes that make the remedy.
+    /// Adds `edits`, the changes that together are the remedy.
     #[must_use]
     pub fn with_edits(mut self, edits: impl IntoIterator<Item = Edit>) -> Self {
         self.edits = edits.into_iter().collect();
         self
     }
 
-    /// Adds the line, from 1.
+    /// Adds the `line` of the mistake, from 1.
     #[must_use]
     pub fn on_line(mut self, line: usize) -> Self {
         self.line = Some(line);
@@ -113,8 +107,11 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// Returns a text that can be read at once, whatever it repeats of an input.
+/// Returns `text`, cut if it quotes so much of an input that nobody would read it.
 fn shorten(text: String) -> String {
+    /// Largest number of letters of a message or a remedy.
+    const LETTERS_MAX: usize = 1000;
+
     if text.len() <= LETTERS_MAX { text } else { cut(&text, LETTERS_MAX) }
 }
 
@@ -134,10 +131,10 @@ fn shorten(text: String) -> String {
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// Returns `Ok` where there is no mistake.
+    /// Returns `Ok` if `mistakes` is empty.
     ///
     /// # Errors
-    /// The mistakes, sorted by file and line.
+    /// The `mistakes`, sorted by file and line, without duplicates.
     pub fn check(mut mistakes: Vec<Diagnostic>) -> Result<(), Self> {
         if mistakes.is_empty() {
             return Ok(());
@@ -147,26 +144,30 @@ impl Diagnostics {
         Err(Self(mistakes))
     }
 
-    /// Returns the mistakes that are shown, the first twenty.
+    /// Returns the mistakes that are shown: the first 20.
     #[must_use]
     pub fn shown(&self) -> &[Diagnostic] {
+        /// Largest number of mistakes of an input that are shown.
+        const SHOWN_MAX: usize = 20;
+
         &self.0[..self.0.len().min(SHOWN_MAX)]
     }
 
-    /// Returns the number of the other mistakes in words, if there are some.
+    /// Returns the number of mistakes that are not [`shown`](Self::shown) in words, or `None` if
+    /// all are shown.
     #[must_use]
-    pub fn rest(&self) -> Option<String> {
+    pub fn hidden_count_text(&self) -> Option<String> {
         match self.0.len() - self.shown().len() {
             0 => None,
             1 => Some("and 1 more mistake".into()),
-            more => Some(format!("and {more} more mistakes")),
+            count => Some(format!("and {count} more mistakes")),
         }
     }
 }
 
 impl From<Diagnostic> for Diagnostics {
-    fn from(one: Diagnostic) -> Self {
-        Self(vec![one])
+    fn from(mistake: Diagnostic) -> Self {
+        Self(vec![mistake])
     }
 }
 
@@ -178,8 +179,8 @@ impl fmt::Display for Diagnostics {
             }
             write!(f, "{diagnostic}")?;
         }
-        match self.rest() {
-            Some(rest) => write!(f, "\n{rest}"),
+        match self.hidden_count_text() {
+            Some(count) => write!(f, "\n{count}"),
             None => Ok(()),
         }
     }

@@ -1,6 +1,6 @@
-//! Text of a TOML file: decoded into a structure, or searched for the place of a key.
+//! Document: the text of a TOML file, which is decoded into a structure or searched for a key.
 //!
-//! Every crate that reads TOML goes through [`Document`], so all mistakes look alike.
+//! Every crate that reads TOML uses [`Document`], so that all mistakes are reported in one form.
 
 pub(crate) mod size_limit;
 
@@ -11,24 +11,21 @@ use std::sync::OnceLock;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
+use crate::allowed_folders::{AllowedFolders, ForbiddenPath};
 use crate::decode::{Change, Decoded, Fault, Faults, decode};
 use crate::diagnostic::edit::Edit;
 use crate::diagnostic::subject::Subject;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
-use crate::node::key_path::{Part, parts};
+use crate::node::key_path::{KeyPart, key_parts};
 use crate::node::{Node, Value};
-use crate::places::{Misplaced, Places};
 use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
 use size_limit::SizeLimit;
 
-/// Limit of TOML files: sheets, fabrics and scenes have a few kilobytes.
+/// Limit on the size of TOML files. Sheets, fabrics and scenes have a few kilobytes.
 const LIMIT: SizeLimit = SizeLimit::new("TOML files", 1 << 20);
-
-/// Largest number of letters of a key path in a message.
-const KEY_MAX: usize = 120;
 
 /// Text of a TOML file with its path.
 ///
@@ -43,16 +40,19 @@ const KEY_MAX: usize = 120;
 pub struct Document {
     path: PathBuf,
     text: String,
-    /// Files and folders that it may name beside those of its own folder and the working folder.
+    /// Files and folders that the document may name outside its folder and the working folder.
     allowed: Vec<PathBuf>,
-    /// Values that take the place of those of the text.
+    /// Values that replace values of the text.
     settings: Vec<Setting>,
+    /// Values of the text with the settings, once the text has been parsed.
     content: OnceLock<Content>,
+    /// Lines of the text, once a place has been looked up.
     lines: OnceLock<Lines>,
 }
 
 impl Document {
-    /// Creates a document from text in memory; `path` is used in messages only.
+    /// Creates a document from `text` in memory. `path` is used in messages, and to find files that
+    /// the document names.
     #[must_use]
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         let text: String = text.into();
@@ -61,25 +61,28 @@ impl Document {
         Self { path: path.into(), text, allowed: Vec::new(), settings: Vec::new(), content, lines }
     }
 
-    /// Returns the document, which may name other files and those in other folders too.
+    /// Returns the document, which may also name the files and folders `allowed`.
     #[must_use]
     pub fn allowing(mut self, allowed: &[PathBuf]) -> Self {
         self.allowed = allowed.to_vec();
         self
     }
 
-    /// Returns the files and folders that it may name beside those of its own and the working folder.
+    /// Returns the files and folders that were given to [`allowing`](Self::allowing).
     #[must_use]
     pub fn allowed(&self) -> &[PathBuf] {
         &self.allowed
     }
 
-    /// Returns the document with values that take the place of those of its text, one after the
-    /// other. Lines and columns stay those of the text; a mistake in a value that was set says so.
+    /// Returns the document after `settings` have replaced values of its text, one after the other.
+    ///
+    /// Lines and columns of mistakes still refer to the text. A mistake in a value that was set
+    /// names the setting.
     ///
     /// # Errors
-    /// A key leads nowhere: through a value that is no table, or to an element that is not there.
-    /// Mistakes of the text itself are left to [`decode`](Self::decode).
+    /// A mistake for each setting whose key leads through a value that is no table, or to an
+    /// element that does not exist. Mistakes of grammar are reported by [`decode`](Self::decode)
+    /// instead.
     pub fn with_settings(mut self, settings: &[Setting]) -> Result<Self, Diagnostics> {
         let mut content = self.content().clone();
         let mut mistakes = Vec::new();
@@ -96,69 +99,80 @@ impl Document {
         Ok(self)
     }
 
-    /// Checks that a value can take the place of one of the text, which has no mistakes of grammar.
+    /// Checks that `setting` can replace a value of the text. The text must have no mistakes of
+    /// grammar.
     ///
     /// # Errors
-    /// The key leads nowhere, as in [`with_settings`](Self::with_settings).
+    /// [`SettingError`] if the key of `setting` leads nowhere, as in
+    /// [`with_settings`](Self::with_settings).
     pub fn accepts(&self, setting: &Setting) -> Result<(), SettingError> {
         setting.apply(&mut self.content().root.clone(), self.text.len() + 1)
     }
 
-    /// Values that take the place of those of the text.
+    /// Returns the settings that replace values of the text.
     #[must_use]
     pub fn settings(&self) -> &[Setting] {
         &self.settings
     }
 
-    /// Returns all values that are texts, in the order of their keys.
+    /// Returns all values of the document that are texts, in the order of their keys.
     #[must_use]
     pub fn texts(&self) -> Vec<&str> {
         self.content().root.texts()
     }
 
-    /// Returns the path of a file that the document names, which is seen from its folder.
+    /// Returns the path of the file `name`, which the document names relative to its folder.
     ///
     /// # Errors
-    /// The file is not below its folder, the working folder or a folder that is allowed.
-    pub fn beside(&self, name: impl AsRef<Path>) -> Result<PathBuf, Misplaced> {
+    /// [`ForbiddenPath`] if the file is outside the folder of the document, the working folder and
+    /// the allowed folders.
+    pub fn beside(&self, name: impl AsRef<Path>) -> Result<PathBuf, ForbiddenPath> {
         let path = self.folder().join(name);
         self.permit(&path)?;
         Ok(path)
     }
 
-    /// Checks a path, seen from the working folder, as [`beside`](Self::beside) does.
+    /// Checks that the document may name `path`, which is relative to the working folder.
     ///
     /// # Errors
-    /// As for [`beside`](Self::beside).
-    pub fn permit(&self, path: &Path) -> Result<(), Misplaced> {
-        Places::new(self.folder(), &self.allowed).check(path)
+    /// [`ForbiddenPath`], as in [`beside`](Self::beside).
+    pub fn permit(&self, path: &Path) -> Result<(), ForbiddenPath> {
+        AllowedFolders::new(self.folder(), &self.allowed).check(path)
     }
 
+    /// Returns the folder of the document.
     fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
-    /// Reads a file.
+    /// Reads the file `path`.
     ///
     /// # Errors
-    /// The file is missing, larger than a mebibyte unless limits are raised, or not UTF-8.
+    /// A mistake if the file is missing, is larger than one mebibyte (unless limits are raised), or
+    /// is not UTF-8.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
-        let fail = |message: String| Diagnostic::new(path, message);
-        let metadata = std::fs::metadata(path)
-            .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearest_file(path)))?;
+        let metadata = std::fs::metadata(path).map_err(|error| {
+            let message = format!("cannot open the file: {error}");
+            Diagnostic::new(path, message).help(missing_file_help(path))
+        })?;
         if !metadata.is_file() {
-            return Err(fail("this is not a file".into()).help("name a TOML file").into());
+            let mistake = Diagnostic::new(path, "this is not a file").help("name a TOML file");
+            return Err(mistake.into());
         }
         if let Err(refused) = LIMIT.check(metadata.len()) {
-            return Err(fail(refused.to_string()).help(refused.help()).into());
+            let mistake = Diagnostic::new(path, refused.to_string()).help(refused.help());
+            return Err(mistake.into());
         }
-        let text = std::fs::read_to_string(path)
-            .map_err(|e| fail(format!("cannot read the file: {e}")).help("save it as UTF-8"))?;
+
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let message = format!("cannot read the file: {error}");
+            Diagnostic::new(path, message).help("save it as UTF-8")
+        })?;
         Ok(Self::new(path, text))
     }
 
-    /// Returns the path, as given.
+    /// Returns the path that was given to [`new`](Self::new) or [`read`](Self::read).
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -170,43 +184,46 @@ impl Document {
         &self.text
     }
 
-    /// Decodes the text into a structure.
+    /// Decodes the text into a structure of type `T`.
     ///
     /// # Errors
-    /// All mistakes of grammar, spelling or type, with their places.
+    /// All mistakes of grammar, spelling and type, with their places.
     pub fn decode<T: DeserializeOwned>(&self) -> Result<T, Diagnostics> {
         let (value, faults) = self.decode_with_faults()?;
         Diagnostics::check(faults.into_mistakes())?;
         Ok(value)
     }
 
-    /// Decodes the text into a structure in spite of mistakes of spelling and type: what is wrong is
-    /// left out, so that the rest can be checked.
+    /// Decodes the text into a structure of type `T` in spite of mistakes of spelling and type.
+    ///
+    /// Wrong values are left out, so that all other values can be checked. The [`Faults`] name the
+    /// keys that were left out.
     ///
     /// # Errors
-    /// The mistakes, if they are of grammar, or no structure can be made.
+    /// The mistakes, if the text has mistakes of grammar, or if no structure can be made.
     pub fn decode_with_faults<T: DeserializeOwned>(&self) -> Result<(T, Faults), Diagnostics> {
         let content = self.content();
         if !content.mistakes.is_empty() {
-            let told = |GrammarMistake { span, message, help }: &GrammarMistake| {
-                self.locate(span.clone(), message.clone()).help(help.clone())
-            };
-            return Err(sorted(content.mistakes.iter().map(told).collect()));
+            let mistakes = content.mistakes.iter().map(|mistake| {
+                self.locate(mistake.span.clone(), mistake.message.clone()).help(&mistake.help)
+            });
+            return Err(sorted(mistakes.collect()));
         }
+
         let Decoded { value, faults, keys } = decode(&content.root);
-        let mistakes: Vec<Diagnostic> = faults.into_iter().map(|fault| self.told(fault)).collect();
-        value.map_or_else(
-            || Err(sorted(mistakes.clone())),
-            |value| Ok((value, Faults::new(mistakes.clone(), keys))),
-        )
+        let mistakes = faults.into_iter().map(|fault| self.diagnostic(fault)).collect();
+        match value {
+            Some(value) => Ok((value, Faults::new(mistakes, keys))),
+            None => Err(sorted(mistakes)),
+        }
     }
 
-    /// Returns the mistake of a fault.
-    fn told(&self, fault: Fault) -> Diagnostic {
+    /// Returns `fault` with its line, its subject and the edits that correct it.
+    fn diagnostic(&self, fault: Fault) -> Diagnostic {
         let Fault { span, key, message, help, change } = fault;
         let mut mistake = self.locate(span, message);
         mistake.help = (!help.is_empty()).then_some(help);
-        mistake.subject = Subject::of_key(&self.content().root, &key);
+        mistake.subject = Subject::from_key(&self.content().root, &key);
         mistake.edits = match change {
             Some(Change::Value(value)) => self.edit(&key, Some(&value)).into_iter().collect(),
             Some(Change::Renamed(new)) => self.renamed(&key, &new),
@@ -215,15 +232,16 @@ impl Document {
         mistake
     }
 
-    /// Returns the change of the value at a key path to another one, in TOML, or its removal.
+    /// Returns the edit that replaces the value at the key path `key` by `new`, in TOML, or removes
+    /// the value if `new` is `None`.
     ///
-    /// Returns `None` where the file cannot be changed so: the value was set beside the text, or is
-    /// a table with a heading of its own.
+    /// Returns `None` if `new` is `None` and there is no value to remove: the value is not in the
+    /// text, was set, or is a table with a heading.
     #[must_use]
     pub fn edit(&self, key: &str, new: Option<&str>) -> Option<Edit> {
         let old = match self.find(key) {
-            Some(place) if place.is_whole => {
-                let text = place.node.text.clone().filter(|_| place.set.is_none());
+            Some(located) if located.is_value => {
+                let text = located.node.text.clone().filter(|_| located.setting.is_none());
                 Some(text.and_then(|span| self.text.get(span))?.to_owned())
             }
             _ => None,
@@ -237,65 +255,75 @@ impl Document {
         })
     }
 
-    /// Returns the changes that move a value to another key path; none where the file cannot be
-    /// changed so.
+    /// Returns the edits that move the value at the key path `key` to the key path `new`. Returns
+    /// no edits if the value is not in the text.
     #[must_use]
     pub fn renamed(&self, key: &str, new: &str) -> Vec<Edit> {
-        let file = || self.path.clone();
-        let Some(place) = self.find(key).filter(|place| place.is_whole) else { return Vec::new() };
-        let values = match &place.node.text {
+        let Some(located) = self.find(key).filter(|located| located.is_value) else {
+            return Vec::new();
+        };
+        let values = match &located.node.text {
             Some(value) => Some(vec![(String::new(), value.clone())]),
-            None => place.node.values(),
+            None => located.node.values(),
         };
-        let add = |(path, span): (String, Range<usize>)| {
-            let value = self.text.get(span)?.to_owned();
-            Some(Edit { file: file(), key: format!("{new}{path}"), old: None, new: Some(value) })
-        };
-        let added: Option<Vec<Edit>> =
-            values.and_then(|values| values.into_iter().map(add).collect());
+
+        let Some(values) = values else { return Vec::new() };
+
+        // The old key is removed first. A table with a heading moves value by value.
+        let file = self.path.clone();
         let old = self.edit(key, None).and_then(|edit| edit.old);
-        let removed = Edit { file: file(), key: key.to_owned(), old, new: None };
-        added.map_or_else(Vec::new, |added| [vec![removed], added].concat())
+        let mut edits = vec![Edit { file, key: key.to_owned(), old, new: None }];
+        for (path, span) in values {
+            let Some(value) = self.text.get(span) else { return Vec::new() };
+            let (file, key) = (self.path.clone(), format!("{new}{path}"));
+            edits.push(Edit { file, key, old: None, new: Some(value.to_owned()) });
+        }
+        edits
     }
 
-    /// Returns whether the text has a value at a key path.
+    /// Returns whether the document has a value at the key path `key`.
     #[must_use]
     pub fn has(&self, key: &str) -> bool {
-        self.find(key).is_some_and(|place| place.is_whole)
+        self.find(key).is_some_and(|located| located.is_value)
     }
 
-    /// Returns a mistake in the value at a key path such as `warp.traction.stiffness` or
-    /// `curve[2].file`.
+    /// Returns a mistake with the given `message` in the value at the key path `key`, such as
+    /// `warp.traction.stiffness` or `curve[2].file`.
     ///
-    /// A key with dots in it is quoted, as in TOML: `panel."simon.back".grain`. If the value is not in
-    /// the text, the innermost table that is gives the place.
+    /// A key with dots in it is quoted, as in TOML: `panel."simon.back".grain`. If the text has no
+    /// such value, the place of the mistake is the innermost table on the way to `key`.
     #[must_use]
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
+        /// Largest number of letters of a key path in a message.
+        const KEY_MAX: usize = 120;
+
         let message = format!("{}: {}", cut(key, KEY_MAX), message.into());
-        let subject = Subject::of_key(&self.content().root, key);
-        let Some(place) = self.find(key) else {
+        let subject = Subject::from_key(&self.content().root, key);
+        let Some(located) = self.find(key) else {
             return Diagnostic { subject, ..self.locate(None, message) };
         };
         let mut mistake =
-            Diagnostic { subject, ..self.locate(Some(place.node.span.clone()), message) };
-        // Of a list of the text, elements may have been set.
-        let set = place.set.filter(|_| mistake.span.is_some());
-        if let Some(setting) = set.and_then(|index| self.settings.get(index)) {
+            Diagnostic { subject, ..self.locate(Some(located.node.span.clone()), message) };
+
+        // The list may be in the text while a setting replaced one of its elements.
+        let setting = located.setting.filter(|_| mistake.span.is_some());
+        if let Some(setting) = setting.and_then(|index| self.settings.get(index)) {
             mistake.message += &format!(" ({}: {setting})", setting.origin());
         }
         mistake
     }
 
-    /// Returns a mistake with the place of a span; places behind the text stand for its settings.
+    /// Returns a mistake at `span`. A span behind the end of the text stands for a setting.
     fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
-        let place = span.as_ref().and_then(|span| span.start.checked_sub(self.text.len() + 1));
-        if let Some(setting) = place.and_then(|index| self.settings.get(index)) {
+        let index = span.as_ref().and_then(|span| span.start.checked_sub(self.text.len() + 1));
+        if let Some(setting) = index.and_then(|index| self.settings.get(index)) {
             let message = format!("{} ({}: {setting})", message.into(), setting.origin());
             return Diagnostic::new(&self.path, message);
         }
+
         let mut diagnostic = Diagnostic::new(&self.path, message);
         if let Some(span) = span {
-            let lines = self.lines.get_or_init(|| Lines::of(&self.text));
+            let lines = self.lines.get_or_init(|| Lines::new(&self.text));
             let line = lines.starts.partition_point(|&start| start <= span.start).max(1);
             let start = lines.starts[line - 1];
             let before = self.text.get(start..span.start).unwrap_or_default();
@@ -307,46 +335,28 @@ impl Document {
         diagnostic
     }
 
-    /// Returns the values of the text, which is parsed once.
+    /// Returns the values of the text. The text is parsed once.
     fn content(&self) -> &Content {
         self.content.get_or_init(|| {
             let (table, errors) = DeTable::parse_recoverable(&self.text);
-            let right = errors.is_empty();
-            Content {
-                root: Node::root(table.get_ref()),
-                mistakes: if right { Vec::new() } else { grammar_mistakes(&self.text) },
-            }
+            let mistakes =
+                if errors.is_empty() { Vec::new() } else { grammar_mistakes(&self.text) };
+            Content { root: Node::root(table.get_ref()), mistakes }
         })
     }
 
-    /// Returns the place of the value at a key path, or of the innermost table on the way to it.
-    fn find(&self, key: &str) -> Option<Place<'_>> {
-        let mut node = &self.content().root;
-        let mut found = None;
-        for Part { name, indices } in parts(key) {
-            let Some(entry) = node.entry(name) else { return self.place(found, false) };
-            node = &entry.node;
-            for index in indices {
-                found = Some(node);
-                let Value::List(elements) = &node.value else { return self.place(found, false) };
-                let Some(element) = elements.get(index) else { return self.place(found, false) };
-                node = element;
-            }
-            found = Some(node);
-        }
-        self.place(found, true)
-    }
-
-    /// Returns the place of a value that was found, if one was.
-    fn place<'a>(&self, found: Option<&'a Node>, is_whole: bool) -> Option<Place<'a>> {
-        let node = found?;
-        let set = node.first_element_behind(self.text.len());
-        let set = set.map(|place| place - 1 - self.text.len());
-        Some(Place { node, is_whole, set })
+    /// Returns the value at the key path `key`, or the innermost value on the way to it. Returns
+    /// `None` if the document does not even have the first key.
+    fn find(&self, key: &str) -> Option<LocatedValue<'_>> {
+        let (innermost, is_value) = innermost_value(&self.content().root, key);
+        let node = innermost?;
+        let place = node.first_element_behind(self.text.len());
+        let setting = place.map(|place| place - 1 - self.text.len());
+        Some(LocatedValue { node, is_value, setting })
     }
 }
 
-/// Values of a text, and its mistakes of grammar.
+/// Values of a text, and the mistakes of grammar in the text.
 #[derive(Debug, Clone)]
 struct Content {
     root: Node,
@@ -356,29 +366,49 @@ struct Content {
 /// Lines of a text.
 #[derive(Debug, Clone)]
 struct Lines {
-    /// First byte of each.
+    /// First byte of each line.
     starts: Vec<usize>,
-    /// Whether each letter of the text is a byte.
+    /// Whether each letter of the text is one byte.
     is_ascii: bool,
 }
 
 impl Lines {
-    fn of(text: &str) -> Self {
+    /// Returns the lines of `text`.
+    fn new(text: &str) -> Self {
         let ends = text.match_indices('\n').map(|(end, _)| end + 1);
         Self { starts: std::iter::once(0).chain(ends).collect(), is_ascii: text.is_ascii() }
     }
 }
 
-/// Place of a value, or of a table that it should be in.
-struct Place<'a> {
+/// Value at a key path, or the innermost value on the way to it.
+struct LocatedValue<'a> {
     node: &'a Node,
-    /// Whether it is the value itself.
-    is_whole: bool,
-    /// Number of the setting of an element, if the value is a list.
-    set: Option<usize>,
+    /// Whether `node` is the value at the key path.
+    is_value: bool,
+    /// Index of the setting that replaced an element of `node`, if `node` is a list.
+    setting: Option<usize>,
 }
 
-/// Returns mistakes in the order of the text.
+/// Returns the innermost value on the way from `root` along the key path `key`, and whether it is
+/// the value at `key`. Returns no value if `root` does not have the first key.
+fn innermost_value<'a>(root: &'a Node, key: &str) -> (Option<&'a Node>, bool) {
+    let mut node = root;
+    let mut innermost = None;
+    for KeyPart { name, indices } in key_parts(key) {
+        let Some(entry) = node.entry(name) else { return (innermost, false) };
+        node = &entry.node;
+        innermost = Some(node);
+        for index in indices {
+            let Value::List(elements) = &node.value else { return (innermost, false) };
+            let Some(element) = elements.get(index) else { return (innermost, false) };
+            node = element;
+            innermost = Some(node);
+        }
+    }
+    (innermost, true)
+}
+
+/// Returns `mistakes` in the order of the text.
 fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
     match Diagnostics::check(mistakes) {
         Err(mistakes) => mistakes,
@@ -386,29 +416,31 @@ fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
     }
 }
 
-/// Returns advice on a path that does not exist: the file beside it that was probably meant.
+/// Returns the remedy for `path`, which does not exist: the file that was probably meant, or the
+/// folder that was searched.
 #[must_use]
-pub fn nearest_file(path: &Path) -> String {
+pub fn missing_file_help(path: &Path) -> String {
     let folder = folder_of(path);
-    match near_file(path) {
+    match similar_file(path) {
         Some(name) => format!("did you mean {}?", folder.join(name).display()),
         None if !folder.is_dir() => format!("there is no folder {}", folder.display()),
         None => format!("looked in {}", folder.display()),
     }
 }
 
-/// Returns the name of the file beside a path that does not exist that was probably meant.
+/// Returns the name of the file in the folder of `path` that was probably meant, if `path` does not
+/// exist and a name is similar.
 #[must_use]
-pub fn near_file(path: &Path) -> Option<String> {
+pub fn similar_file(path: &Path) -> Option<String> {
     let entries = std::fs::read_dir(folder_of(path)).ok()?;
     let mut names: Vec<String> =
-        entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+        entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
     let wanted = path.file_name()?.to_string_lossy().into_owned();
     closest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// Returns the folder of a path.
+/// Returns the folder of `path`, which is `.` for a bare name.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
@@ -517,7 +549,7 @@ mod tests {
         // A table takes all of its values along.
         let text = "[solvr]\nmethod = \"newton\"\nlinear.size = [1, 2] # two\n";
         let edits = Document::new("a.toml", text).renamed("solvr", "solver");
-        let changed = crate::edited(text, &edits).expect("they fit");
+        let changed = crate::apply_edits(text, &edits).expect("they fit");
         let expected = "[solver]\nlinear.size = [1, 2]\nmethod = \"newton\"\n";
         let table = |text: &str| Document::new("a.toml", text).decode::<toml::Table>();
         assert_eq!(table(&changed), table(expected), "{changed}");

@@ -1,13 +1,7 @@
-//! Numbers and quoted texts in messages: with the digits they have, and no longer than can be read.
+//! Numbers and quoted texts in messages, with as many digits and letters as a reader needs.
 
-/// Number of letters from which on a decimal number has more digits than it means.
-const DIGITS_MAX: usize = 15;
-
-/// Largest number of letters of a text that a message quotes.
-const LETTERS_MAX: usize = 60;
-
-/// Returns a number as a message shows it: at most 12 digits, so that rounding does not show, and
-/// with an exponent where it is very large or very small.
+/// Returns `value` as a message shows it. The number has at most 12 digits, so that rounding does
+/// not show, and an exponent if it is very large or very small.
 ///
 /// ```
 /// use drape_input::figure;
@@ -27,7 +21,8 @@ pub fn figure(value: f64) -> String {
     if plain { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
-/// Returns a number no larger than a value, with two digits: for advice to stay below it.
+/// Returns a number with two digits that is no larger than `value`, for advice to stay below
+/// `value`.
 ///
 /// ```
 /// use drape_input::figure_below;
@@ -40,7 +35,7 @@ pub fn figure_below(value: f64) -> String {
     two_digits(value, -1.0)
 }
 
-/// Returns a number no smaller than a value, with two digits: for advice to reach it.
+/// Returns a number with two digits that is no smaller than `value`, for advice to reach `value`.
 ///
 /// ```
 /// use drape_input::figure_above;
@@ -54,22 +49,26 @@ pub fn figure_above(value: f64) -> String {
     two_digits(value, 1.0)
 }
 
-/// Returns the nearest number with two digits that is not below a value, with the direction 1, or not
-/// above it, with the direction -1.
+/// Returns the number with two digits that is nearest to `value`.
+///
+/// The number is not below `value` if `direction` is 1, and not above `value` if `direction` is -1.
 fn two_digits(value: f64, direction: f64) -> String {
-    let rounded = |value: f64| format!("{value:.1e}").parse().unwrap_or(value);
-    let falls_short = |number: f64| direction * (number - value) < 0.0;
-    let mut number: f64 = rounded(value);
-    if falls_short(number) {
-        // Half of the last digit, and less than a whole one: the next number.
+    let mut number = round_to_two_digits(value);
+    if direction * (number - value) < 0.0 {
+        // More than half of the last digit, but less than a whole one, leads to the next number.
         let digit = 10_f64.powf(number.abs().log10().floor() - 1.0);
-        number = rounded(number + direction * 0.55 * digit);
+        number = round_to_two_digits(number + direction * 0.55 * digit);
     }
-    figure(if falls_short(number) { value } else { number })
+    figure(if direction * (number - value) < 0.0 { value } else { number })
 }
 
-/// Returns a text in which numbers have the digits that [`figure`] gives them: for messages of
-/// errors that know nothing of it.
+/// Returns the number with two digits that is nearest to `value` in either direction.
+fn round_to_two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+/// Returns `text` with its numbers written as [`figure`] writes them, for messages of errors that
+/// do not use [`figure`].
 ///
 /// ```
 /// let message = "a spacing of 0.12400000000000001 m in a_0.5.toml";
@@ -77,14 +76,17 @@ fn two_digits(value: f64, direction: f64) -> String {
 /// ```
 #[must_use]
 pub fn tidy(text: &str) -> String {
-    let is_part = |letter: char| letter.is_ascii_digit() || letter == '.';
+    /// Number of letters above which a decimal number has digits that are only rounding.
+    const DIGITS_MAX: usize = 15;
+
     let mut tidied = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(start) = rest.find(|letter: char| letter.is_ascii_digit()) {
-        let end =
-            rest[start..].find(|letter| !is_part(letter)).map_or(rest.len(), |end| start + end);
+        let length = rest[start..].find(|letter: char| !(letter.is_ascii_digit() || letter == '.'));
+        let end = length.map_or(rest.len(), |length| start + length);
         let number = &rest[start..end];
         tidied.push_str(&rest[..start]);
+
         match number.parse() {
             Ok(value) if number.contains('.') && number.len() > DIGITS_MAX => {
                 tidied.push_str(&figure(value));
@@ -97,7 +99,7 @@ pub fn tidy(text: &str) -> String {
     tidied
 }
 
-/// Returns numbers in brackets, as TOML writes a list of them.
+/// Returns `values` in brackets, as TOML writes a list of numbers.
 ///
 /// ```
 /// assert_eq!(drape_input::figures(&[1.0, 0.1 + 0.2]), "[1, 0.3]");
@@ -108,7 +110,7 @@ pub fn figures(values: &[f64]) -> String {
     format!("[{}]", values.join(", "))
 }
 
-/// Returns the beginning of a text, all of it unless it is long.
+/// Returns the beginning of `text`, or all of `text` if it is short enough for a message.
 ///
 /// ```
 /// assert_eq!(drape_input::excerpt("plain"), "plain");
@@ -116,12 +118,16 @@ pub fn figures(values: &[f64]) -> String {
 /// ```
 #[must_use]
 pub fn excerpt(text: &str) -> String {
+    /// Largest number of letters of a text that a message quotes.
+    const LETTERS_MAX: usize = 60;
+
     cut(text, LETTERS_MAX)
 }
 
-/// Returns at most so many letters of a text, with a sign where it was cut.
-pub(crate) fn cut(text: &str, letters: usize) -> String {
-    match text.char_indices().nth(letters) {
+/// Returns `text` if it has at most `letter_count` letters. If not, returns its first
+/// `letter_count` letters and `…`.
+pub(crate) fn cut(text: &str, letter_count: usize) -> String {
+    match text.char_indices().nth(letter_count) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }

@@ -1,9 +1,9 @@
-//! Numbers as a file gives them: bare, in the unit that its key has, or as text with a unit of its
-//! own.
+//! Numbers as a file gives them: a bare number in the unit of the key, or a text with a number and
+//! a unit.
 //!
-//! A mirror of a file has a [`Given`] of a [`Dimension`] where a quantity stands;
-//! [`Document`](crate::Document) reads it from `0.01` and from `"10 mm"`, and the check converts it
-//! to SI.
+//! A structure that mirrors a file has a [`Given`] with a [`Dimension`] for each quantity.
+//! [`Document`](crate::Document) reads a [`Given`] from `0.01` and from `"10 mm"`. The check of the
+//! structure converts the number to SI.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::unit::Quantity;
 
-/// Number of a file with a dimension: bare, or with the unit that stands with it.
+/// Number with a dimension, as a file gives it: a bare number, or a number with a unit.
 ///
 /// ```
 /// use drape_input::{Document, Given, Length};
@@ -29,22 +29,22 @@ use crate::unit::Quantity;
 /// ```
 pub struct Given<D> {
     number: f64,
-    /// Value of its unit in SI, if one stands with it.
+    /// Value of the unit in SI, if the file gives a unit.
     factor: Option<f64>,
     dimension: PhantomData<D>,
 }
 
-/// Dimension of a number, with the unit of bare ones.
+/// Dimension of a number, with the unit of bare numbers.
 pub trait Dimension {
-    /// Kind of quantity, which tells the admissible units.
+    /// Kind of quantity, which fixes the admissible units.
     const QUANTITY: Quantity;
-    /// Unit of a bare number in SI; of a length in the unit of the file, 1.
+    /// Value of the unit of a bare number in SI. 1 for lengths, which are in the unit of the file.
     const BARE: f64 = 1.0;
-    /// Token by which [`Document`](crate::Document) knows the dimension.
+    /// Token by which [`Document`](crate::Document) recognises the dimension.
     const TOKEN: &'static str;
     /// Unit of a bare number, in words.
     const UNIT: &'static str;
-    /// Values as they may be written: bare, and with a unit.
+    /// Examples of a value: a bare number, and a number with a unit.
     const EXAMPLES: [&'static str; 2];
 }
 
@@ -67,8 +67,8 @@ macro_rules! dimensions {
             }
         )*
 
-        /// Returns the quantity and the examples of a token of a dimension.
-        pub(crate) fn of_token(token: &str) -> Option<(Quantity, [&'static str; 2])> {
+        /// Returns the quantity and the examples of the dimension with the given `token`.
+        pub(crate) fn quantity_of_token(token: &str) -> Option<(Quantity, [&'static str; 2])> {
             match token {
                 $($name::TOKEN => Some((Quantity::$quantity, $name::EXAMPLES)),)*
                 _ => None,
@@ -78,47 +78,49 @@ macro_rules! dimensions {
 }
 
 dimensions! {
-    /// Length; bare in the unit of the file.
+    /// Length. A bare number is in the unit of the file.
     Length, Length, 1.0, "the unit of the file", ["0.01", "10 mm"];
-    /// Angle; bare in degrees.
+    /// Angle. A bare number is in degrees.
     Angle, Angle, DEGREE, "degrees", ["45", "45 deg"];
-    /// Angular speed; bare in degrees per second.
+    /// Angular speed. A bare number is in degrees per second.
     AngularSpeed, AngularSpeed, DEGREE, "degrees/s", ["90", "90 deg/s"];
-    /// Curvature; bare in 1/m.
+    /// Curvature. A bare number is in 1/m.
     Curvature, Curvature, 1.0, "1/m", ["20", "0.2 1/cm"];
-    /// Time; bare in s.
+    /// Time. A bare number is in s.
     Time, Time, 1.0, "s", ["0.5", "500 ms"];
-    /// Speed; bare in m/s.
+    /// Speed. A bare number is in m/s.
     Speed, Speed, 1.0, "m/s", ["0.002", "2 mm/s"];
-    /// Acceleration; bare in m/s².
+    /// Acceleration. A bare number is in m/s².
     Acceleration, Acceleration, 1.0, "m/s²", ["9.81", "9.81 m/s2"];
-    /// Mass per area; bare in kg/m².
+    /// Mass per area. A bare number is in kg/m².
     MassPerArea, MassPerArea, 1.0, "kg/m²", ["0.15", "150 g/m2"];
-    /// Density; bare in kg/m³.
+    /// Density. A bare number is in kg/m³.
     Density, Density, 1.0, "kg/m³", ["1.2", "1.2 kg/m3"];
-    /// Force per width, stiffness of a strip per width; bare in N/m.
+    /// Force per width, or stiffness of a strip per width. A bare number is in N/m.
     ForcePerWidth, ForcePerWidth, 1.0, "N/m", ["5000", "50 N/cm"];
-    /// Moment per width; bare in N.
+    /// Moment per width. A bare number is in N.
     MomentPerWidth, MomentPerWidth, 1.0, "N", ["0.0005", "0.05 gf.cm/cm"];
-    /// Bending rigidity per width; bare in N·m.
+    /// Bending rigidity per width. A bare number is in N·m.
     BendingRigidity, BendingRigidity, 1.0, "N·m", ["1.2e-5", "0.12 gf.cm2/cm"];
-    /// Shear stiffness; bare in N/m, for a rad.
+    /// Shear stiffness. A bare number is in N/m, for a radian.
     ShearStiffness, ShearStiffness, 1.0, "N/m", ["35", "0.6 gf/(cm.deg)"];
-    /// Pressure per distance; bare in N/m³.
+    /// Pressure per distance. A bare number is in N/m³.
     PressurePerDistance, PressurePerDistance, 1.0, "N/m³", ["1e7", "10 kPa/mm"];
-    /// Ratio, such as a strain; bare as it is.
+    /// Ratio, such as a strain. A bare number is the ratio itself.
     Ratio, Ratio, 1.0, "", ["0.01", "1 %"];
 }
 
 impl<D: Dimension> Given<D> {
-    /// Creates a bare number.
+    /// Creates a bare `number`.
     #[must_use]
     pub const fn bare(number: f64) -> Self {
         Self { number, factor: None, dimension: PhantomData }
     }
 
-    /// Returns the value in the unit that bare numbers have: degrees of an angle, SI of all others
-    /// but lengths, which are multiplied by the unit of the file.
+    /// Returns the value in the unit of bare numbers: degrees for angles, the unit of the file for
+    /// lengths, and SI for all other dimensions.
+    ///
+    /// For a length with a unit the value is in metres, whatever the unit of the file.
     #[must_use]
     pub fn value(self) -> f64 {
         match self.factor {
@@ -128,7 +130,7 @@ impl<D: Dimension> Given<D> {
         }
     }
 
-    /// Returns the number as it is written, whatever its unit.
+    /// Returns the number as the file gives it, without regard to its unit.
     #[must_use]
     pub fn number(self) -> f64 {
         self.number
@@ -138,8 +140,8 @@ impl<D: Dimension> Given<D> {
 impl<D> Mul<f64> for Given<D> {
     type Output = f64;
 
-    /// Returns the value in SI, given the unit of bare numbers in SI: of lengths the unit of the
-    /// file, in m.
+    /// Returns the value in SI. `unit` is the value of the unit of bare numbers in SI. For lengths
+    /// it is the unit of the file, in m.
     fn mul(self, unit: f64) -> f64 {
         self.number * self.factor.unwrap_or(unit)
     }
@@ -148,7 +150,7 @@ impl<D> Mul<f64> for Given<D> {
 impl<D> Mul<Given<D>> for f64 {
     type Output = Given<D>;
 
-    /// Returns a multiple.
+    /// Returns `self` times the number `given`, in the unit of `given`.
     fn mul(self, given: Given<D>) -> Given<D> {
         Given { number: self * given.number, ..given }
     }
@@ -195,7 +197,7 @@ impl<'de, D: Dimension> Deserialize<'de> for Given<D> {
     }
 }
 
-/// Visitor of a number: a bare one, or a pair of a number and its unit.
+/// Visitor of a bare number, or of a pair of a number and the factor of its unit.
 struct GivenVisitor<D>(PhantomData<D>);
 
 impl<'de, D: Dimension> Visitor<'de> for GivenVisitor<D> {
@@ -214,13 +216,13 @@ impl<'de, D: Dimension> Visitor<'de> for GivenVisitor<D> {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut pair: A) -> Result<Self::Value, A::Error> {
-        let mut next = || pair.next_element()?.ok_or_else(|| A::Error::custom("no number"));
-        let (number, factor) = (next()?, next()?);
+        let number = pair.next_element()?.ok_or_else(|| A::Error::custom("no number"))?;
+        let factor = pair.next_element()?.ok_or_else(|| A::Error::custom("no number"))?;
         Ok(Given { number, factor: Some(factor), dimension: PhantomData })
     }
 }
 
-/// Text, or something else: for keys that take a name as well as a table.
+/// Text, or a value of type `T`, for keys that accept a name as well as a table.
 ///
 /// ```
 /// use drape_input::{Document, TextOr};
@@ -236,11 +238,11 @@ impl<'de, D: Dimension> Visitor<'de> for GivenVisitor<D> {
 pub enum TextOr<T> {
     /// Text.
     Text(String),
-    /// Something else.
+    /// Value that is no text.
     Other(T),
 }
 
-/// Token of [`TextOr`].
+/// Token by which [`Document`](crate::Document) recognises [`TextOr`].
 pub(crate) const TEXT_OR: &str = "$drape-input:TextOr";
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for TextOr<T> {
@@ -249,6 +251,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for TextOr<T> {
     }
 }
 
+/// Visitor of a text or of a value of type `T`.
 struct TextOrVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for TextOrVisitor<T> {

@@ -1,8 +1,8 @@
-//! Mistakes of grammar in a TOML text, in the words of this program.
+//! Mistakes of grammar in a TOML text, with messages that name a remedy.
 //!
-//! A parser that goes on after a mistake takes what follows for mistakes too. Here each line with a
-//! mistake is blanked and the text parsed anew, a few times, until it is right or a mistake follows
-//! on the one before.
+//! A parser that continues after a mistake often reports correct lines as mistakes too. Here each
+//! line with a mistake is replaced by spaces and the text is parsed again. This ends when the text
+//! is correct, or when a mistake is probably a consequence of the mistake before it.
 
 use std::ops::Range;
 
@@ -10,40 +10,43 @@ use toml::de::DeTable;
 
 use crate::figure::excerpt;
 
-/// Largest number of mistakes of grammar that are looked for.
-const MISTAKES_MAX: usize = 20;
-
 /// Mistake of grammar.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GrammarMistake {
+    /// Bytes of the text that the mistake covers.
     pub(crate) span: Option<Range<usize>>,
     pub(crate) message: String,
     pub(crate) help: String,
 }
 
-/// Returns the mistakes of grammar of a text.
+/// Returns the mistakes of grammar in `text`, at most 20.
 pub(crate) fn grammar_mistakes(text: &str) -> Vec<GrammarMistake> {
+    /// Largest number of mistakes that are searched for.
+    const MISTAKES_MAX: usize = 20;
+
     let mut text = text.to_owned();
     let mut mistakes: Vec<GrammarMistake> = Vec::new();
     let mut blanked = 0..0;
     while mistakes.len() < MISTAKES_MAX {
         let Err(error) = DeTable::parse(&text) else { break };
         let Some(span) = error.span() else {
-            mistakes.push(told(&text, None, error.message()));
+            mistakes.push(describe(&text, None, error.message()));
             break;
         };
         let line = line_at(&text, span.start);
-        // The next line, or one that was blanked: it follows from a mistake that was told. The parser
-        // does not find mistakes in the order of the text.
-        let next = (blanked.start..=blanked.end + 1).contains(&line.start);
-        let follows = !mistakes.is_empty() && next;
-        if follows || text[line.clone()].trim().is_empty() {
+
+        // A mistake in the blanked line, or in the line after it, is a consequence of the mistake
+        // before. The parser does not find mistakes in the order of the text.
+        let is_next = (blanked.start..=blanked.end + 1).contains(&line.start);
+        let is_consequence = !mistakes.is_empty() && is_next;
+        if is_consequence || text[line.clone()].trim().is_empty() {
             if mistakes.is_empty() {
-                mistakes.push(told(&text, Some(span), error.message()));
+                mistakes.push(describe(&text, Some(span), error.message()));
             }
             break;
         }
-        mistakes.push(told(&text, Some(span), error.message()));
+
+        mistakes.push(describe(&text, Some(span), error.message()));
         let blank: String = text[line.clone()].bytes().map(|_| ' ').collect();
         text.replace_range(line.clone(), &blank);
         blanked = line;
@@ -51,7 +54,7 @@ pub(crate) fn grammar_mistakes(text: &str) -> Vec<GrammarMistake> {
     mistakes
 }
 
-/// Returns the line of a byte, without its end.
+/// Returns the bytes of the line of `text` that contains `byte`, without the line break.
 fn line_at(text: &str, byte: usize) -> Range<usize> {
     let byte = byte.min(text.len());
     let start = text[..byte].rfind('\n').map_or(0, |end| end + 1);
@@ -59,14 +62,16 @@ fn line_at(text: &str, byte: usize) -> Range<usize> {
     start..end
 }
 
-/// Returns a mistake in other words than the parser's.
-fn told(text: &str, span: Option<Range<usize>>, parser: &str) -> GrammarMistake {
-    let headline = parser.split(", expected").next().unwrap_or(parser);
+/// Returns the mistake at `span` in `text`, for which the parser has the message `parser_message`.
+fn describe(text: &str, span: Option<Range<usize>>, parser_message: &str) -> GrammarMistake {
     let start = span.as_ref().map_or(0, |span| span.start.min(text.len()));
     if let Some(list) = open_list(text, start) {
         let help = "close it with ]".to_owned();
         return GrammarMistake { span: Some(list), message: "the list is not closed".into(), help };
     }
+
+    // The parser appends a list of expected letters, which confuses more than it helps.
+    let headline = parser_message.split(", expected").next().unwrap_or(parser_message);
     let (message, help) = match headline {
         _ if is_decimal_comma(text, start) => {
             let number = excerpt(&decimal(text, start));
@@ -91,33 +96,40 @@ fn told(text: &str, span: Option<Range<usize>>, parser: &str) -> GrammarMistake 
     GrammarMistake { span, message, help }
 }
 
-/// Returns whether a comma between digits is at a byte of a text.
+/// Returns whether byte `at` of `text` is a comma between two digits.
 fn is_decimal_comma(text: &str, at: usize) -> bool {
     let bytes = text.as_bytes();
-    let digit = |index: Option<usize>| {
-        index.and_then(|index| bytes.get(index)).is_some_and(u8::is_ascii_digit)
-    };
-    bytes.get(at) == Some(&b',') && digit(at.checked_sub(1)) && digit(Some(at + 1))
+    let before = at.checked_sub(1).and_then(|before| bytes.get(before));
+    bytes.get(at) == Some(&b',')
+        && before.is_some_and(u8::is_ascii_digit)
+        && bytes.get(at + 1).is_some_and(u8::is_ascii_digit)
 }
 
-/// Returns the number about a comma at a byte of a text, with a point.
+/// Returns whether `letter` may stand in an integer: a digit, a sign or an underscore.
+fn is_integer_letter(letter: char) -> bool {
+    letter.is_ascii_digit() || matches!(letter, '+' | '-' | '_')
+}
+
+/// Returns the number around the comma at byte `comma` of `text`, with a point in place of the
+/// comma.
 fn decimal(text: &str, comma: usize) -> String {
-    let is_part = |letter: char| letter.is_ascii_digit() || matches!(letter, '+' | '-' | '_');
-    let before = text[..comma].trim_end_matches(is_part).len();
-    let after =
-        text[comma + 1..].trim_start_matches(|c: char| is_part(c) || c.eq_ignore_ascii_case(&'e'));
+    let before = text[..comma].trim_end_matches(is_integer_letter).len();
+    let after = text[comma + 1..].trim_start_matches(|letter: char| {
+        is_integer_letter(letter) || letter.eq_ignore_ascii_case(&'e')
+    });
     format!("{}.{}", &text[before..comma], &text[comma + 1..text.len() - after.len()])
 }
 
-/// Returns the place of a list that began in the line before a byte and was not closed.
+/// Returns the bytes of a list that begins in the line before byte `at` and is not closed, if byte
+/// `at` is the first one in its line that is no space.
 fn open_list(text: &str, at: usize) -> Option<Range<usize>> {
     let line = line_at(text, at);
     let is_first = text[line.start..at].trim().is_empty();
     let before = text[..line.start].trim_end();
     let last = line_at(text, before.len());
-    let open = text[last.start..before.len()].find('[')?;
-    let rest = &text[last.start + open..before.len()];
-    let value = text[last.start..last.start + open].trim_end().ends_with('=');
-    let is_open = rest.matches('[').count() > rest.matches(']').count();
-    (is_first && value && is_open).then(|| last.start + open..before.len())
+    let bracket = last.start + text[last.start..before.len()].find('[')?;
+    let list = &text[bracket..before.len()];
+    let is_value = text[last.start..bracket].trim_end().ends_with('=');
+    let is_open = list.matches('[').count() > list.matches(']').count();
+    (is_first && is_value && is_open).then(|| bracket..before.len())
 }

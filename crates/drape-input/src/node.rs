@@ -1,4 +1,5 @@
-//! Values of a TOML text with their places: what `document` searches and `decode` reads.
+//! Values of a TOML text with their places. `document` searches these values, and `decode` reads
+//! them.
 
 pub(crate) mod key_path;
 
@@ -12,13 +13,15 @@ use crate::quoting::toml_key;
 /// Value with its place in the text.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
-    /// Bytes that a message points to: a table's name or header, any other value itself.
+    /// Bytes of the text that a message points to: the name or heading of a table, or any other
+    /// value itself.
     pub(crate) span: Range<usize>,
-    /// Bytes of the value itself; none of a table with a heading, or of a value that was set.
+    /// Bytes of the value itself. `None` for a table with a heading, and for a value that was set.
     pub(crate) text: Option<Range<usize>>,
     pub(crate) value: Value,
 }
 
+/// Content of a TOML value.
 #[derive(Debug, Clone)]
 pub(crate) enum Value {
     Text(String),
@@ -40,11 +43,12 @@ pub(crate) struct Entry {
 }
 
 impl Node {
-    /// Returns the content of a text.
+    /// Returns the table that is the content of a whole text.
     pub(crate) fn root(table: &DeTable<'_>) -> Self {
         Self { span: 0..0, text: None, value: Value::Table(entries(table)) }
     }
 
+    /// Returns the node of `value`.
     fn new(value: &Spanned<DeValue<'_>>) -> Self {
         let span = value.span();
         let value = match value.get_ref() {
@@ -64,14 +68,14 @@ impl Node {
         Self { text: Some(span.clone()), span, value }
     }
 
-    /// Returns the entry of a key, if this is a table that has it.
+    /// Returns the entry of `key`, if the value is a table that has this key.
     pub(crate) fn entry(&self, key: &str) -> Option<&Entry> {
         let Value::Table(entries) = &self.value else { return None };
         let index = entries.binary_search_by(|entry| entry.key.as_str().cmp(key)).ok()?;
         entries.get(index)
     }
 
-    /// Returns the text, if it is one.
+    /// Returns the content, if the value is a text.
     pub(crate) fn as_text(&self) -> Option<String> {
         match &self.value {
             Value::Text(text) => Some(text.clone()),
@@ -79,7 +83,7 @@ impl Node {
         }
     }
 
-    /// Gives the value, and all in it, one place.
+    /// Sets the place of the value, and of all values in it, to the byte `place`.
     pub(crate) fn move_to(&mut self, place: usize) {
         self.span = place..place;
         self.text = None;
@@ -93,16 +97,21 @@ impl Node {
         }
     }
 
-    /// Returns the place of the first element of a list, or of a list in it, that is behind a text.
-    pub(crate) fn first_element_behind(&self, text: usize) -> Option<usize> {
+    /// Returns the place of the first element of a list, or of a list in this list, that is behind
+    /// a text of `text_length` bytes. Such an element was set.
+    pub(crate) fn first_element_behind(&self, text_length: usize) -> Option<usize> {
         let Value::List(elements) = &self.value else { return None };
-        elements.iter().find_map(|element| match element.span.start > text {
-            true => Some(element.span.start),
-            false => element.first_element_behind(text),
+        elements.iter().find_map(|element| {
+            let start = element.span.start;
+            if start > text_length {
+                Some(start)
+            } else {
+                element.first_element_behind(text_length)
+            }
         })
     }
 
-    /// Returns all texts in the value.
+    /// Returns all texts in the value, in the order of their keys.
     pub(crate) fn texts(&self) -> Vec<&str> {
         match &self.value {
             Value::Text(text) => vec![text],
@@ -112,8 +121,9 @@ impl Node {
         }
     }
 
-    /// Returns the values of a table and of the tables in it, each with its key path behind the
-    /// table's, and its bytes; `None` if some do not stand in one piece.
+    /// Returns the values of a table and of the tables in it. Each value has its key path, relative
+    /// to the table, and its bytes in the text. Returns `None` if the value is no table, or if one
+    /// of the values has no bytes.
     pub(crate) fn values(&self) -> Option<Vec<(String, Range<usize>)>> {
         let Value::Table(entries) = &self.value else { return None };
         let mut values = Vec::new();
@@ -130,7 +140,7 @@ impl Node {
         Some(values)
     }
 
-    /// Returns the kind of the value, in words.
+    /// Returns the kind of the value in words, such as `a number`.
     pub(crate) fn kind(&self) -> &'static str {
         match &self.value {
             Value::Text(_) => "text",
@@ -143,12 +153,13 @@ impl Node {
     }
 }
 
-/// Returns the entries of a table.
+/// Returns the entries of `table` in the order of their keys.
 fn entries(table: &DeTable<'_>) -> Vec<Entry> {
-    let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| {
-        let key: &Spanned<std::borrow::Cow<'_, str>> = key;
+    let mut entries = Vec::with_capacity(table.len());
+    for (key, value) in table.iter() {
         let mut node = Node::new(value);
-        // A table with a heading has the place of the heading.
+
+        // A table with a heading begins before the end of its key, and is not in one piece.
         if value.span().start < key.span().end {
             node.text = None;
             if let Value::List(tables) = &mut node.value {
@@ -158,9 +169,8 @@ fn entries(table: &DeTable<'_>) -> Vec<Entry> {
         if matches!(node.value, Value::Table(_)) {
             node.span = key.span();
         }
-        Entry { key: key.get_ref().to_string(), span: key.span(), node }
-    };
-    let mut entries: Vec<Entry> = table.iter().map(entry).collect();
+        entries.push(Entry { key: key.get_ref().to_string(), span: key.span(), node });
+    }
     entries.sort_by(|a, b| a.key.cmp(&b.key));
     entries
 }

@@ -1,6 +1,6 @@
 //! Keys and strings written as TOML, for files and for key paths in messages.
 
-/// Returns a name as a key of TOML, in quotes where it needs them, such as `"simon.back"`.
+/// Returns `name` as a TOML key, in quotes if TOML requires them, such as `"simon.back"`.
 ///
 /// ```
 /// assert_eq!(drape_input::toml_key("front_left-2"), "front_left-2");
@@ -8,11 +8,12 @@
 /// ```
 #[must_use]
 pub fn toml_key(name: &str) -> String {
-    let bare = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-');
-    if !name.is_empty() && name.chars().all(bare) { name.into() } else { toml_string(name) }
+    let is_bare = !name.is_empty()
+        && name.chars().all(|letter| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-'));
+    if is_bare { name.into() } else { toml_string(name) }
 }
 
-/// Returns a text as a string of TOML, in quotes.
+/// Returns `text` as a TOML string, in quotes.
 ///
 /// ```
 /// assert_eq!(drape_input::toml_string("a \"b\"\n"), r#""a \"b\"\n""#);

@@ -1,7 +1,7 @@
-//! JSON Schema of numbers that may stand with a unit, and what schemas of files have in common.
+//! JSON Schema of numbers with or without a unit, and functions that all schemas of files use.
 //!
-//! A schema describes the form of a file: its keys, what kind of value each has, and the range of
-//! bare numbers. What one part of a file says of another is for the checks.
+//! A schema describes the form of a file: its keys, the kind of each value, and the range of bare
+//! numbers. Conditions between different parts of a file are left to the checks.
 
 use std::borrow::Cow;
 
@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use crate::given::{Dimension, Given, TextOr};
 use crate::unit::Quantity;
 
-/// Number with its exponent, as a regular expression.
+/// Regular expression of a number with or without an exponent.
 const NUMBER: &str = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
 
 impl<D: Dimension> JsonSchema for Given<D> {
@@ -49,24 +49,26 @@ impl<T: JsonSchema> JsonSchema for TextOr<T> {
     }
 }
 
-/// Returns a word with a capital.
+/// Returns `word` with a capital first letter.
 fn capital(word: &str) -> String {
-    let (first, rest) = word.split_at(word.len().min(1));
-    first.to_uppercase() + rest
+    let (first, others) = word.split_at(word.len().min(1));
+    first.to_uppercase() + others
 }
 
-/// Returns the texts of a number with a unit of a quantity, as a regular expression without anchors.
+/// Returns the regular expression, without anchors, of a number with a unit of `quantity`.
 fn quantity_pattern(quantity: Quantity) -> String {
     format!(r"\s*{NUMBER}\s*({})\s*", units_pattern(quantity))
 }
 
-/// Returns the texts of the units of a quantity, as a regular expression without anchors.
+/// Returns the regular expression, without anchors, of the units of `quantity`.
 fn units_pattern(quantity: Quantity) -> String {
     quantity.spellings().map(spelling_pattern).collect::<Vec<_>>().join("|")
 }
 
-/// Returns the schema of a number in the unit of a laboratory, bare or in a text, or with another
-/// unit; in a text with its standard deviation behind `±` or not.
+/// Returns the schema of a `quantity` in a sheet.
+///
+/// The value is a bare number in the laboratory's unit, or a text with a number, an optional unit,
+/// and an optional standard deviation after `±`.
 #[must_use]
 pub fn laboratory_schema(quantity: Quantity) -> Value {
     let unit = units_pattern(quantity);
@@ -76,20 +78,22 @@ pub fn laboratory_schema(quantity: Quantity) -> Value {
     json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": written }] })
 }
 
-/// Returns the schema of a unit of one of several quantities.
+/// Returns the schema of a unit of one of `quantities`.
 #[must_use]
 pub fn unit_schema(quantities: &[Quantity]) -> Value {
     let units: Vec<String> = quantities.iter().map(|&quantity| units_pattern(quantity)).collect();
     json!({ "type": "string", "pattern": format!(r"^\s*({})\s*$", units.join("|")) })
 }
 
-/// Returns the texts of a unit in all of its spellings.
+/// Returns the regular expression of all ways to write the unit with the normal form `spelling`.
 fn spelling_pattern(spelling: &str) -> String {
     match spelling {
         "%" => return "(%|[Pp]ercent|pct)".into(),
         "deg" => return "(deg|degrees?|°)".into(),
         _ => {}
     }
+
+    // Each letter is replaced by the letters that `normal_form` in `unit` takes for it.
     let spelling = spelling.replace("deg", "°");
     let mut pattern = String::new();
     for letter in spelling.chars() {
@@ -110,8 +114,8 @@ fn spelling_pattern(spelling: &str) -> String {
     pattern
 }
 
-/// Returns what gives a schema of numbers, or of lists of them, a range. Texts with units are not
-/// held to it.
+/// Returns a transform that limits the numbers of a schema, or of its lists, to the range from
+/// `least` to `most`. Texts with units are not limited.
 pub fn within(least: f64, most: f64) -> impl Fn(&mut Schema) {
     move |schema| {
         bound(schema, "minimum", least);
@@ -119,12 +123,12 @@ pub fn within(least: f64, most: f64) -> impl Fn(&mut Schema) {
     }
 }
 
-/// Returns what gives a schema of numbers, or of lists of them, a least value.
+/// Returns a transform that limits the numbers of a schema, or of its lists, to at least `least`.
 pub fn at_least(least: f64) -> impl Fn(&mut Schema) {
     move |schema| bound(schema, "minimum", least)
 }
 
-/// Gives a schema of numbers, or of lists of them, values above 0.
+/// Limits the numbers of `schema`, or of its lists, to values above 0.
 pub fn positive(schema: &mut Schema) {
     bound(schema, "exclusiveMinimum", 0.0);
 }
@@ -138,7 +142,8 @@ pub fn one_of(keys: &'static str) -> impl Fn(&mut Schema) {
     }
 }
 
-/// Gives a schema a limit, in its lists too. A schema without a type has one for the numbers in it.
+/// Adds `keyword` with the value `limit` to `schema`, or to the items of its lists. In a schema
+/// without a type the limit applies to the numbers.
 fn bound(schema: &mut Schema, keyword: &str, limit: f64) {
     let is_list = schema.get("items").is_some()
         || schema.get("type").is_some_and(|kind| kind == "array" || kind[0] == "array");
@@ -153,7 +158,7 @@ fn bound(schema: &mut Schema, keyword: &str, limit: f64) {
     }
 }
 
-/// Takes what TOML does not have out of a schema: null.
+/// Transform that removes null, which TOML does not have, from a schema.
 struct WithoutNull;
 
 impl Transform for WithoutNull {
@@ -163,6 +168,8 @@ impl Transform for WithoutNull {
         if object.get("default").is_some_and(Value::is_null) {
             object.remove("default");
         }
+
+        // An optional value has the types `[T, null]`, which becomes `T`.
         if let Some(Value::Array(kinds)) = object.get_mut("type") {
             kinds.retain(|kind| kind != "null");
             if let [kind] = &kinds[..] {
@@ -170,6 +177,9 @@ impl Transform for WithoutNull {
                 object.insert("type".into(), kind);
             }
         }
+
+        // An optional structure is any of `[T, null]`. The keywords of `T` move to the schema
+        // itself.
         if let Some(Value::Array(parts)) = object.get_mut("anyOf") {
             parts.retain(|part| part.get("type").is_none_or(|kind| kind != "null"));
             if let [Value::Object(part)] = &parts[..] {
@@ -183,15 +193,20 @@ impl Transform for WithoutNull {
     }
 }
 
-/// Returns the JSON Schema of a file with a title, a description, and what keywords of the whole
-/// add: conditions between its tables.
+/// Returns the JSON Schema of a file with the content `T`, with a `title` and a `description`.
+///
+/// `conditions` are further keywords of the whole schema, such as conditions between its tables.
 #[must_use]
-pub fn schema_of<T: JsonSchema>(title: &str, description: &str, more: Map<String, Value>) -> Value {
+pub fn schema_of<T: JsonSchema>(
+    title: &str,
+    description: &str,
+    conditions: Map<String, Value>,
+) -> Value {
     let mut schema = schemars::schema_for!(T);
     WithoutNull.transform(&mut schema);
     schema.insert("title".into(), title.into());
     schema.insert("description".into(), description.into());
-    for (keyword, value) in more {
+    for (keyword, value) in conditions {
         schema.insert(keyword, value);
     }
     schema.into()

@@ -1,4 +1,4 @@
-//! Settings: values of keys that are given beside a text, and take the place of those in it.
+//! Settings: values of keys that replace values of a text.
 
 use std::fmt;
 
@@ -7,11 +7,11 @@ use toml::de::DeTable;
 use crate::figure::excerpt;
 use crate::node::{Entry, Node, Value};
 
-/// Value of a key that is given beside a text, such as on a command line: `time.end=2.0`.
+/// Value that replaces the value at a key of a text, such as `time.end=2.0` on a command line.
 ///
-/// The key is a path of names and numbers with dots between them: `panel.0.rectangle`, or
-/// `panel[0].rectangle` as messages write it; a name with dots in it is quoted. The value is one of
-/// TOML: texts are in quotes.
+/// The key is a path of names and numbers with dots between them, such as `panel.0.rectangle`.
+/// Messages write this key as `panel[0].rectangle`, which is accepted too. A name with dots in it
+/// is quoted. The value is TOML: texts are in quotes.
 ///
 /// ```
 /// use drape_input::{Document, Setting};
@@ -26,10 +26,12 @@ use crate::node::{Entry, Node, Value};
 pub struct Setting {
     /// Names and numbers of the key.
     path: Vec<String>,
+    /// Key as it was written.
     key: String,
+    /// Value as it was written.
     value: String,
     node: Node,
-    /// Origin, as messages name it.
+    /// Origin of the setting, as messages name it.
     origin: String,
 }
 
@@ -38,15 +40,15 @@ pub struct Setting {
 pub struct SettingError {
     /// Description of the mistake.
     pub message: String,
-    /// Remedy.
+    /// Remedy for the user.
     pub help: String,
 }
 
 impl Setting {
-    /// Makes a setting of a key and a value of TOML.
+    /// Creates a setting from `key` and `value`, which is TOML.
     ///
     /// # Errors
-    /// The key is not a path of names and numbers, or the value is not one of TOML.
+    /// [`SettingError`] if `key` is not a path of names and numbers, or `value` is not TOML.
     pub fn new(key: &str, value: &str) -> Result<Self, SettingError> {
         let (key, value) = (key.trim(), value.trim());
         let path = path(key).ok_or_else(|| SettingError {
@@ -55,6 +57,8 @@ impl Setting {
                    name with dots in it stands in quotes"
                 .into(),
         })?;
+
+        // A value with a line break could add further keys: the text must have a single entry.
         let text = format!("value = {value}\n");
         let table = DeTable::parse(&text).ok().map(|table| Node::root(table.get_ref()));
         let node = table.and_then(|table| match table.value {
@@ -70,37 +74,38 @@ impl Setting {
                 excerpt(value.trim_matches(['"', '\'']))
             ),
         })?;
+
         let origin = "set on the command line".into();
         Ok(Self { path, key: key.into(), value: value.into(), node: node.node, origin })
     }
 
-    /// Returns the setting with its origin as messages name it, which is "set on the command line"
-    /// otherwise.
+    /// Returns the setting with the given `origin`, which messages name. Without this call the
+    /// origin is "set on the command line".
     #[must_use]
-    pub fn given_in(self, origin: &str) -> Self {
+    pub fn with_origin(self, origin: &str) -> Self {
         Self { origin: origin.into(), ..self }
     }
 
-    /// Origin, as messages name it.
+    /// Returns the origin, such as "set on the command line", as messages name it.
     #[must_use]
     pub fn origin(&self) -> &str {
         &self.origin
     }
 
-    /// Key, as it was given.
+    /// Returns the key as it was given to [`new`](Self::new).
     #[must_use]
     pub fn key(&self) -> &str {
         &self.key
     }
 
-    /// Value, as it was given.
+    /// Returns the value as it was given to [`new`](Self::new).
     #[must_use]
     pub fn value(&self) -> &str {
         &self.value
     }
 
-    /// Puts the value into the content of a text. All that is new has this place, which stands for
-    /// the setting.
+    /// Puts the value into `root`, the content of a text. New values have the place `place`, which
+    /// stands for the setting.
     pub(crate) fn apply(&self, root: &mut Node, place: usize) -> Result<(), SettingError> {
         let mut value = self.node.clone();
         value.move_to(place);
@@ -154,7 +159,8 @@ impl fmt::Display for SettingError {
 
 impl std::error::Error for SettingError {}
 
-/// Returns the value of a key of a table; it is made where it is not there, as an empty table.
+/// Returns the value of the key `name` of a table with the given `entries`. If there is none, an
+/// empty table with the place `place` is added.
 fn child<'a>(entries: &'a mut Vec<Entry>, name: &str, place: usize) -> &'a mut Node {
     let index = entries.binary_search_by(|entry| entry.key.as_str().cmp(name));
     let index = index.unwrap_or_else(|index| {
@@ -165,34 +171,36 @@ fn child<'a>(entries: &'a mut Vec<Entry>, name: &str, place: usize) -> &'a mut N
     &mut entries[index].node
 }
 
-/// Returns an element of a list by its number.
+/// Returns the element with the number `name` of the list at the key path `outer`.
 fn element<'a>(
     elements: &'a mut [Node],
     name: &str,
     outer: &str,
 ) -> Result<&'a mut Node, SettingError> {
     let count = elements.len();
-    let missing = |message: String, help: String| SettingError { message, help };
-    let index = name.parse::<usize>().map_err(|_| {
-        missing(
-            format!("{outer} is a list, and \"{}\" is no number", excerpt(name)),
-            format!("write the number of an element, from 0, such as {outer}.0"),
-        )
-    })?;
+    let Ok(index) = name.parse::<usize>() else {
+        let message = format!("{outer} is a list, and \"{}\" is no number", excerpt(name));
+        let help = format!("write the number of an element, from 0, such as {outer}.0");
+        return Err(SettingError { message, help });
+    };
     elements.get_mut(index).ok_or_else(|| match count {
-        0 => missing(format!("{outer} is an empty list"), format!("set {outer} itself")),
-        _ => missing(
-            format!("{outer} has no element {index}"),
-            format!("its elements have the numbers 0 to {}", count - 1),
-        ),
+        0 => SettingError {
+            message: format!("{outer} is an empty list"),
+            help: format!("set {outer} itself"),
+        },
+        _ => SettingError {
+            message: format!("{outer} has no element {index}"),
+            help: format!("its elements have the numbers 0 to {}", count - 1),
+        },
     })
 }
 
-/// Returns the names and numbers of a key; `None` if it is none.
+/// Returns the names and numbers of `key`, or `None` if it is no key path.
 fn path(key: &str) -> Option<Vec<String>> {
     let mut steps = Vec::new();
     let mut rest = key;
     loop {
+        // A name ends at a dot or bracket, or at the closing quote.
         let name;
         let is_quoted = rest.starts_with('"');
         (name, rest) = match rest.strip_prefix('"') {
@@ -204,11 +212,14 @@ fn path(key: &str) -> Option<Vec<String>> {
             return None;
         }
         steps.push(name.to_owned());
+
+        // Numbers in brackets may follow the name.
         while let Some(bracket) = rest.strip_prefix('[') {
-            let (number, behind) = bracket.split_once(']')?;
+            let (number, after) = bracket.split_once(']')?;
             steps.push(number.trim().parse::<usize>().ok()?.to_string());
-            rest = behind;
+            rest = after;
         }
+
         if rest.is_empty() {
             return Some(steps);
         }
@@ -280,16 +291,18 @@ mod tests {
         let document = Document::new("s.toml", TEXT).with_settings(&[set]).expect("it can be set");
         let rest = document.at("panel[0].size", "too small");
         assert_eq!((rest.line, rest.column), (Some(6), Some(8)));
-        let own = document.at("time.end", "-1 s is in the past");
-        assert_eq!((own.line, &own.span), (None, &None));
-        assert!(own.message.contains("set on the command line: time.end=-1"), "{own}");
+        let mistake = document.at("time.end", "-1 s is in the past");
+        assert_eq!((mistake.line, &mistake.span), (None, &None));
+        let origin = "set on the command line: time.end=-1";
+        assert!(mistake.message.contains(origin), "{mistake}");
         // A mistake of a list of which an element was set has its line, and names what was set.
         let set: Setting = "panel.0.size.1=-2".parse().expect("a setting");
-        let set = set.given_in("set by the study");
+        let set = set.with_origin("set by the study");
         let document = Document::new("s.toml", TEXT).with_settings(&[set]).expect("it can be set");
-        let own = document.at("panel[0].size", "too small");
-        assert_eq!(own.line, Some(6));
-        assert!(own.message.ends_with("too small (set by the study: panel.0.size.1=-2)"), "{own}");
+        let mistake = document.at("panel[0].size", "too small");
+        assert_eq!(mistake.line, Some(6));
+        let end = "too small (set by the study: panel.0.size.1=-2)";
+        assert!(mistake.message.ends_with(end), "{mistake}");
         assert_eq!(document.at("panel[0].name", "wrong").message, "panel[0].name: wrong");
     }
 }

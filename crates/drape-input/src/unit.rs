@@ -1,19 +1,15 @@
 //! Units of measurement as people write them, and their factors to SI.
 //!
-//! The only table of units: `given` reads the quantities of scenes, fabrics and patterns with it,
-//! `drape-kes` those of sheets and curves.
+//! The workspace has no other table of units. `given` uses it to read the quantities of scenes,
+//! fabrics and patterns, and `drape-kes` uses it to read the quantities of sheets and curves.
 
 use crate::figure::excerpt;
 use crate::spelling::closest;
 
 /// Standard gram-force, in newtons.
 ///
-/// The reading of a balance depends on the place; the unit is defined as 980.665 dyn.
+/// The reading of a balance depends on the local gravity. The unit is defined as 980.665 dyn.
 const GRAM_FORCE: f64 = 9.806_65e-3;
-
-/// Largest number of letters of a number that is read, more than any number with all its digits
-/// needs.
-const NUMBER_MAX: usize = 64;
 
 /// Inch, in metres.
 const INCH: f64 = 0.0254;
@@ -73,8 +69,9 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Returns the name used in messages.
+    /// Returns the name of the quantity in messages, such as `force per width`.
     pub fn name(self) -> &'static str {
+        // A name begins with a small letter, for it stands inside a sentence.
         match self {
             Self::Ratio => "ratio",
             Self::Angle => "angle",
@@ -99,9 +96,11 @@ impl Quantity {
         }
     }
 
-    /// Returns the units of this quantity, the laboratory's first, with their factors to SI.
+    /// Returns the units of this quantity with their factors to SI. The laboratory's unit is the
+    /// first.
     ///
-    /// Spellings are in the normal form of [`normal_form`]: `.` between factors, digits for powers.
+    /// Spellings have the form that [`normal_form`] returns: `.` between factors, digits for
+    /// powers.
     fn units(self) -> &'static [(&'static str, f64)] {
         match self {
             Self::Ratio => &[("%", 0.01), ("-", 1.0), ("1", 1.0), ("m/m", 1.0), ("mm/mm", 1.0)],
@@ -131,7 +130,7 @@ impl Quantity {
                 ("kN", 1e3),
                 ("lbf", POUND_FORCE),
                 ("dyn", 1e-5),
-                // Balances and older instruments print the force of a mass by the mass.
+                // Balances and older instruments print a force as the mass with this weight.
                 ("g", GRAM_FORCE),
                 ("kg", 1e3 * GRAM_FORCE),
             ],
@@ -188,10 +187,10 @@ impl Quantity {
                 ("mN.mm", 1e-6),
                 ("mN.cm2/cm", 1e-5),
                 ("gf.cm", 1e-2 * GRAM_FORCE),
-                // Japanese laboratories print the force of a mass by the mass.
+                // Japanese laboratories print a force as the mass with this weight.
                 ("g.cm2/cm", 1e-2 * GRAM_FORCE),
                 ("g.cm", 1e-2 * GRAM_FORCE),
-                // The flexural rigidity of the cantilever test is the force of a mass times a length.
+                // The flexural rigidity of the cantilever test is a weight times a length.
                 ("mgf.cm", 1e-5 * GRAM_FORCE),
                 ("mg.cm", 1e-5 * GRAM_FORCE),
                 ("cN.cm2/cm", 1e-4),
@@ -264,18 +263,18 @@ impl Quantity {
         }
     }
 
-    /// Returns the unit of a bare number in a sheet.
+    /// Returns the [`Unit`] of a bare number in a sheet, which is the laboratory's unit.
     pub fn laboratory(self) -> Unit {
         let (spelling, factor) = self.units()[0];
         Unit { quantity: self, spelling, factor }
     }
 
-    /// Returns the spellings of the units.
+    /// Returns the spellings of the units, such as `gf/cm`.
     pub fn spellings(self) -> impl Iterator<Item = &'static str> {
         self.units().iter().map(|(spelling, _)| *spelling)
     }
 
-    /// Returns the spellings of the units, for messages.
+    /// Returns the spellings of the units, separated by `, `, for messages.
     pub(crate) fn list(self) -> String {
         let spellings: Vec<&str> = self.units().iter().map(|unit| unit.0).collect();
         spellings.join(", ")
@@ -285,26 +284,29 @@ impl Quantity {
 /// Unit with its quantity and its factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
-    /// Its quantity.
+    /// Quantity that the unit measures.
     pub quantity: Quantity,
-    /// Its normal form.
+    /// Spelling in normal form, such as `gf.cm2/cm`.
     pub spelling: &'static str,
-    /// Its value in SI.
+    /// Value of the unit in SI.
     pub factor: f64,
 }
 
-/// Reason why a unit was not accepted, with the remedy.
+/// Reason why a text is no unit or no number with a unit, with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
-    /// The reason, with the text.
+    /// Reason, which quotes the text.
     pub message: String,
-    /// The remedy.
+    /// Remedy for the user.
     pub help: String,
-    /// Text that was probably meant, if one is near.
+    /// Text that was probably meant, if a known unit is similar.
     pub meant: Option<String>,
 }
 
-/// Parses a unit of one of the given quantities, which are tried in order.
+/// Parses `text` as a unit of one of the quantities `accepted`, which are tried in order.
+///
+/// # Errors
+/// [`UnitError`] if `text` is no unit of these quantities.
 pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> {
     let wanted = normal_form(text);
     for &quantity in accepted {
@@ -324,10 +326,10 @@ pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> 
     })
 }
 
-/// Returns whether a text is a unit of measurement of a curve.
+/// Returns whether `text` is a unit in which a measured curve may be given.
 #[must_use]
 pub fn is_unit(text: &str) -> bool {
-    const OF_CURVES: [Quantity; 9] = [
+    const CURVE_QUANTITIES: [Quantity; 9] = [
         Quantity::Ratio,
         Quantity::Angle,
         Quantity::Length,
@@ -338,29 +340,38 @@ pub fn is_unit(text: &str) -> bool {
         Quantity::MomentPerWidth,
         Quantity::Pressure,
     ];
-    const OTHERS: [&str; 26] = [
+    /// Units of other columns in files of curves, such as time and temperature.
+    const OTHER_UNITS: [&str; 26] = [
         "s", "sec", "min", "ms", "h", "MPa", "Pa", "kPa", "N/mm2", "J", "mJ", "C", "mm/min",
         "mm/s", "degC", "degF", "V", "mV", "mA", "Hz", "1/s", "s-1", "%/s", "%/min", "uJ", "GPa",
     ];
     let text = text.trim();
-    let bare_number = text.parse::<f64>().is_ok();
-    !bare_number
-        && (parse_unit(text, &OF_CURVES).is_ok() || OTHERS.contains(&normal_form(text).as_str()))
+    let is_number = text.parse::<f64>().is_ok();
+    let is_curve_unit = || parse_unit(text, &CURVE_QUANTITIES).is_ok();
+    let is_other_unit = || OTHER_UNITS.contains(&normal_form(text).as_str());
+    !is_number && (is_curve_unit() || is_other_unit())
 }
 
-/// Number with its unit.
+/// Number with the unit in which it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Written {
-    /// Number as written, whatever its unit.
+pub struct NumberWithUnit {
+    /// Number as it is written, without regard to its unit.
     pub number: f64,
-    /// Unit that it is written in.
+    /// Unit of `number`.
     pub unit: Unit,
 }
 
-/// Parses a number with its unit, `"1.2e-5 N.m"`, or `"0.118"` in the laboratory's unit.
-pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitError> {
+/// Parses `text` as a number with a unit of `quantity`, such as `"1.2e-5 N.m"`. A bare number such
+/// as `"0.118"` is in the laboratory's unit.
+///
+/// # Errors
+/// [`UnitError`] if `text` does not begin with a number, or if a unit of another quantity follows.
+pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, UnitError> {
+    /// Largest number of letters of a number, more than a number with all its digits needs.
+    const NUMBER_MAX: usize = 64;
+
+    // The number is the longest leading part that parses as one. The unit follows.
     let text = text.trim();
-    // The longest leading part that is a number; the rest is the unit.
     let split = (1..=text.len().min(NUMBER_MAX))
         .rev()
         .filter(|&end| text.is_char_boundary(end))
@@ -373,25 +384,32 @@ pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitErr
             meant: None,
         });
     };
-    let rest = text[end..].trim();
-    let unit = match rest {
+
+    let unit = match text[end..].trim() {
         "" => quantity.laboratory(),
-        written => parse_unit(written, &[quantity]).map_err(|error| UnitError {
+        spelling => parse_unit(spelling, &[quantity]).map_err(|error| UnitError {
             meant: error.meant.map(|unit| format!("{} {unit}", text[..end].trim_end())),
             ..error
         })?,
     };
-    Ok(Written { number, unit })
+    Ok(NumberWithUnit { number, unit })
 }
 
-/// Returns the normal form of a unit, for `gf·cm²/cm`, `gf*cm^2/cm` and `gf cm2/cm` alike.
+/// Returns the normal form of the unit `text`. `gf·cm²/cm`, `gf*cm^2/cm` and `gf cm2/cm` have one
+/// normal form.
 fn normal_form(text: &str) -> String {
+    /// Words for the degree in several languages.
+    const DEGREES: [&str; 10] = [
+        "degrees", "degree", "degrés", "degré", "grados", "grado", "graus", "grau", "derece",
+        "Grad",
+    ];
+
     let mut normal = String::with_capacity(text.len());
     for c in text.trim().chars() {
         match c {
             '·' | '*' | '×' | '⋅' | ' ' | '・' | '･' | '•' | '‧' | '∙' | '．' | '＊'
             | '\u{3000}' => normal.push('.'),
-            // Units that Japanese and Chinese programs write as one sign.
+            // Japanese and Chinese programs write some units as one sign.
             '㎎' => normal.push_str("mg"),
             '㎏' => normal.push_str("kg"),
             '㎜' => normal.push_str("mm"),
@@ -415,13 +433,10 @@ fn normal_form(text: &str) -> String {
             '^' => {}
             'µ' | 'μ' => normal.push('u'),
             '°' | 'º' | '゜' | '度' => normal.push_str("deg"),
-            other => normal.push(other),
+            letter => normal.push(letter),
         }
     }
-    const DEGREES: [&str; 10] = [
-        "degrees", "degree", "degrés", "degré", "grados", "grado", "graus", "grau", "derece",
-        "Grad",
-    ];
+
     let normal = DEGREES.iter().fold(normal, |text, word| text.replace(word, "deg"));
     match normal.as_str() {
         "deg." | "Deg" | "DEG" => "deg".to_owned(),
@@ -431,7 +446,7 @@ fn normal_form(text: &str) -> String {
             normal.replacen('N', "N.", 1)
         }
         "percent" | "Percent" | "pct" | "Prozent" => "%".to_owned(),
-        // Capitals where they mean nothing else; MN would be a million newtons.
+        // Capitals are accepted where they have no other meaning. MN would be a million newtons.
         "MM" | "CM" | "GF" | "KGF" | "Kgf" | "Gf" | "GF/CM" | "gF/cm" | "Gf/cm" | "KN" | "IN" => {
             if normal == "KN" {
                 "kN".to_owned()
@@ -441,7 +456,7 @@ fn normal_form(text: &str) -> String {
         }
         _ => {
             let parts = normal.replace("grf", "gf").replace("gfcm", "gf.cm");
-            // gf/cm° and (cm°) have no sign between.
+            // gf/cm° and (cm°) have no sign between the factors.
             parts.replace("cmdeg", "cm.deg")
         }
     }
@@ -534,7 +549,7 @@ mod tests {
             ("12", Quantity::MassPerArea, 0.12),
         ];
         for (text, quantity, si) in cases {
-            let Written { number, unit } = parse_quantity(text, quantity).unwrap();
+            let NumberWithUnit { number, unit } = parse_quantity(text, quantity).unwrap();
             let error = (number * unit.factor / si - 1.0).abs();
             assert!(error < 1e-14, "{text} reads as {} {}", number, unit.spelling);
         }

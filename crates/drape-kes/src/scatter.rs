@@ -2,7 +2,7 @@
 
 use crate::symbol::Symbol;
 use crate::test::Direction;
-use drape_input::{Quantity, UnitError, Written, parse_quantity};
+use drape_input::{NumberWithUnit, Quantity, UnitError, parse_quantity};
 
 /// Standard deviation of a value, as the sheet states it.
 ///
@@ -42,7 +42,7 @@ const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
 
 /// Value and standard deviation of a text.
 pub(crate) struct Parted {
-    pub(crate) value: Written,
+    pub(crate) value: NumberWithUnit,
     /// Standard deviation, in SI.
     pub(crate) deviation: f64,
 }

@@ -59,7 +59,7 @@ fn main() -> Result<(), Undetermined> {
     // The first of the two certified starts, which is far from the solution.
     let start = [500.0, 1e-4].map(Parameter::new);
     let report = minimise(&Misra1a, &start, &MinimiserSettings::default());
-    let covariance = Covariance::of(&Misra1a, &start, &report, Loss::Squares);
+    let covariance = Covariance::new(&Misra1a, &start, &report, Loss::Squares);
     let intervals = profile(&Misra1a, &start, &report, &ProfileSettings::default());
     assert!(report.stop.converged());
     for j in 0..2 {

@@ -8,14 +8,16 @@ use crate::minimise::Report;
 /// n\ln\frac{S}{n} + 2k + \frac{2k(k+1)}{n - k - 1}
 /// ```
 ///
-/// with the sum `$S$` of `$n$` squared residuals and `$k$` = free parameters plus one for the
-/// noise; the smallest is the best. Models may be compared when they were fitted to the same data
-/// with the same weights and the same loss. A difference beyond ten leaves the worse model no
-/// support, one below two says nothing \[BA02\]. `None` where there are fewer than two residuals
-/// more than parameters, or where the sum is not a number.
+/// Here `$S$` is the sum of squares in `report`, `$n$` is `residual_count`, and `$k$` is
+/// `free_parameter_count` plus one for the noise. The model with the smallest criterion is the
+/// best. Two models may be compared when both were fitted to the same data with the same weights
+/// and the same loss. A difference above ten leaves the worse model no support. A difference below
+/// two says nothing \[BA02\].
 ///
-/// The residuals are taken as independent. Where a model misses the data systematically neighbours
-/// are correlated, and differences come out too large.
+/// Returns `None` if `residual_count` is at most `free_parameter_count` + 2, or if the sum is NaN.
+///
+/// The criterion assumes independent residuals. Where a model misses the data systematically,
+/// neighbouring residuals are correlated, and differences of the criterion come out too large.
 ///
 /// ```
 /// # use drape_lm::{Parameter, Problem, MinimiserSettings, akaike, minimise};
@@ -32,11 +34,11 @@ use crate::minimise::Report;
 /// assert!(criterion < 0.0);
 /// ```
 #[must_use]
-pub fn akaike(report: &Report, residuals: usize, free_parameters: usize) -> Option<f64> {
-    let (n, k) = (residuals as f64, free_parameters as f64 + 1.0);
-    let spare = n - k - 1.0;
-    let value = n * (report.sum / n).ln() + 2.0 * k + 2.0 * k * (k + 1.0) / spare;
-    (spare > 0.0 && !value.is_nan()).then_some(value)
+pub fn akaike(report: &Report, residual_count: usize, free_parameter_count: usize) -> Option<f64> {
+    let (n, k) = (residual_count as f64, free_parameter_count as f64 + 1.0);
+    let denominator = n - k - 1.0;
+    let criterion = n * (report.sum / n).ln() + 2.0 * k + 2.0 * k * (k + 1.0) / denominator;
+    (denominator > 0.0 && !criterion.is_nan()).then_some(criterion)
 }
 
 #[cfg(test)]
@@ -73,8 +75,8 @@ mod tests {
         let value = akaike(&report(20.0), 20, 3).expect("enough residuals");
         assert!((value - 32.0 / 3.0).abs() < 1e-12, "{value}");
         // A mean square of e adds one for each residual.
-        let more = akaike(&report(20.0 * std::f64::consts::E), 20, 3).expect("enough residuals");
-        assert!((more - value - 20.0).abs() < 1e-12, "{more} after {value}");
+        let larger = akaike(&report(20.0 * std::f64::consts::E), 20, 3).expect("enough residuals");
+        assert!((larger - value - 20.0).abs() < 1e-12, "{larger} after {value}");
     }
 
     #[test]

@@ -2,12 +2,12 @@
 //!
 //! # Tour
 //!
-//! A [`Problem`] and its [`Parameter`]s are the input; [`minimise`] returns a [`Report`].
-//! [`Covariance`], [`profile`] and [`akaike`] take problem and report and judge the result.
+//! A [`Problem`] and its [`Parameter`]s are the input. [`minimise`] returns a [`Report`].
+//! [`Covariance`], [`profile`] and [`akaike`] judge a report.
 //!
 //! * The problem: `problem`, `linked` (parameters as functions of others), `loss`.
-//! * The minimiser: `difference` (Jacobian by differences) and `trust_region` (a step within a
-//!   radius) serve `iterate` (the current point with its linear model), which `minimise` drives.
+//! * The minimiser: `minimise` moves `iterate`, the current point with its linear model. `iterate`
+//!   uses `difference` (Jacobian by differences) and `trust_region` (a step within a radius).
 //! * The uncertainty: `covariance`, `profile`, `student` (quantiles), `akaike`.
 
 // The problem.

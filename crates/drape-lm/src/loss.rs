@@ -2,10 +2,11 @@
 
 /// Function of a residual that is summed.
 ///
-/// With `$u = (r/c)^2$` the sum is `$\sum_i c^2\rho(u_i)$`, where `$c$` is the size from which on a
-/// residual counts less. Residuals are taken times the roots of their weights, and `$c$` is in that
-/// unit. A good `$c$` is [`Loss::HUBER_TUNING`] or [`Loss::CAUCHY_TUNING`] times the standard
-/// deviation of the noise, which [`Loss::spread`] estimates without being misled by outliers.
+/// With `$u = (r/c)^2$` the sum is `$\sum_i c^2\rho(u_i)$`. A residual larger than the size `$c$`
+/// has less influence than in least squares. Each residual `$r$` is first multiplied by the root of
+/// its weight, so `$c$` is in the unit of the weighted residuals. A good `$c$` is
+/// [`Loss::HUBER_TUNING`] or [`Loss::CAUCHY_TUNING`] times the standard deviation of the noise.
+/// [`Loss::spread`] estimates this deviation without being misled by outliers.
 ///
 /// ```
 /// use drape_lm::Loss;
@@ -21,14 +22,14 @@ pub enum Loss {
     Squares,
     /// Huber's loss: `$\rho = u$` for `$u \le 1$`, else `$2\sqrt u - 1$` \[Hub64\].
     ///
-    /// It has one minimum where least squares have one.
+    /// The sum has a single minimum wherever the sum of squares has one.
     Huber {
         /// Size `$c$`, in the unit of the weighted residuals.
         size: f64,
     },
     /// Cauchy's loss: `$\rho = \ln(1 + u)$`.
     ///
-    /// Outliers lose nearly all influence, but false minima are possible.
+    /// Outliers lose nearly all influence, but the sum may have false minima.
     Cauchy {
         /// Size `$c$`, in the unit of the weighted residuals.
         size: f64,
@@ -36,14 +37,17 @@ pub enum Loss {
 }
 
 impl Loss {
-    /// Size of Huber's loss over the noise at 95 % efficiency for normal noise.
+    /// Ratio of the size `$c$` of Huber's loss to the deviation of the noise that has an efficiency
+    /// of 95 % for normal noise.
     pub const HUBER_TUNING: f64 = 1.345;
-    /// Size of Cauchy's loss over the noise at 95 % efficiency for normal noise.
+    /// Ratio of the size `$c$` of Cauchy's loss to the deviation of the noise that has an
+    /// efficiency of 95 % for normal noise.
     pub const CAUCHY_TUNING: f64 = 2.385;
 
-    /// Returns the standard deviation of the noise from the median absolute residual.
+    /// Estimates the standard deviation of the noise from the median magnitude of `residuals`.
     ///
-    /// For normal noise the median is 0.6745 standard deviations. Zero where no residual is finite.
+    /// For normal noise the median magnitude is 0.6745 standard deviations. Returns 0 if none of
+    /// `residuals` is finite.
     #[must_use]
     pub fn spread(residuals: &[f64]) -> f64 {
         let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
@@ -53,7 +57,7 @@ impl Loss {
         median / 0.674_489_750_196_081_7
     }
 
-    /// Returns the loss of a residual, `$c^2\rho$`.
+    /// Returns the loss of `residual`, `$c^2\rho$`.
     #[must_use]
     pub fn value(self, residual: f64) -> f64 {
         match self {
@@ -64,8 +68,8 @@ impl Loss {
         }
     }
 
-    /// Returns the weight `$\rho'(u)$` of the squared residual in the least squares problem with
-    /// the same gradient.
+    /// Returns the weight `$\rho'(u)$` of the squared `residual` in the least squares problem that
+    /// has the gradient of this loss.
     #[must_use]
     pub fn weight(self, residual: f64) -> f64 {
         match self {
@@ -76,7 +80,7 @@ impl Loss {
         }
     }
 
-    /// Returns the slope `$\psi'$` of the influence function `$\psi = r\rho'(u)$`.
+    /// Returns the slope `$\psi'$` of the influence function `$\psi = r\rho'(u)$` at `residual`.
     #[must_use]
     pub fn influence_slope(self, residual: f64) -> f64 {
         match self {
@@ -98,7 +102,7 @@ mod tests {
         [Loss::Squares, Loss::Huber { size: 0.7 }, Loss::Cauchy { size: 0.7 }];
 
     #[test]
-    fn the_influence_is_half_the_slope_of_the_loss_and_its_slope_is_its_own() {
+    fn the_influence_is_half_the_slope_of_the_loss_and_its_slope_is_the_influence_slope() {
         // Central differences of smooth functions: step squared over six, some 1e-10.
         let step = 1e-5;
         for loss in LOSSES {

@@ -1,6 +1,7 @@
 //! Levenberg–Marquardt iteration: damped Gauss–Newton steps, projected on the bounds.
 //!
-//! The entry of the crate; `iterate` holds the current point and computes the steps.
+//! [`minimise`] is the entry point of the crate. `iterate` holds the current point and computes the
+//! steps.
 
 use crate::difference::Difference;
 use crate::iterate::Iterate;
@@ -9,17 +10,17 @@ use crate::problem::{Parameter, Problem};
 
 /// First radius of the trust region over the scaled length of the starting values.
 ///
-/// A large one trusts the linear model far from the data, a small one converges slowly. Of the 54
-/// starts of the NIST reference problems 53 are solved for radii from 0.2 to 3.6, except for one of
-/// them at 0.9. The far start of MGH10, where the model is 500 times the data, is solved for some
-/// radii and not for others, and for all from 0.6 to 0.8.
+/// A large radius trusts the linear model far from the data. A small radius converges slowly. Of
+/// the 54 starts of the NIST reference problems, 53 are solved for all radii from 0.2 to 3.6,
+/// except for one start at 0.9. The last start, the far start of MGH10, has a model 500 times the
+/// data: it is solved for all radii from 0.6 to 0.8, and for only some radii outside this range.
 const FIRST_RADIUS: f64 = 0.7;
 /// Largest second-order part of a step over its first-order part.
 ///
-/// Beyond it the linear model is not trusted and the radius is halved without an evaluation of the
-/// sum: that keeps parameters from diverging into flat regions. \[TS12\] advise 0.75, and less for
-/// hard problems; with 0.75 two of the 54 starts are lost, with 0.3 curved valleys are followed too
-/// slowly.
+/// For a larger ratio the linear model is not trusted, and the radius is halved without an
+/// evaluation of the sum. This rule keeps parameters from diverging into flat regions. \[TS12\]
+/// advise 0.75, and less for hard problems. With 0.75 two of the 54 starts are not solved. With 0.3
+/// curved valleys are followed too slowly.
 const LARGEST_ACCELERATION: f64 = 0.45;
 /// Least ratio of actual to predicted reduction at which a step is accepted.
 const ACCEPTED_GAIN: f64 = 1e-4;
@@ -27,60 +28,58 @@ const ACCEPTED_GAIN: f64 = 1e-4;
 const POOR_GAIN: f64 = 0.25;
 /// Ratio of actual to predicted reduction above which the radius grows \[Mor78\].
 const GOOD_GAIN: f64 = 0.75;
-/// Factor on the radius where the linear model was poor.
+/// Factor on the radius after a step for which the linear model was poor.
 const SHRINK: f64 = 0.5;
-/// Factor on the radius where the linear model was good.
+/// Factor on the radius after a step for which the linear model was good.
 const GROW: f64 = 2.0;
 /// Relative reduction below which central differences replace forward ones.
 ///
-/// Far from the minimum the eight digits of forward differences are enough and cost half; near it
-/// the gradient is a small difference.
+/// Far from the minimum the eight digits of forward differences are enough and cost half as much.
+/// Near the minimum the gradient is a small difference of large numbers.
 const CENTRAL_BELOW: f64 = 1e-3;
-/// Relative change of a sum that is only rounding, for up to some ten thousand residuals.
+/// Largest relative change of a sum that may be rounding, for up to some ten thousand residuals.
 const ROUNDING: f64 = 1e-13;
 /// Cosine between the residuals and a column of the Jacobian above which a point is no minimum.
 const SLOPING: f64 = 1e-3;
-/// Norm of the residuals that is only rounding, over the scaled length of the parameters: below it
-/// the cosines mean nothing.
+/// Largest norm of the residuals that may be rounding, over the scaled length of the parameters.
+/// Cosines with smaller residuals mean nothing.
 const RESIDUAL_ROUNDING: f64 = 1e-13;
-/// Limit on the undamped steps at the end.
+/// Limit on the number of undamped steps at the end.
 ///
-/// One or two are usual. Where the residuals are large each gains a factor of two or three only,
-/// and a dozen gains four digits.
+/// One or two are usual. Where the residuals are large, each step gains only a factor of two or
+/// three, and a dozen steps gain four digits.
 const POLISH_STEPS: usize = 12;
-/// Ratio of the lengths of successive polish steps above which they are rounding.
-const POLISH_SHRINK: f64 = 0.9;
-/// Relative length below which a polish step is the last.
-const POLISH_LENGTH: f64 = 1e-12;
 
 /// Stopping criteria and loss.
 ///
 /// ```
 /// use drape_lm::{Loss, MinimiserSettings};
 ///
-/// let settings = MinimiserSettings { loss: Loss::Huber { size: 0.1 }, ..MinimiserSettings::default() };
+/// let loss = Loss::Huber { size: 0.1 };
+/// let settings = MinimiserSettings { loss, ..MinimiserSettings::default() };
 /// assert!(settings.polish);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MinimiserSettings {
-    /// Relative reduction of the sum at which to stop, for the last step and for the next one
-    /// predicted.
+    /// Relative reduction of the sum at which to stop. Both the actual reduction by a step and the
+    /// reduction that the linear model predicts must be this small.
     pub reduction: f64,
-    /// Relative length of a step at which to stop, in the scaled norm.
+    /// Length of a step over the length of the parameters at which to stop, in the scaled norm.
     pub step: f64,
     /// Cosine between the residuals and every column of the Jacobian at which to stop.
     pub gradient: f64,
     /// Limit on the number of steps, accepted or rejected.
     pub iterations: usize,
-    /// Loss that is summed over the residuals.
+    /// Function of a residual whose sum is minimised.
     pub loss: Loss,
-    /// Whether to end with undamped steps, which cost a few evaluations and gain the last digits.
+    /// Whether the minimisation ends with undamped steps, which cost a few evaluations and gain the
+    /// last digits.
     pub polish: bool,
 }
 
 impl Default for MinimiserSettings {
-    /// Returns least squares down to rounding: the problems here are small, and the last digits
-    /// cost little.
+    /// Returns settings for [`Loss::Squares`] with tolerances near rounding: on small problems the
+    /// last digits cost little.
     fn default() -> Self {
         Self {
             reduction: 1e-14,
@@ -115,7 +114,8 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// Returns whether the parameters are a minimum as far as rounding can tell.
+    /// Returns `true` for the four reasons that mean a minimum to within rounding: `Reduction`,
+    /// `Step`, `Gradient` and `Exact`.
     #[must_use]
     pub fn converged(self) -> bool {
         matches!(self, Self::Reduction | Self::Step | Self::Gradient | Self::Exact)
@@ -127,19 +127,20 @@ impl Stop {
 pub struct Report {
     /// Best parameters found.
     pub parameters: Vec<f64>,
-    /// Root of the weighted mean square residual there, in the unit of the residuals.
+    /// Root of the weighted mean square residual at `parameters`, in the unit of the residuals.
     pub rms: f64,
-    /// Sum of the losses there; in least squares, the weighted sum of squares.
+    /// Sum of the losses at `parameters`. For [`Loss::Squares`] it is the weighted sum of squares.
     pub sum: f64,
     /// Number of steps, accepted or rejected.
     pub iterations: usize,
-    /// Number of evaluations of the residuals, those for differences included.
+    /// Number of evaluations of the residuals, including the evaluations for differences.
     pub evaluations: usize,
     /// Reason why the iteration stopped.
     pub stop: Stop,
 }
 
-/// Minimises the weighted sum of squared residuals, or of another loss, within the bounds.
+/// Minimises the weighted sum of squared residuals of `problem`, or the sum of another loss, within
+/// the bounds of `parameters`.
 ///
 /// Each step solves \[Lev44, Mar63\]
 ///
@@ -151,14 +152,15 @@ pub struct Report {
 /// by a singular value decomposition, so that the condition number is not squared. `$D$` holds the
 /// largest norm that each column of `$J$` has had, which makes the method independent of the units
 /// of the parameters. The damping `$\lambda$` follows from the radius `$\Delta$` of the trust
-/// region, and that from the ratio of actual to predicted reduction \[Mor78\]. A damped step is
-/// corrected by the second derivative of the residuals along it, for one evaluation: curved valleys
-/// take fewer steps, and a step whose correction is too large is rejected \[TS12\].
+/// region. The radius follows from the ratio of actual to predicted reduction \[Mor78\]. A damped
+/// step is corrected by the second derivative of the residuals along the step, which takes one
+/// evaluation. Curved valleys then take fewer steps. A step whose correction is too large is
+/// rejected \[TS12\].
 ///
-/// Parameters at a bound are held while the gradient points outwards; the step of the others is
-/// projected on the bounds, and the prediction is made for the projected step. The last steps are
-/// undamped: the sum is flat at its minimum and no longer separates parameters that the linear
-/// model still does.
+/// A parameter at a bound is held while the gradient points outwards. The step of the free
+/// parameters is projected on the bounds, and the reduction is predicted for the projected step.
+/// The last steps are undamped: near its minimum the sum is too flat to separate parameters that
+/// the linear model still separates.
 ///
 /// ```
 /// use drape_lm::{Parameter, Problem, MinimiserSettings, minimise};
@@ -191,9 +193,11 @@ pub fn minimise(
     if !iterate.sum.is_finite() {
         return report(&iterate, 0, Stop::NotFinite);
     }
+
     iterate.linearise();
     let size = iterate.length(&start);
     let mut radius = FIRST_RADIUS * if size > 0.0 { size } else { 1.0 };
+
     for iteration in 0..settings.iterations {
         if iterate.sum == 0.0 {
             return report(&iterate, iteration, Stop::Exact);
@@ -204,11 +208,14 @@ pub fn minimise(
         if iterate.gradient() <= settings.gradient {
             return polish(iterate, settings, iteration, Stop::Gradient);
         }
+
         let damping = iterate.damping(radius);
         let step = iterate.step(damping);
         let length = iterate.length(&step);
         let short = length <= settings.step * iterate.length(&iterate.values);
         let predicted = iterate.predicted_reduction(&step) / iterate.sum;
+
+        // A step without a usable correction is too long for the linear model.
         let Some(step) = corrected(&mut iterate, &step, damping) else {
             if short {
                 return no_step(iterate, settings, iteration + 1);
@@ -216,10 +223,12 @@ pub fn minimise(
             radius = SHRINK * length;
             continue;
         };
+
         let values = iterate.shifted(&step);
         let trial = iterate.evaluate(&values);
         let actual = 1.0 - trial.sum / iterate.sum;
         let gain = actual / predicted;
+
         if predicted > 0.0 && gain > ACCEPTED_GAIN {
             iterate.accept(values, trial);
             if predicted.max(actual) <= settings.reduction {
@@ -228,10 +237,13 @@ pub fn minimise(
             if short {
                 return polish(iterate, settings, iteration + 1, Stop::Step);
             }
+
+            // Near the minimum the gradient needs the digits of central differences.
             if actual < CENTRAL_BELOW {
                 iterate.difference = Difference::Central;
             }
             iterate.linearise();
+
             if gain < POOR_GAIN {
                 radius = SHRINK * length;
             } else if gain > GOOD_GAIN || damping == 0.0 {
@@ -239,14 +251,17 @@ pub fn minimise(
             }
             continue;
         }
-        // Rejected. At the minimum the prediction is below the rounding of the sum: that is
-        // convergence.
+
+        // The step is rejected. At the minimum the prediction is below the rounding of the sum,
+        // which means convergence.
         if predicted <= settings.reduction && actual.abs() <= ROUNDING {
             return polish(iterate, settings, iteration + 1, Stop::Reduction);
         }
         if short {
             return no_step(iterate, settings, iteration + 1);
         }
+
+        // The rejection may be due to errors of the forward differences.
         if iterate.difference == Difference::Forward {
             iterate.difference = Difference::Central;
             iterate.linearise();
@@ -256,14 +271,14 @@ pub fn minimise(
     report(&iterate, settings.iterations, Stop::Iterations)
 }
 
-/// Returns a damped step with its second-order correction; `None` where that is too large or has no
-/// value.
+/// Returns the damped `step` with its second-order correction, or `None` if the correction is too
+/// large or is not finite. An undamped `step` is returned without a correction.
 fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) -> Option<Vec<f64>> {
     if damping == 0.0 {
         return Some(step.to_vec());
     }
     let acceleration = iterate.acceleration(step, damping)?;
-    // The correction is half the acceleration, and the criterion is for all of it.
+    // The correction is half the acceleration, and the criterion is about the whole acceleration.
     if !(2.0 * iterate.length(&acceleration) <= LARGEST_ACCELERATION * iterate.length(step)) {
         return None;
     }
@@ -272,8 +287,8 @@ fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) ->
     Some(corrected)
 }
 
-/// Ends where no step can be taken: at a minimum, unless the gradient or the residuals are too
-/// large for one.
+/// Returns the report for an `iterate` that no step can improve. The reason is [`Stop::Step`], or
+/// [`Stop::Stalled`] if both the gradient and the residuals are too large for a minimum.
 fn no_step(
     iterate: Iterate<impl Problem>,
     settings: &MinimiserSettings,
@@ -286,26 +301,33 @@ fn no_step(
     polish(iterate, settings, iterations, Stop::Step)
 }
 
-/// Ends with undamped steps, as long as they shrink and the sum rises by no more than rounding.
+/// Returns the report of `iterate` after undamped steps, if the `settings` ask for them. The steps
+/// go on as long as they shrink and the sum rises by no more than rounding.
 fn polish(
     mut iterate: Iterate<impl Problem>,
     settings: &MinimiserSettings,
     iterations: usize,
     stop: Stop,
 ) -> Report {
+    /// Ratio of the lengths of successive undamped steps above which the steps are rounding.
+    const POLISH_SHRINK: f64 = 0.9;
+    /// Relative length below which an undamped step is the last one.
+    const POLISH_LENGTH: f64 = 1e-12;
+
     if !settings.polish {
         return report(&iterate, iterations, stop);
     }
     iterate.difference = Difference::Central;
-    let mut last = f64::INFINITY;
+    let mut last_length = f64::INFINITY;
     for _ in 0..POLISH_STEPS {
         iterate.linearise();
         let step = iterate.step(0.0);
         let length = iterate.length(&step);
-        if !(length < POLISH_SHRINK * last) {
+        if !(length < POLISH_SHRINK * last_length) {
             break;
         }
-        last = length;
+        last_length = length;
+
         let values = iterate.shifted(&step);
         let trial = iterate.evaluate(&values);
         if !(trial.sum <= iterate.sum * (1.0 + ROUNDING)) {
@@ -319,6 +341,7 @@ fn polish(
     report(&iterate, iterations, stop)
 }
 
+/// Returns the report of the current point of `iterate`.
 fn report(iterate: &Iterate<impl Problem>, iterations: usize, stop: Stop) -> Report {
     let count = iterate.residuals.len().max(1) as f64;
     Report {

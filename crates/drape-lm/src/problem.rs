@@ -28,19 +28,21 @@ pub trait Problem {
     /// Number of residuals.
     fn residual_count(&self) -> usize;
 
-    /// Writes the residuals at the given parameters; not a number where the model has no value.
+    /// Writes the residuals at `parameters` into `out`, or NaN where the model has no value.
     ///
-    /// A trial step with a residual that is not finite is rejected.
+    /// The minimiser rejects a trial step that has a residual that is not finite.
     fn residuals(&self, parameters: &[f64], out: &mut [f64]);
 
     /// Writes the derivative of residual `i` by parameter `j` into `out[(i, j)]`, if it is known.
     ///
-    /// Returns `false`, the default, to have the derivatives taken by differences.
+    /// Returns `false`, the default, if `out` was not written. The minimiser then differentiates
+    /// the residuals by finite differences.
     fn jacobian(&self, _parameters: &[f64], _out: &mut DMatrix<f64>) -> bool {
         false
     }
 
-    /// Weight of each squared residual; an empty slice, the default, means one for all.
+    /// Returns the weight of each squared residual. The default, an empty slice, means that every
+    /// weight is one.
     fn weights(&self) -> &[f64] {
         &[]
     }
@@ -56,37 +58,38 @@ pub trait Problem {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Starting value; it is moved inside the bounds.
+    /// Starting value. A value outside the bounds is moved to the nearest bound.
     pub start: f64,
     /// Lower bound.
     pub lower: f64,
     /// Upper bound.
     pub upper: f64,
-    /// Typical size, which sets the difference step where the value is near zero.
+    /// Typical size of the value. The size sets the difference step where the value is near zero.
     pub scale: f64,
 }
 
 impl Parameter {
-    /// Creates an unbounded parameter whose scale is the size of its start (one at zero).
+    /// Creates an unbounded parameter that starts at `start`. Its scale is the magnitude of
+    /// `start`, or 1 if `start` is 0.
     #[must_use]
     pub fn new(start: f64) -> Self {
         let scale = if start == 0.0 { 1.0 } else { start.abs() };
         Self { start, lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
     }
 
-    /// Returns the parameter with the given bounds.
+    /// Returns the parameter with the bounds `lower` and `upper`.
     #[must_use]
     pub fn between(self, lower: f64, upper: f64) -> Self {
         Self { lower, upper, ..self }
     }
 
-    /// Returns the parameter with another scale.
+    /// Returns the parameter with the given `scale`.
     #[must_use]
     pub fn with_scale(self, scale: f64) -> Self {
         Self { scale, ..self }
     }
 
-    /// Returns the parameter held at its start.
+    /// Returns the parameter with both bounds at `start`, so that its value cannot change.
     #[must_use]
     pub fn fixed(self) -> Self {
         self.between(self.start, self.start)
@@ -98,7 +101,7 @@ impl Parameter {
         !(self.lower < self.upper)
     }
 
-    /// Returns the nearest value within the bounds.
+    /// Returns the number within the bounds that is nearest to `value`.
     pub(crate) fn clamp(&self, value: f64) -> f64 {
         value.max(self.lower).min(self.upper)
     }

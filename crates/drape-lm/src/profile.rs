@@ -1,6 +1,7 @@
-//! Profile likelihood intervals: from the loss itself in place of its linear model.
+//! Profile likelihood intervals, which use the loss itself in place of its linear model.
 //!
-//! Takes the report of `minimise` and minimises again with one parameter held at trial values.
+//! [`profile`] takes the report of `minimise` and minimises again with one parameter held at trial
+//! values.
 
 use rayon::prelude::*;
 
@@ -11,23 +12,15 @@ use crate::student::student_quantile;
 
 /// Relative tolerance on the deviation at an end.
 ///
-/// The deviation is nearly proportional to the distance, so the ends are good to the same fraction
-/// of the half width.
+/// The deviation is nearly proportional to the distance from the estimate. The error of an end is
+/// therefore this fraction of the half width.
 const TOLERANCE: f64 = 1e-4;
-/// Largest growth of the step outwards, per trial.
-const GROWTH: f64 = 4.0;
-/// Limit on the trials outwards: with the growth, 1e12 standard errors.
-const OUTWARD_TRIALS: usize = 20;
-/// Limit on the trials between a value inside and one outside; five are usual.
-const BRACKET_TRIALS: usize = 60;
-/// Relative fall of the loss along the profile that is no rounding: the fit was not at the minimum.
-const LOWER: f64 = 1e-9;
-/// Relative reduction and step at which the others are fitted well enough.
+/// Relative reduction and relative step at which a fit of the other parameters stops.
 ///
-/// The loss is flat around its minimum, so both leave the deviation better than [`TOLERANCE`].
+/// The loss is flat around its minimum, so the error of the deviation is below [`TOLERANCE`].
 const FIT_TOLERANCE: f64 = 1e-10;
 
-/// Level of the intervals, and settings of the fits along the profile.
+/// Level of the intervals and settings of the fits along the profile.
 ///
 /// ```
 /// let settings = drape_lm::ProfileSettings { level: 0.99, ..Default::default() };
@@ -37,12 +30,12 @@ const FIT_TOLERANCE: f64 = 1e-10;
 pub struct ProfileSettings {
     /// Probability that an interval contains the true value, 0 to 1.
     pub level: f64,
-    /// Settings with which the fit was made.
+    /// Settings of the minimisation whose report is profiled.
     pub minimiser: MinimiserSettings,
 }
 
 impl Default for ProfileSettings {
-    /// Returns a level of 95 % and the default settings of the minimiser.
+    /// Returns a level of 95 % and the default [`MinimiserSettings`].
     fn default() -> Self {
         Self { level: 0.95, minimiser: MinimiserSettings::default() }
     }
@@ -56,16 +49,19 @@ pub enum End {
     At(f64),
     /// Bound of the parameter, where the loss is still below the level.
     AtBound(f64),
-    /// Value at which the search ended with the loss below the level: the data set no end.
+    /// Value at which the search ended with the loss still below the level. The data set no end.
     Unbounded(f64),
-    /// Parameters with a lower loss than that of the fit: start there again.
+    /// Parameters with a lower loss than the report has. Minimise again with these parameters as
+    /// the start.
     LowerMinimum(Vec<f64>),
-    /// Value at which the other parameters could not be fitted, and why; the end is farther out.
+    /// Value at which the fit of the other parameters did not converge, and the reason. The end is
+    /// farther out.
     NotConverged(f64, Stop),
 }
 
 impl End {
-    /// Returns the value of a closed end, or of the bound that closes it.
+    /// Returns the value of [`End::At`] or [`End::AtBound`], and `None` for an end that is not
+    /// known.
     #[must_use]
     pub fn value(&self) -> Option<f64> {
         match self {
@@ -85,7 +81,8 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Returns whether a value is inside; an end that was not found excludes nothing on its side.
+    /// Returns whether `value` is inside the interval. An end that is not known excludes nothing on
+    /// its side.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.lower.value().is_none_or(|lower| value >= lower)
@@ -93,21 +90,24 @@ impl Interval {
     }
 }
 
-/// Computes the profile likelihood intervals of all parameters.
+/// Computes the profile likelihood interval of each of `parameters` around the minimum in `report`.
 ///
-/// Each parameter is moved away from its estimate while all others are fitted again, until the loss
-/// has risen to the level \[Bat88, §6.1.2\]:
+/// Each parameter is moved away from its estimate while all other parameters are fitted again,
+/// until the loss has risen to the level \[Bat88, §6.1.2\]:
 ///
 /// ```math
 /// \sqrt{\frac{S(\theta_j) - S_{min}}{s^2}} = t_{\nu}
 /// ```
 ///
-/// Unlike standard errors this holds for models that are curved over their errors, does not depend
-/// on how the model is parameterised, respects bounds, and shows where an interval has no end.
-/// Parameters are done in parallel, each by the same steps for any number of threads.
+/// Here `$S(\theta_j)$` is the least sum with parameter `$j$` held at `$\theta_j$`, `$s^2$` is the
+/// variance of the residuals, and `$t_\nu$` is the quantile of Student's distribution.
+///
+/// Unlike a standard error, the interval holds for models that are curved over their errors, does
+/// not depend on how the model is parameterised, respects bounds, and shows if it has no end. The
+/// parameters are processed in parallel. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// In place of an interval, the reason why a parameter has none.
+/// An entry of the result is [`Undetermined`], with the reason, if the parameter has no interval.
 #[must_use]
 pub fn profile(
     problem: &(impl Problem + Sync),
@@ -116,7 +116,7 @@ pub fn profile(
     settings: &ProfileSettings,
 ) -> Vec<Result<Interval, Undetermined>> {
     let ProfileSettings { level, minimiser } = *settings;
-    let covariance = Covariance::of(problem, parameters, report, minimiser.loss);
+    let covariance = Covariance::new(problem, parameters, report, minimiser.loss);
     let count = parameters.len().min(report.parameters.len());
     let profile = Profile {
         problem,
@@ -134,12 +134,17 @@ pub fn profile(
     (0..count).into_par_iter().map(|j| profile.interval(j)).collect()
 }
 
+/// Fit whose parameters are profiled.
 struct Profile<'a, P> {
     problem: &'a P,
     parameters: &'a [Parameter],
+    /// Report of the fit.
     report: &'a Report,
+    /// Settings of the fits with one parameter held.
     settings: MinimiserSettings,
+    /// Deviation at the level, in standard deviations.
     quantile: f64,
+    /// Linear model of the fit.
     covariance: &'a Covariance,
 }
 
@@ -147,13 +152,14 @@ struct Profile<'a, P> {
 struct Point {
     /// Value of the parameter that is held.
     value: f64,
-    /// All parameters.
+    /// Values of all parameters.
     parameters: Vec<f64>,
-    /// Deviation less that of the level, in standard deviations.
+    /// Deviation at this point less the deviation at the level, in standard deviations.
     excess: f64,
 }
 
 impl<P: Problem> Profile<'_, P> {
+    /// Returns the interval of parameter `j`, or the reason why it has none.
     fn interval(&self, j: usize) -> Result<Interval, Undetermined> {
         match self.covariance.undetermined(j) {
             Some(Undetermined::AtBound(_)) if self.covariance.degrees_of_freedom > 0 => {}
@@ -167,17 +173,24 @@ impl<P: Problem> Profile<'_, P> {
         Ok(Interval { lower: self.end(j, -step), upper: self.end(j, step) })
     }
 
-    /// Returns half the width of the interval of the linear model; at a bound, a first guess.
+    /// Returns half the width of the interval of parameter `j` in the linear model. For a parameter
+    /// at a bound it is a guess from the error that the parameter has if all others are known.
     fn first_step(&self, j: usize) -> f64 {
         let error = self.covariance.standard_error(j);
         let step = self.quantile * error.unwrap_or_else(|_| self.covariance.conditional_error(j));
         let size = self.report.parameters[j].abs().max(self.parameters[j].scale);
-        // Shorter steps are rounding, longer ones belong to a parameter without effect.
+        // Shorter steps are rounding, and longer steps belong to a parameter without effect.
         step.clamp(1e3 * f64::EPSILON * size, size / f64::EPSILON)
     }
 
-    /// Searches one end outwards from the estimate.
-    fn end(&self, j: usize, first: f64) -> End {
+    /// Searches one end of the interval of parameter `j` outwards from the estimate, beginning with
+    /// the step `first_step`.
+    fn end(&self, j: usize, first_step: f64) -> End {
+        /// Largest growth of the step from one trial to the next.
+        const GROWTH: f64 = 4.0;
+        /// Limit on the number of trials. With `GROWTH` they reach 1e12 standard errors.
+        const OUTWARD_TRIALS: usize = 20;
+
         let parameter = &self.parameters[j];
         let estimate = self.report.parameters[j];
         let mut inside = Point {
@@ -185,15 +198,16 @@ impl<P: Problem> Profile<'_, P> {
             parameters: self.report.parameters.clone(),
             excess: -self.quantile,
         };
-        let mut before: Option<Point> = None;
-        let mut step = first;
+        let mut previous: Option<Point> = None;
+        let mut step = first_step;
         let mut outside = None;
+
         for _ in 0..OUTWARD_TRIALS {
             let value = parameter.clamp(inside.value + step);
             if value == inside.value {
                 return End::AtBound(value);
             }
-            let guess = self.guess(j, value, &inside, before.as_ref());
+            let guess = self.guess(j, value, &inside, previous.as_ref());
             let point = match self.point(j, value, guess) {
                 Ok(point) => point,
                 Err(end) => return end,
@@ -202,22 +216,28 @@ impl<P: Problem> Profile<'_, P> {
                 outside = Some(point);
                 break;
             }
-            // The deviation is nearly linear: aim a little beyond the level, to end outside.
+
+            // The deviation is nearly linear in the value. The next trial aims a little beyond the
+            // level, so that it is outside.
             let gained = point.excess - inside.excess;
             let aim = 1.1 * (value - inside.value) * -point.excess / gained;
-            let most = GROWTH * (value - inside.value);
-            step = if gained > 0.0 && aim.abs() < most.abs() { aim } else { most };
-            before = Some(std::mem::replace(&mut inside, point));
+            let longest = GROWTH * (value - inside.value);
+            step = if gained > 0.0 && aim.abs() < longest.abs() { aim } else { longest };
+            previous = Some(std::mem::replace(&mut inside, point));
         }
+
         match outside {
             Some(outside) => self.between(j, inside, outside),
             None => End::Unbounded(inside.value),
         }
     }
 
-    /// Finds the value at the level from one on either side, by the Illinois method
-    /// \[DJ71\].
+    /// Finds the value of parameter `j` at the level between `inside` and `outside`, by the
+    /// Illinois method \[DJ71\].
     fn between(&self, j: usize, mut inside: Point, mut outside: Point) -> End {
+        /// Limit on the number of trials. Five are usual.
+        const BRACKET_TRIALS: usize = 60;
+
         let (mut inner, mut outer) = (inside.excess, outside.excess);
         for _ in 0..BRACKET_TRIALS {
             if inside.excess.abs().min(outside.excess) <= TOLERANCE * self.quantile {
@@ -228,11 +248,14 @@ impl<P: Problem> Profile<'_, P> {
             if value == inside.value || value == outside.value {
                 break;
             }
+
             let guess = self.guess(j, value, &inside, Some(&outside));
             let point = match self.point(j, value, guess) {
                 Ok(point) => point,
                 Err(end) => return end,
             };
+
+            // The excess of the end that stays is halved, so that both ends move.
             if point.excess < 0.0 {
                 (inner, outer) = (point.excess, 0.5 * outer);
                 inside = point;
@@ -245,48 +268,62 @@ impl<P: Problem> Profile<'_, P> {
         End::At(nearer.value)
     }
 
-    /// Extrapolates the other parameters, through two points or by the linear model.
-    fn guess(&self, j: usize, value: f64, from: &Point, other: Option<&Point>) -> Vec<f64> {
-        let change = value - from.value;
-        let slope = |k: usize| match other {
-            Some(other) => (other.parameters[k] - from.parameters[k]) / (other.value - from.value),
-            None => {
-                let pair = |i| self.covariance.covariance(i, j);
-                pair(k).zip(pair(j)).map_or(0.0, |(kj, jj)| kj / jj)
-            }
-        };
-        let moved = |k: usize| {
-            let expected = from.parameters[k] + change * slope(k);
-            if expected.is_finite() { expected } else { from.parameters[k] }
-        };
-        (0..self.parameters.len()).map(moved).collect()
+    /// Extrapolates all parameters to the point of the profile where parameter `j` is `value`.
+    ///
+    /// The extrapolation goes through `first` and `second`, or follows the linear model from
+    /// `first` if there is no `second`.
+    fn guess(&self, j: usize, value: f64, first: &Point, second: Option<&Point>) -> Vec<f64> {
+        let change = value - first.value;
+        let mut guess = Vec::with_capacity(self.parameters.len());
+        for (k, start) in first.parameters.iter().copied().enumerate() {
+            let slope = match second {
+                Some(second) => (second.parameters[k] - start) / (second.value - first.value),
+                None => {
+                    let covariance = self.covariance.covariance(k, j);
+                    let variance = self.covariance.covariance(j, j);
+                    covariance.zip(variance).map_or(0.0, |(kj, jj)| kj / jj)
+                }
+            };
+            let expected = start + change * slope;
+            guess.push(if expected.is_finite() { expected } else { start });
+        }
+        guess
     }
 
-    /// Fits the other parameters with one held at a value.
+    /// Fits the other parameters, starting from `guess`, with parameter `j` held at `value`.
+    ///
+    /// # Errors
+    /// The end of the interval, if the fit finds a lower minimum or does not converge.
     fn point(&self, j: usize, value: f64, guess: Vec<f64>) -> Result<Point, End> {
+        /// Relative fall of the loss along the profile that is more than rounding and means that
+        /// the report was not at the minimum.
+        const LOWER: f64 = 1e-9;
+
         let mut parameters = self.parameters.to_vec();
         for (parameter, start) in parameters.iter_mut().zip(&guess) {
             parameter.start = *start;
         }
         parameters[j].start = value;
         parameters[j] = parameters[j].fixed();
+
         let report = minimise(self.problem, &parameters, &self.settings);
         let rise = report.sum - self.report.sum;
         if rise < -LOWER * self.report.sum {
             return Err(End::LowerMinimum(report.parameters));
         }
         let excess = self.deviation(rise) - self.quantile;
-        // Before the minimum the loss is too large: that proves a value inside, not outside.
+        // Before it converges a fit has too large a loss. A loss below the level then proves that
+        // the value is inside, but a loss above the level does not prove that it is outside.
         if !report.stop.converged() && !(excess < 0.0) {
             return Err(End::NotConverged(value, report.stop));
         }
         Ok(Point { value, parameters: report.parameters, excess })
     }
 
-    /// Returns a rise of the loss in standard deviations.
+    /// Returns the deviation, in standard deviations, that a `rise` of the loss means.
     fn deviation(&self, rise: f64) -> f64 {
         let variance = self.covariance.rise_of_one_deviation();
-        // An exact fit has no variance: its loss rises beyond every level, or not at all.
+        // An exact fit has no variance. Its loss rises beyond every level, or not at all.
         if rise > 0.0 { (rise / variance).sqrt() } else { 0.0 }
     }
 }

@@ -2,19 +2,20 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-/// Largest number of degrees of freedom that is computed with; more are taken for it.
+/// Largest number of degrees of freedom in the computation. Larger numbers are replaced by this
+/// one.
 ///
-/// The quantile is then too large by one in ten thousand at most.
+/// The quantile is then too large by at most one part in ten thousand.
 const MOST_DEGREES: usize = 10_000;
-/// Bisections for the angle of the quantile: the bits of a double.
+/// Number of bisections for the angle of the quantile, enough for all bits of an `f64`.
 const HALVINGS: usize = 55;
 
 /// Returns the two-sided quantile of Student's t distribution, in standard errors.
 ///
-/// It is the deviation that the fraction `level` of all estimates does not exceed. With few degrees
-/// of freedom the standard error itself is uncertain, and the quantile is larger than the 1.96 of
-/// the normal distribution at 95 %. Not a number without degrees of freedom or for a level outside
-/// 0 to 1.
+/// The fraction `level` of all estimates deviates by no more than the quantile. With few `degrees`
+/// of freedom the standard error itself is uncertain, and the quantile at 95 % is larger than 1.96,
+/// the quantile of the normal distribution. Returns NaN if `degrees` is 0 or `level` is not between
+/// 0 and 1.
 ///
 /// ```
 /// let deviation = drape_lm::student_quantile(0.95, 10);
@@ -38,14 +39,15 @@ pub fn student_quantile(level: f64, degrees: usize) -> f64 {
     (0.5 * (low + high)).tan() * (degrees as f64).sqrt()
 }
 
-/// Returns the probability of a deviation up to `$t = \sqrt\nu\tan\theta$` \[AS64, eqs. 26.7.3–4\].
+/// Returns the probability of a deviation up to `$t = \sqrt\nu\tan\theta$` \[AS64, eqs. 26.7.3–4\],
+/// where `$\theta$` is `angle` and `$\nu$` is `degrees`.
 ///
 /// ```math
 /// \sin\theta\left(1 + \tfrac12\cos^2\theta + \tfrac{1\cdot3}{2\cdot4}\cos^4\theta + \dots\right)
 /// \quad\text{for even } \nu
 /// ```
 ///
-/// and a similar finite sum for odd `$\nu$`; both are exact up to rounding.
+/// and a similar finite sum for odd `$\nu$`. Both sums are exact up to rounding.
 fn probability(angle: f64, degrees: usize) -> f64 {
     let (sine, cosine) = angle.sin_cos();
     let odd = degrees % 2 == 1;
@@ -67,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_quantiles_are_those_of_the_tables() {
+    fn the_quantiles_agree_with_published_tables() {
         // Two-sided 95 % and 99 % points, tabulated to five digits.
         for (degrees, at_95, at_99) in [
             (1, 12.7062, 63.6567),
@@ -87,7 +89,7 @@ mod tests {
                 );
             }
         }
-        // The normal distribution's, for ever more degrees.
+        // The quantile approaches the quantile of the normal distribution.
         assert!((student_quantile(0.95, usize::MAX) / 1.959_964 - 1.0).abs() < 1.3e-4);
     }
 

@@ -1,15 +1,16 @@
 //! Step of a linear least squares problem within a trust region.
 //!
-//! `iterate` builds a [`TrustRegion`] from the scaled Jacobian and asks it for damping and step.
+//! `iterate` builds a [`TrustRegion`] from the scaled Jacobian. The trust region returns the
+//! damping and the step.
 
 use nalgebra::linalg::QR;
 use nalgebra::{DMatrix, DVector, Dyn};
 
-/// Relative tolerance on the length of a step against the radius.
+/// Largest relative excess of the length of a step over the radius.
 ///
-/// The radius itself is only known within a factor of two, so a tenth is enough \[Mor78\].
+/// The radius is itself only good to a factor of two, so a tenth is enough \[Mor78\].
 const LENGTH_TOLERANCE: f64 = 0.1;
-/// Limit on Newton's iterations for the damping; two or three are usual.
+/// Limit on the Newton iterations for the damping. Two or three are usual.
 const DAMPING_ITERATIONS: usize = 60;
 /// Limit on the iterations of the singular value decomposition, far more than it needs.
 const SVD_ITERATIONS: usize = 10_000;
@@ -21,44 +22,44 @@ const SVD_ITERATIONS: usize = 10_000;
 /// z(\lambda) = -V\,\mathrm{diag}\!\left(\frac{\sigma}{\sigma^2 + \lambda}\right) U^T r
 /// ```
 ///
-/// with `$A = U\Sigma V^T$`. The condition number is not squared, a loss of rank does no harm, and
-/// another damping `$\lambda$` costs one product with `$V$`.
+/// with the singular value decomposition `$A = U\Sigma V^T$`. The condition number is not squared,
+/// a loss of rank does no harm, and another damping `$\lambda$` costs one product with `$V$`.
 pub(crate) struct TrustRegion {
-    /// `$A = QR$`: the singular vectors are those of the triangle.
+    /// Decomposition `$A = QR$`.
     qr: QR<f64, Dyn, Dyn>,
+    /// Left singular vectors of `$R$`.
     u: DMatrix<f64>,
+    /// Singular values of `$A$`, which are also the singular values of `$R$`.
     singular: DVector<f64>,
+    /// Right singular vectors of `$A$`, in rows.
     v_t: DMatrix<f64>,
 }
 
 impl TrustRegion {
-    /// Decomposes a matrix with at least as many rows as columns; `None` where that does not
-    /// converge.
+    /// Decomposes `matrix`, which has at least as many rows as columns. Returns `None` if the
+    /// singular value decomposition does not converge.
     pub(crate) fn new(matrix: DMatrix<f64>) -> Option<Self> {
         let qr = matrix.qr();
         let svd = qr.r().try_svd(true, true, f64::EPSILON, SVD_ITERATIONS)?;
         Some(Self { qr, u: svd.u?, singular: svd.singular_values, v_t: svd.v_t? })
     }
 
-    /// Returns the residuals in the basis of the left singular vectors.
+    /// Returns the components of `residuals` along the left singular vectors.
     pub(crate) fn project(&self, residuals: &DVector<f64>) -> DVector<f64> {
         let mut rotated = residuals.clone();
         self.qr.q_tr_mul(&mut rotated);
         self.u.tr_mul(&rotated.rows(0, self.u.nrows()))
     }
 
-    /// Returns the damping at which the step is as long as the radius, zero where the undamped step
-    /// is shorter.
+    /// Returns the damping at which the step is as long as `radius`, or 0 if the undamped step is
+    /// shorter than `radius`. `projected` are the residuals from [`TrustRegion::project`].
     pub(crate) fn damping(&self, projected: &DVector<f64>, radius: f64) -> f64 {
         let floor = self.floor();
-        let terms = || {
-            let pairs = self.singular.iter().zip(projected.iter());
-            pairs.filter(move |(s, _)| **s > floor)
-        };
         let mut damping = 0.0;
         for _ in 0..DAMPING_ITERATIONS {
             let (mut length, mut slope) = (0.0, 0.0);
-            for (s, g) in terms() {
+            let pairs = self.singular.iter().zip(projected.iter());
+            for (s, g) in pairs.filter(|(s, _)| **s > floor) {
                 let term = s * s + damping;
                 length += (s * g / term).powi(2);
                 slope += (s * g / term).powi(2) / term;
@@ -67,14 +68,16 @@ impl TrustRegion {
             if !(length > radius * (1.0 + LENGTH_TOLERANCE)) {
                 break;
             }
-            // Newton's step for 1/length, which is nearly linear in the damping: it converges from
-            // below without overshooting.
+
+            // Newton's step is taken for 1/length, which is nearly linear in the damping. The
+            // damping therefore converges from below without overshooting.
             damping += length * length / slope * (length - radius) / radius;
         }
         damping
     }
 
-    /// Returns the step for a damping.
+    /// Returns the step with the given `damping`. `projected` are the residuals from
+    /// [`TrustRegion::project`].
     pub(crate) fn step(&self, projected: &DVector<f64>, damping: f64) -> DVector<f64> {
         let floor = self.floor();
         let mut rotated = projected.clone();
@@ -84,7 +87,7 @@ impl TrustRegion {
         self.v_t.tr_mul(&rotated)
     }
 
-    /// Returns the singular value below which only rounding is left.
+    /// Returns the threshold below which a singular value of `$A$` is only rounding.
     fn floor(&self) -> f64 {
         self.singular.max() * f64::EPSILON
     }

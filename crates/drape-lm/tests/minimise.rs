@@ -265,8 +265,8 @@ fn the_number_of_steps_is_the_smallest_limit_with_which_the_fit_converges() {
 
 #[test]
 fn a_step_uphill_of_forward_differences_is_tried_again_with_central_ones() {
-    // The scale makes the forward step 0.15, and a slope over it has the wrong sign at the start; the
-    // central formula has the slope of a quadratic exactly.
+    // The scale makes the forward step 0.15, and a slope over it has the wrong sign at the start;
+    // the central formula has the slope of a quadratic exactly.
     let bowl = model(2, |p, r| {
         r[0] = 1.0 + 0.25 * p[0] * p[0];
         r[1] = p[0];

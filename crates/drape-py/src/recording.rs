@@ -22,7 +22,7 @@ impl Recording {
 
     #[getter]
     fn frames(&self) -> usize {
-        self.0.frames()
+        self.0.frame_count()
     }
 
     #[getter]
@@ -32,7 +32,7 @@ impl Recording {
 
     fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let time = |number| Ok(self.0.read_time(number)?.unwrap_or(f64::NAN));
-        let times: Result<Vec<f64>, _> = (0..self.0.frames()).map(time).collect();
+        let times: Result<Vec<f64>, _> = (0..self.0.frame_count()).map(time).collect();
         row(py, &times.map_err(of_frames)?)
     }
 
@@ -74,7 +74,7 @@ impl Recording {
                 value["holds"] = verdict.holds().into();
                 Ok(value)
             };
-            (0..self.0.frames()).map(verdict).collect::<Result<Vec<_>, drape::verify::Error>>()
+            (0..self.0.frame_count()).map(verdict).collect::<Result<Vec<_>, drape::verify::Error>>()
         });
         let verdicts = verdicts.map_err(of_frames)?;
         Ok(serde_json::Value::from(verdicts).to_string())

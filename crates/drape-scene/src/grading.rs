@@ -32,7 +32,7 @@ impl Grading {
         let run = Recording::open(folder)?;
         let triangles = &run.topology().cloth;
         let mut largest = vec![0.0; triangles.len()];
-        for number in 0..run.frames() {
+        for number in 0..run.frame_count() {
             let own = curvatures(&run.frame(number)?.cloth, triangles);
             for (most, own) in largest.iter_mut().zip(own) {
                 *most = f64::max(*most, own);

@@ -1,4 +1,4 @@
-//! Axes: keys of a base with the levels that a study sets them to.
+//! Axes: keys of a base, each with the levels that a study gives it.
 
 mod covariance;
 mod design;
@@ -14,13 +14,13 @@ pub(crate) use reader::Reader;
 /// Kind of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisKind {
-    /// Levels that are chosen, each for many points.
+    /// Chosen levels, each of which is used for many points.
     Levels,
     /// Sampled numbers, one for each point of the sample.
     Sample,
-    /// Random starts: levels without an order or a meaning of their own.
+    /// Random starts: levels without an order or a meaning.
     Starts,
-    /// Dependent numbers, in a fixed ratio to those of another axis.
+    /// Dependent numbers, which have a fixed ratio to the numbers of another axis.
     Follower,
 }
 
@@ -31,13 +31,13 @@ pub struct Axis {
     pub name: String,
     /// Key of the base.
     pub key: String,
-    /// Levels, as values of TOML.
+    /// Levels as TOML values.
     pub levels: Vec<String>,
     /// Kind of the levels.
     pub kind: AxisKind,
 }
 
-/// Axes that go in step: a row of each belongs together.
+/// Axes that go in step: their levels with one index belong together.
 #[derive(Debug, Clone)]
 pub(crate) struct Group {
     /// Name, if the study gives one.
@@ -46,14 +46,14 @@ pub(crate) struct Group {
 }
 
 impl Group {
-    /// Returns the number of levels.
-    pub(crate) fn len(&self) -> usize {
+    /// Returns the number of levels, which all `axes` of the group share.
+    pub(crate) fn level_count(&self) -> usize {
         self.axes.first().map_or(0, |axis| axis.levels.len())
     }
 }
 
-/// Returns a level, a value of TOML, as one of JSON.
-pub(crate) fn value_of(level: &str) -> Value {
+/// Returns `level`, a TOML value, as a JSON value.
+pub(crate) fn level_value(level: &str) -> Value {
     let table = toml::from_str::<toml::Table>(&format!("value = {level}"));
     let value = table.ok().and_then(|mut table| table.remove("value"));
     value.and_then(|value| serde_json::to_value(value).ok()).unwrap_or_else(|| level.into())

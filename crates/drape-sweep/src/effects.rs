@@ -1,21 +1,22 @@
-//! Effects: means of a measure over the levels of one axis, and of two.
+//! Effects: means of a measure over the levels of one axis, and over the pairs of levels of two
+//! axes.
 
 use crate::table::Column;
 
 /// Mean of a measure over some points, and its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mean {
-    /// Mean.
+    /// Mean of the measure.
     pub value: f64,
-    /// Standard deviation of the points; `None` of a single one.
+    /// Standard deviation over the points, or `None` if there is a single point.
     pub deviation: Option<f64>,
     /// Number of points that have the measure.
     pub count: usize,
 }
 
 impl Mean {
-    /// Returns the mean of some numbers; `None` of none.
-    fn of(numbers: &[f64]) -> Option<Self> {
+    /// Returns the mean of `numbers`, or `None` if there are none.
+    fn new(numbers: &[f64]) -> Option<Self> {
         let count = numbers.len();
         let value = numbers.iter().sum::<f64>() / count as f64;
         let squares = numbers.iter().map(|number| (number - value).powi(2)).sum::<f64>();
@@ -29,7 +30,7 @@ impl Mean {
 pub struct MainEffect {
     /// Levels, in the order of the plan.
     pub levels: Vec<String>,
-    /// Mean of each level; `None` where no point of it has the measure.
+    /// Mean of each level, or `None` if no point with this level has the measure.
     pub means: Vec<Option<Mean>>,
 }
 
@@ -40,38 +41,43 @@ pub struct Interaction {
     pub rows: Vec<String>,
     /// Levels of the second axis.
     pub columns: Vec<String>,
-    /// Mean of each pair; `None` where no point of it has the measure.
+    /// Mean of each pair of levels, or `None` if no point with this pair has the measure.
     pub means: Vec<Vec<Option<Mean>>>,
 }
 
-/// Returns the means of a measure over the levels of an axis.
+/// Returns the means of `measure` over the levels of `axis`.
 #[must_use]
 pub fn main_effect(axis: &Column, measure: &Column) -> MainEffect {
     let levels = levels(axis);
     let mut numbers = vec![Vec::new(); levels.len()];
     for (level, value) in axis.cells.iter().zip(measure.numbers()) {
-        let place = levels.iter().position(|own| own == level);
-        place.zip(value).into_iter().for_each(|(place, value)| numbers[place].push(value));
+        let index = levels.iter().position(|known| known == level);
+        if let Some((index, value)) = index.zip(value) {
+            numbers[index].push(value);
+        }
     }
-    MainEffect { levels, means: numbers.iter().map(|own| Mean::of(own)).collect() }
+    MainEffect { levels, means: numbers.iter().map(|numbers| Mean::new(numbers)).collect() }
 }
 
-/// Returns the means of a measure over the pairs of levels of two axes.
+/// Returns the means of `measure` over the pairs of levels of two `axes`.
 #[must_use]
 pub fn interaction(axes: [&Column; 2], measure: &Column) -> Interaction {
     let [rows, columns] = axes.map(levels);
     let mut numbers = vec![vec![Vec::new(); columns.len()]; rows.len()];
     let pairs = axes[0].cells.iter().zip(&axes[1].cells);
     for ((row, column), value) in pairs.zip(measure.numbers()) {
-        let place = rows.iter().position(|own| own == row);
-        let place = place.zip(columns.iter().position(|own| own == column));
-        place.zip(value).into_iter().for_each(|((i, j), value)| numbers[i][j].push(value));
+        let i = rows.iter().position(|known| known == row);
+        let j = columns.iter().position(|known| known == column);
+        if let (Some(i), Some(j), Some(value)) = (i, j, value) {
+            numbers[i][j].push(value);
+        }
     }
-    let means = numbers.iter().map(|row| row.iter().map(|own| Mean::of(own)).collect()).collect();
+    let means =
+        numbers.iter().map(|row| row.iter().map(|numbers| Mean::new(numbers)).collect()).collect();
     Interaction { rows, columns, means }
 }
 
-/// Returns the levels of an axis, each once.
+/// Returns the levels of `axis`, each once, in the order of the plan.
 fn levels(axis: &Column) -> Vec<String> {
     let mut levels: Vec<String> = Vec::new();
     for level in &axis.cells {

@@ -1,42 +1,42 @@
-//! Files by which other programs run a study on many machines: each of their tasks runs a part of
-//! the points by `drape sweep run --shard`.
+//! Files with which other programs run a study on many machines. Each task of such a program runs a
+//! shard of the points with `drape sweep run --shard`.
 
 use std::path::PathBuf;
 
 use drape_input::toml_string;
 
-/// Program that runs the parts of a study.
+/// Program that runs the shards of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Engine {
-    /// Slurm: a script of an array of jobs, for `sbatch`.
+    /// Slurm. The file is a script with an array of jobs, for `sbatch`.
     Slurm,
-    /// HyperQueue: a job file of TOML, for `hq job submit-file`.
+    /// HyperQueue. The file is a job file in TOML, for `hq job submit-file`.
     HyperQueue,
-    /// Dask: a program in Python with a future for each part.
+    /// Dask. The file is a program in Python with a future for each shard.
     Dask,
 }
 
 /// Tasks of a study.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Batch {
-    /// Program that runs the points, as a whole path.
+    /// Absolute path of the program that runs the points.
     pub program: PathBuf,
-    /// Folder in which it is started.
+    /// Folder in which the program is started.
     pub folder: PathBuf,
-    /// Study, seen from there.
+    /// Path of the study, relative to `folder`.
     pub study: PathBuf,
-    /// Folder of the study's results, as a whole path.
+    /// Absolute path of the folder for the results.
     pub output: PathBuf,
-    /// Whether that is not the folder that the study names.
+    /// Whether `output` is not the folder that the study names.
     pub is_elsewhere: bool,
-    /// Options of the program that come before its command.
+    /// Options of the program that come before the command `sweep`.
     pub options: Vec<String>,
     /// Number of tasks.
     pub tasks: usize,
 }
 
 impl Batch {
-    /// Returns the file for an engine.
+    /// Returns the content of the file for `engine`.
     #[must_use]
     pub fn file(&self, engine: Engine) -> String {
         match engine {
@@ -46,7 +46,7 @@ impl Batch {
         }
     }
 
-    /// Returns the command of a task, but for its shard.
+    /// Returns the command of a task, without the option `--shard`.
     fn command(&self) -> Vec<String> {
         let mut command = vec![self.program.display().to_string()];
         command.extend(self.options.clone());
@@ -58,10 +58,11 @@ impl Batch {
         command
     }
 
+    /// Returns the script for [`Engine::Slurm`].
     fn slurm(&self) -> String {
         let Self { tasks, .. } = self;
-        let folder = quoted(&self.folder.display().to_string());
-        let command: Vec<String> = self.command().iter().map(|part| quoted(part)).collect();
+        let folder = shell_word(&self.folder.display().to_string());
+        let command: Vec<String> = self.command().iter().map(|word| shell_word(word)).collect();
         let command = command.join(" ");
         format!(
             "#!/bin/sh\n\
@@ -79,6 +80,7 @@ impl Batch {
         )
     }
 
+    /// Returns the job file for [`Engine::HyperQueue`].
     fn hyperqueue(&self) -> String {
         let folder = toml_string(&self.folder.display().to_string());
         let mut text = "# Submit with: hq job submit-file FILE. What is done is not done again.\n\
@@ -86,9 +88,9 @@ impl Batch {
             .to_owned();
         for task in 1..=self.tasks {
             let shard = format!("{task}/{}", self.tasks);
-            let more = ["--shard", &shard, "--jobs", "1"].map(str::to_owned);
-            let command = self.command().into_iter().chain(more);
-            let command: Vec<String> = command.map(|part| toml_string(&part)).collect();
+            let options = ["--shard", &shard, "--jobs", "1"].map(str::to_owned);
+            let words = self.command().into_iter().chain(options);
+            let command: Vec<String> = words.map(|word| toml_string(&word)).collect();
             text += &format!(
                 "\n[[task]]\nid = {task}\ncwd = {folder}\ncrash_limit = 5\ncommand = [{}]\n\
                  [[task.request]]\nresources = {{ \"cpus\" = 1 }}\n",
@@ -98,9 +100,10 @@ impl Batch {
         text
     }
 
+    /// Returns the Python program for [`Engine::Dask`].
     fn dask(&self) -> String {
-        let python = |text: &str| serde_json::to_string(text).unwrap_or_default();
-        let command: Vec<String> = self.command().iter().map(|part| python(part)).collect();
+        let command: Vec<String> = self.command().iter().map(|word| python_string(word)).collect();
+
         format!(
             r##"# Runs a study on the workers of Dask: python FILE [SCHEDULER] [--store URL]; without a scheduler on
 # this machine. Results meet in the study's folder, which all workers see, or in the folder or object store
@@ -189,17 +192,25 @@ if __name__ == "__main__":
     main()
 "##,
             command = command.join(", "),
-            folder = python(&self.folder.display().to_string()),
-            output = python(&self.output.display().to_string()),
+            folder = python_string(&self.folder.display().to_string()),
+            output = python_string(&self.output.display().to_string()),
             tasks = self.tasks,
         )
     }
 }
 
-/// Returns a text as a word of a shell.
-fn quoted(text: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-=+:@%".contains(c);
-    if !text.is_empty() && text.chars().all(is_plain) {
+/// Returns `text` as a string of Python. Every JSON string is also a string of Python.
+fn python_string(text: &str) -> String {
+    serde_json::to_string(text).unwrap_or_default()
+}
+
+/// Returns `text` as a word of a shell, in quotes if the shell needs them.
+fn shell_word(text: &str) -> String {
+    let is_plain = !text.is_empty()
+        && text
+            .chars()
+            .all(|letter| letter.is_ascii_alphanumeric() || "/._-=+:@%".contains(letter));
+    if is_plain {
         return text.to_owned();
     }
     format!("'{}'", text.replace('\'', "'\\''"))

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use drape_input::{Diagnostic, Diagnostics};
 use thiserror::Error;
 
-/// Reason why a study cannot be read, or its results cannot be kept.
+/// Reason why a study cannot be read, or why its results cannot be stored.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Mistakes in the study or its base: mend them.
+    /// Mistakes in the study or its base, with their remedies.
     #[error(transparent)]
     Input(#[from] Diagnostics),
-    /// A file or folder of the results cannot be read or written: make room, or allow it.
+    /// A file or folder of the results cannot be read or written: check space and permissions.
     #[error("cannot {what} {}: {source}", path.display())]
     Io {
-        /// What was tried, as in "read".
+        /// Action that failed, such as "read".
         what: &'static str,
         /// File or folder.
         path: PathBuf,
@@ -25,7 +25,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Returns what makes the error of a file that could not be read or written.
+    /// Returns a function that makes the error of the action `what` on the file or folder `path`.
     pub(crate) fn io(what: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Io { what, path, source }

@@ -19,16 +19,16 @@ pub(crate) struct StudyFile {
     /// Options of `drape fit` or `drape test`, such as `["--drape", "--starts", "5"]`.
     #[serde(default)]
     pub(crate) options: Vec<String>,
-    /// Folder for the results, relative to the folder of the study; in the current folder `out/` and
-    /// the name of the study's file, if missing.
+    /// Folder for the results, relative to the folder of the study; in the current folder `out/`
+    /// and the name of the study's file, if missing.
     pub(crate) output: Option<String>,
-    /// Files that a run that has ended keeps: `all`; `last`, its summary and the last state of the
-    /// cloth as OBJ, or the fabric; or `measures`, its summary.
+    /// Files of a finished run that are kept: `all`; `last`, the summary and the last state of the
+    /// cloth as OBJ, or the fabric; or `measures`, the summary.
     #[cfg_attr(feature = "schema", schemars(extend("default" = "all")))]
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["all", "last", "measures"])))]
     pub(crate) keep: Option<String>,
-    /// Keys that are set to one value after the other. The levels of all axes, and all samples, are
-    /// combined, those of the last one first.
+    /// Keys that are set to one value after another. The levels of all axes and samples are
+    /// combined. The levels of the last axis change first.
     #[serde(default)]
     pub(crate) axis: Vec<AxisFile>,
     /// Samples of ranges of several keys.
@@ -37,24 +37,24 @@ pub(crate) struct StudyFile {
     /// Samples of the numbers of fitted fabrics, by the errors and correlations of their fits.
     #[serde(default)]
     pub(crate) covariance: Vec<CovarianceFile>,
-    /// Keys of the base that are set to one value at all points, as they stand there.
+    /// Keys of the base that are set to one value at all points, written as in the base.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schemars(with = "serde_json::Map<String, serde_json::Value>"))]
     pub(crate) set: toml::Table,
-    /// Values of the summaries that have columns in the table, and sections on the page; all of them
-    /// if missing.
+    /// Values of the summaries that have columns in the table, and sections on the page; all of
+    /// them if missing.
     #[serde(default)]
     pub(crate) measure: Vec<MeasureFile>,
 }
 
-/// Key of the base that is set to one value after the other, by one of `values`, `range`, `files` and
-/// `starts`.
+/// Key of the base that is set to one value after another, by one of `values`, `range`, `files`
+/// and `starts`.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AxisFile {
-    /// Key of the base, a path of names and numbers such as `panel.0.rectangle`; or `scene`, `fit` or
-    /// `test`, the base itself, with `files`.
+    /// Key of the base, a path of names and numbers such as `panel.0.rectangle`; or `scene`, `fit`
+    /// or `test`, the base itself, with `files`.
     pub(crate) key: String,
     /// Name of the column in the table; the key if missing.
     pub(crate) name: Option<String>,
@@ -63,13 +63,13 @@ pub(crate) struct AxisFile {
     pub(crate) values: Option<Vec<toml::Value>>,
     /// Numbers at equal distances or ratios.
     pub(crate) range: Option<RangeFile>,
-    /// Files, as a list or as a pattern such as `fabrics/*/sheet.toml`, relative to the folder of the
-    /// study.
+    /// Files, as a list or as a pattern such as `fabrics/*/sheet.toml`, relative to the folder of
+    /// the study.
     pub(crate) files: Option<TextOr<Vec<String>>>,
     /// Number of random starts: values from 1 to this one for the `seed` of a panel's `noise`.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
     pub(crate) starts: Option<u32>,
-    /// Name of a group: axes with the same one go in step in place of being combined.
+    /// Name of a group. Axes of one group go in step: their levels are paired and not combined.
     pub(crate) together: Option<String>,
 }
 
@@ -130,7 +130,7 @@ pub(crate) struct SampleRangeFile {
 
 /// Sample of the fitted numbers of a fabric, all of them together.
 ///
-/// Numbers above 0 are sampled on the logarithmic scale, so that they stay there.
+/// Numbers above 0 are sampled on the logarithmic scale, so that they stay above 0.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -138,7 +138,7 @@ pub(crate) struct CovarianceFile {
     /// Name of the fabric in the scene.
     pub(crate) fabric: String,
     /// Fitted fabric, a `fabric.toml` with standard errors, relative to the folder of the study. It
-    /// takes the place of that of the scene.
+    /// replaces the fabric of the scene.
     pub(crate) file: String,
     /// Number of samples.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]

@@ -1,4 +1,4 @@
-//! Keys of points: digests of all that a run reads.
+//! Keys of points: digests of everything that a run reads.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -7,85 +7,99 @@ use drape_input::Document;
 
 use crate::base::Base;
 
-/// Longest text of a scene that may be the name of a file, in bytes.
-const NAME_MAX: usize = 1024;
-
-/// Digests of files, each read once. A file of TOML includes those that it names.
+/// Digests of files. Each file is read once. The digest of a TOML file includes the digests of the
+/// files that it names.
 #[derive(Debug)]
 pub(crate) struct Digests {
+    /// Digest of each path, or `None` for a path without a file.
     files: HashMap<PathBuf, Option<blake3::Hash>>,
-    /// Command other than a simulation, with its options.
+    /// Name and options of a command other than a simulation.
     command: Vec<String>,
 }
 
 impl Digests {
-    /// Makes the digests of runs of a base with options.
+    /// Creates the digests for runs of `base` with `options`.
     pub(crate) fn new(base: Base, options: &[String]) -> Self {
         let name = (base != Base::Scene).then(|| base.key().to_owned());
         let command = name.into_iter().chain(options.iter().cloned()).collect();
         Self { files: HashMap::new(), command }
     }
 
-    /// Returns the key of a run of a base, with the values that are set in it, by a program.
+    /// Returns the key of a run of `base`, with its settings, by the version `program` of the
+    /// program.
     ///
-    /// Every text of the base that is the name of a file, seen from its folder, counts with the
-    /// bytes of that file: more than what is read, and never less.
+    /// Each text in `base` that is the path of a file, relative to the folder of `base`, counts
+    /// with the content of the file. Such a file need not be one that the run reads.
     pub(crate) fn key(&mut self, base: &Document, program: &str) -> String {
         let mut hasher = blake3::Hasher::new();
-        let mut add = |part: &[u8]| {
-            hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
-        };
-        add(program.as_bytes());
-        self.command.iter().for_each(|word| add(word.as_bytes()));
-        add(base.text().as_bytes());
-        base.settings().iter().for_each(|setting| add(setting.to_string().as_bytes()));
-        for (name, digest) in self.named(base) {
-            add(name.as_bytes());
-            add(digest.as_bytes());
+        add_part(&mut hasher, program.as_bytes());
+        for word in &self.command {
+            add_part(&mut hasher, word.as_bytes());
+        }
+        add_part(&mut hasher, base.text().as_bytes());
+        for setting in base.settings() {
+            add_part(&mut hasher, setting.to_string().as_bytes());
+        }
+        for (name, digest) in self.named_files(base) {
+            add_part(&mut hasher, name.as_bytes());
+            add_part(&mut hasher, digest.as_bytes());
         }
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns the files that a document names, with their digests.
-    fn named(&mut self, document: &Document) -> BTreeMap<String, blake3::Hash> {
+    /// Returns the files that `document` names, with their digests.
+    fn named_files(&mut self, document: &Document) -> BTreeMap<String, blake3::Hash> {
+        /// Longest text that may be the path of a file, in bytes.
+        const NAME_MAX: usize = 1024;
+
         let folder = document.path().parent().unwrap_or(Path::new(""));
-        let names = document.texts();
-        let names = names.into_iter().filter(|name| !name.is_empty() && name.len() <= NAME_MAX);
-        let named = names.filter_map(|name| Some((name.to_owned(), self.of(&folder.join(name))?)));
-        named.collect()
+        let texts = document.texts().into_iter();
+        texts
+            .filter(|text| !text.is_empty() && text.len() <= NAME_MAX)
+            .filter_map(|name| Some((name.to_owned(), self.digest(&folder.join(name))?)))
+            .collect()
     }
 
-    /// Returns the digest of a file, or of the sheet in a folder; `None` if there is none.
-    fn of(&mut self, path: &Path) -> Option<blake3::Hash> {
+    /// Returns the digest of the file `path`, or of the sheet in the folder `path`, or `None` if
+    /// there is no such file.
+    fn digest(&mut self, path: &Path) -> Option<blake3::Hash> {
         if let Some(known) = self.files.get(path) {
             return *known;
         }
-        // A file that names itself, by whatever detour, ends here.
+        // The entry ends the recursion of files that name themselves through other files.
         self.files.insert(path.to_owned(), None);
-        let digest = self.read(path);
+        let digest = self.compute_digest(path);
         self.files.insert(path.to_owned(), digest);
         digest
     }
 
-    fn read(&mut self, path: &Path) -> Option<blake3::Hash> {
-        let found = std::fs::metadata(path).ok()?;
-        if found.is_dir() {
-            return self.of(&path.join("sheet.toml"));
+    /// Reads the file or folder `path` and computes its digest.
+    fn compute_digest(&mut self, path: &Path) -> Option<blake3::Hash> {
+        let metadata = std::fs::metadata(path).ok()?;
+        if metadata.is_dir() {
+            return self.digest(&path.join("sheet.toml"));
         }
-        if !found.is_file() {
+        if !metadata.is_file() {
             return None;
         }
+
         let mut hasher = blake3::Hasher::new();
         hasher.update_reader(std::fs::File::open(path).ok()?).ok()?;
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
             && let Ok(document) = Document::read(path)
         {
-            for (name, digest) in self.named(&document) {
+            for (name, digest) in self.named_files(&document) {
                 hasher.update(name.as_bytes()).update(digest.as_bytes());
             }
         }
         Some(hasher.finalize())
     }
+}
+
+/// Adds the length of `part` and `part` itself to `hasher`, so that different lists of parts never
+/// have one digest.
+fn add_part(hasher: &mut blake3::Hasher, part: &[u8]) {
+    hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
 }
 
 #[cfg(test)]
@@ -132,7 +146,7 @@ mod tests {
             assert_ne!(now, last, "{file}");
             last = now;
         }
-        // What a value of the point names counts in place of what it replaces.
+        // The file that a setting names counts, and the file that it replaces does not.
         let set = "collider.mesh.0.file=\"c.obj\"";
         let before = key(&here, set, "p 1");
         std::fs::write(here.join("c.obj"), "v 1 1 1").expect("written");

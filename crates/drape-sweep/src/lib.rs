@@ -2,15 +2,16 @@
 //!
 //! # Tour
 //!
-//! * `file`: TOML form of a study; `study`: [`Study`], read and checked; `base`: [`Base`], what its
-//!   points are runs of; `axes`: [`Axis`] and its levels, samples of ranges and of the errors of
-//!   fitted fabrics; `measure`: [`Measure`], a value of all summaries, and
-//!   [`Convergence`], its limit as the spacing goes to 0.
-//! * `point`: [`Point`], one run of a study; `key`: digests of what it reads.
-//! * `place`: [`Place`], where a point has its results, its lock and its record:
-//!   [`Record`], what came of it; `manifest`: the list of all points.
-//! * `table`: [`Table`], inputs, measures and records of all points; `effects`: means over levels.
-//! * `engine`: files by which others run a study: Slurm, HyperQueue, Dask.
+//! * The study. `file`: the TOML form of a study. `study`: [`Study`], a study that has been read
+//!   and checked. `base`: [`Base`], the kind of run of all points. `axes`: [`Axis`] and its levels,
+//!   samples of ranges, and samples of the errors of fitted fabrics. `measure`: [`Measure`], a
+//!   value of all summaries, and [`Convergence`], the limit of a value as the spacing goes to 0.
+//! * Points. `point`: [`Point`], one run of a study. `key`: digests of the files that a run reads.
+//!   `storage`: [`PointStorage`], the folder, lock and [`Record`] of a point. `manifest`: the list
+//!   of all points.
+//! * Results. `table`: [`Table`], inputs, measures and records of all points. `effects`: means over
+//!   levels.
+//! * `engine`: files with which Slurm, HyperQueue and Dask run a study.
 
 mod axes;
 mod base;
@@ -21,8 +22,8 @@ mod file;
 mod key;
 mod manifest;
 mod measure;
-mod place;
 mod point;
+mod storage;
 mod study;
 mod table;
 
@@ -35,8 +36,8 @@ pub use error::Error;
 pub use file::study_schema;
 pub use manifest::manifest;
 pub use measure::Measure;
-pub use measure::convergence::{Approach, Convergence, GridValue, ORDER};
-pub use place::{Outcome, Place, PlaceLock, Record};
+pub use measure::convergence::{Approach, Convergence, GRID_ORDER, GridValue};
 pub use point::{Point, Shard};
+pub use storage::{Outcome, PointLock, PointStorage, Record};
 pub use study::{Keep, Study};
 pub use table::{Column, Table};

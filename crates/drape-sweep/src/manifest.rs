@@ -2,20 +2,22 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::axes::value_of;
+use crate::axes::level_value;
 use crate::point::Point;
 use crate::study::Study;
 
-/// Returns the manifest of the points of a study as JSON lines: number, key and values of each, by
-/// the names of the axes.
+/// Returns the manifest of `points` of `study`, with a line of JSON for each point: its number, its
+/// key, its values by the names of the axes, and its settings.
 #[must_use]
 pub fn manifest(study: &Study, points: &[Point]) -> String {
-    let line = |point: &Point| {
-        let values = study.axes().zip(&point.levels);
-        let values = values.map(|(axis, level)| (axis.name.clone(), value_of(level)));
+    let mut manifest = String::new();
+    for point in points {
+        let levels = study.axes().zip(&point.levels);
+        let values: Map<String, Value> =
+            levels.map(|(axis, level)| (axis.name.clone(), level_value(level))).collect();
         let set: Vec<String> = point.settings.iter().map(ToString::to_string).collect();
-        let values: Map<String, Value> = values.collect();
-        json!({ "point": point.index, "key": point.key, "values": values, "set": set }).to_string()
-    };
-    points.iter().map(|point| line(point) + "\n").collect()
+        let line = json!({ "point": point.index, "key": point.key, "values": values, "set": set });
+        manifest += &format!("{line}\n");
+    }
+    manifest
 }

@@ -1,5 +1,5 @@
-//! Measures: values of the summaries that a study names, and what a grid leaves in them
-//! (`convergence.rs`).
+//! Measures: values of the summaries that a study names. `convergence` estimates the error that the
+//! grid leaves in a value.
 
 pub(crate) mod convergence;
 
@@ -20,7 +20,7 @@ const QUANTITIES: [Quantity; 8] = [
 /// Value of the summaries of all runs, with a name and a unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
-    /// Name of the column in the table.
+    /// Name of the column in the table, with the unit.
     pub name: String,
     /// Key in the summary, a path of names and numbers.
     pub key: String,
@@ -29,23 +29,25 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Makes a measure; the unit is put behind the name.
+    /// Creates the measure of the value at `key`. The name of its column is `name`, or else `key`,
+    /// followed by the `unit`.
     pub(crate) fn new(
         key: &str,
         name: Option<&str>,
         unit: Option<&str>,
     ) -> Result<Self, UnitError> {
-        let unit = unit.map(|unit| parse_unit(unit, &QUANTITIES)).transpose()?;
-        let name = name.unwrap_or(key);
-        Ok(Self {
-            name: unit
-                .map_or_else(|| name.to_owned(), |unit| format!("{name} in {}", unit.spelling)),
-            key: key.to_owned(),
-            factor: unit.map_or(1.0, |unit| unit.factor),
-        })
+        let mut measure =
+            Self { name: name.unwrap_or(key).to_owned(), key: key.to_owned(), factor: 1.0 };
+        if let Some(unit) = unit {
+            let unit = parse_unit(unit, &QUANTITIES)?;
+            measure.name += &format!(" in {}", unit.spelling);
+            measure.factor = unit.factor;
+        }
+        Ok(measure)
     }
 
-    /// Returns a value of the summary in the unit of the measure, to 12 digits.
+    /// Returns `value`, a number of the summary in SI, in the unit of the measure with 12 digits.
+    /// Other values stay as they are.
     pub(crate) fn in_unit(&self, value: String) -> String {
         match value.parse::<f64>() {
             Ok(number) if self.factor != 1.0 => {

@@ -1,40 +1,40 @@
-//! Points of a study, and parts of them.
+//! Points of a study, and shards of the points.
 
 use std::path::PathBuf;
 
 use drape_input::Setting;
 
-/// Largest number of points of a study. Each takes memory and a file.
+/// Largest number of points of a study. Each point takes memory and a file.
 pub(crate) const POINTS_MAX: usize = 1_000_000;
 
 /// One run of a study.
 #[derive(Debug, Clone)]
 pub struct Point {
-    /// Number in the order of the plan, from 0.
+    /// Number of the point in the order of the plan, from 0.
     pub index: usize,
-    /// BLAKE3 digest of what its run reads, in hexadecimal digits.
+    /// BLAKE3 digest of everything that the run reads, in hexadecimal digits.
     pub key: String,
-    /// Levels of the axes, in their order, as values of TOML.
+    /// Level of each axis, in the order of the axes, as a TOML value.
     pub levels: Vec<String>,
     /// File of the base.
     pub file: PathBuf,
-    /// Keys of the base that are set.
+    /// Settings of keys of the base.
     pub settings: Vec<Setting>,
 }
 
-/// Part of the points of a study: every n-th one.
+/// Part of the points of a study: every n-th point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Number of the part, from 1.
+    /// Number of the shard, from 1.
     index: usize,
-    /// Number of parts.
+    /// Number of shards.
     count: usize,
 }
 
 impl Shard {
-    /// Returns whether a point is in this part, by its number in the order of the plan.
+    /// Returns whether the point with the number `index` in the order of the plan is in this shard.
     #[must_use]
-    pub fn has(self, index: usize) -> bool {
+    pub fn contains(self, index: usize) -> bool {
         index % self.count == self.index - 1
     }
 }
@@ -65,7 +65,7 @@ mod tests {
     fn shards_share_all_points() {
         for index in 0..10 {
             let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().expect("right"));
-            assert_eq!(shards.iter().filter(|shard| shard.has(index)).count(), 1);
+            assert_eq!(shards.iter().filter(|shard| shard.contains(index)).count(), 1);
         }
         for wrong in ["0/3", "4/3", "1", "a/b", "1/0"] {
             assert!(wrong.parse::<Shard>().expect_err("wrong").contains("such as 1/4"));

@@ -7,31 +7,37 @@ mod summary;
 
 use std::collections::BTreeMap;
 
-use crate::axes::value_of;
+use crate::axes::level_value;
 use crate::error::Error;
-use crate::place::Place;
+use crate::measure::Measure;
 use crate::point::Point;
+use crate::storage::PointStorage;
 use crate::study::Study;
-use crate::table::summary::{cell, chosen, flatten};
+use crate::table::summary::{cell_text, flatten, measured_values};
 
-/// Names of the columns that say what came of a point.
+/// Names of the columns with the record of a point.
 const RECORDS: [&str; 5] = ["outcome", "exit_code", "retries", "seconds", "message"];
 
 /// Column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
-    /// Name.
+    /// Name of the column.
     pub name: String,
-    /// Cells, one for each point; empty where there is no value.
+    /// Cells, one for each point. A cell without a value is empty.
     pub cells: Vec<String>,
 }
 
 impl Column {
-    /// Returns the numbers of the cells.
+    /// Returns the column `name` with the given `cells`.
+    fn new(name: &str, cells: impl IntoIterator<Item = String>) -> Self {
+        Self { name: name.to_owned(), cells: cells.into_iter().collect() }
+    }
+
+    /// Returns the number in each cell, or `None` for a cell without a finite number.
     #[must_use]
     pub fn numbers(&self) -> Vec<Option<f64>> {
-        let number = |cell: &String| cell.parse().ok().filter(|x: &f64| x.is_finite());
-        self.cells.iter().map(number).collect()
+        let numbers = self.cells.iter().map(|cell| cell.parse().ok());
+        numbers.map(|number| number.filter(|x: &f64| x.is_finite())).collect()
     }
 }
 
@@ -42,36 +48,39 @@ pub struct Table {
     pub points: Vec<Column>,
     /// Levels of the axes.
     pub inputs: Vec<Column>,
-    /// What came of each point: status, exit code, number of retries, time in s, message.
+    /// Record of each point: outcome, exit code, number of retries, time in s, message.
     pub records: Vec<Column>,
     /// Values of the summaries, in the order of their names.
     pub measures: Vec<Column>,
 }
 
 impl Table {
-    /// Collects the points of a study.
+    /// Collects the records and summaries of `points` of `study`.
     #[must_use]
     pub fn collect(study: &Study, points: &[Point]) -> Self {
         let mut records: Vec<[String; 5]> = Vec::new();
         let mut measures: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for (row, point) in points.iter().enumerate() {
-            let place = Place::new(study, point);
-            let record = place.record();
-            let summary = record.as_ref().and_then(|record| place.summary_of(record));
+            let storage = PointStorage::new(study, point);
+            let record = storage.record();
+            let summary = record.as_ref().and_then(|record| storage.summary_of(record));
+
+            // Measures that earlier points do not have get empty cells for them.
             let mut values = Vec::new();
             summary.iter().for_each(|summary| flatten("", summary, &mut values));
             if !study.measures().is_empty() {
-                values = chosen(study.measures(), values);
+                values = measured_values(study.measures(), values);
             }
             for (name, value) in values {
                 let cells = measures.entry(name).or_default();
                 cells.resize(row, String::new());
                 cells.push(value);
             }
+
             records.push(match record {
                 None => ["not run", "", "", "", ""].map(str::to_owned),
                 Some(record) => [
-                    record.word(summary.as_ref()),
+                    record.outcome_text(summary.as_ref()),
                     record.exit_code.map_or(String::new(), |code| code.to_string()),
                     record.retries.to_string(),
                     format!("{:.3}", record.seconds),
@@ -79,33 +88,41 @@ impl Table {
                 ],
             });
         }
-        let column = |name: &str, cells: Vec<String>| Column { name: name.to_owned(), cells };
-        let inputs = study.axes().enumerate().map(|(index, axis)| {
-            let cells = points.iter().map(|point| cell(&value_of(&point.levels[index])));
-            column(&axis.name, cells.collect())
-        });
-        let inputs: Vec<Column> = inputs.collect();
-        // Those that the study names keep its order, and are there though no run has them.
+
+        let inputs: Vec<Column> = study
+            .axes()
+            .enumerate()
+            .map(|(index, axis)| {
+                let levels = points.iter().map(|point| &point.levels[index]);
+                let cells = levels.map(|level| cell_text(&level_value(level)));
+                Column::new(&axis.name, cells)
+            })
+            .collect();
+
+        // Measures that the study names keep its order, and have a column even if no run has them.
         let measures: Vec<(String, Vec<String>)> = match study.measures() {
             [] => measures.into_iter().collect(),
-            named => {
-                let mut cells = |name: &String| measures.remove(name).unwrap_or_default();
-                named.iter().map(|own| (own.name.clone(), cells(&own.name))).collect()
-            }
+            named => named
+                .iter()
+                .map(|Measure { name, .. }| {
+                    (name.clone(), measures.remove(name).unwrap_or_default())
+                })
+                .collect(),
         };
-        let taken = |name: &str| inputs.iter().any(|input| input.name == name);
         let measures = measures.into_iter().map(|(name, mut cells)| {
             cells.resize(points.len(), String::new());
-            let name = if taken(&name) { format!("summary.{name}") } else { name };
+            let is_taken = inputs.iter().any(|input| input.name == name);
+            let name = if is_taken { format!("summary.{name}") } else { name };
             Column { name, cells }
         });
+
         let records = RECORDS.into_iter().enumerate().map(|(index, name)| {
-            column(name, records.iter().map(|record| record[index].clone()).collect())
+            Column::new(name, records.iter().map(|record| record[index].clone()))
         });
         Self {
             points: vec![
-                column("point", points.iter().map(|point| point.index.to_string()).collect()),
-                column("key", points.iter().map(|point| point.key.clone()).collect()),
+                Column::new("point", points.iter().map(|point| point.index.to_string())),
+                Column::new("key", points.iter().map(|point| point.key.clone())),
             ],
             measures: measures.collect(),
             records: records.collect(),
@@ -113,25 +130,28 @@ impl Table {
         }
     }
 
-    /// Returns all columns in their order.
+    /// Returns all columns in their order: points, inputs, records, measures.
     pub fn columns(&self) -> impl Iterator<Item = &Column> {
         let Self { points, inputs, records, measures } = self;
         points.iter().chain(inputs).chain(records).chain(measures)
     }
 
-    /// Returns the table as CSV, with a line of names.
+    /// Returns the table as CSV. The first line has the names of the columns.
     ///
     /// # Errors
-    /// None but those of memory.
+    /// [`Error::Io`] if the memory is exhausted.
     pub fn to_csv(&self) -> Result<Vec<u8>, Error> {
+        self.csv().map_err(Error::io("write", std::path::Path::new("table.csv")))
+    }
+
+    /// Returns the table as CSV, or the error of the writer.
+    fn csv(&self) -> std::io::Result<Vec<u8>> {
         let mut csv = csv::Writer::from_writer(Vec::new());
-        let path = std::path::Path::new("table.csv");
-        let failed = |error: csv::Error| Error::io("write", path)(error.into());
-        csv.write_record(self.columns().map(|column| &column.name)).map_err(failed)?;
-        let rows = self.points.first().map_or(0, |column| column.cells.len());
-        for row in 0..rows {
-            csv.write_record(self.columns().map(|column| &column.cells[row])).map_err(failed)?;
+        csv.write_record(self.columns().map(|column| &column.name))?;
+        let row_count = self.points.first().map_or(0, |column| column.cells.len());
+        for row in 0..row_count {
+            csv.write_record(self.columns().map(|column| &column.cells[row]))?;
         }
-        csv.into_inner().map_err(|error| Error::io("write", path)(error.into_error()))
+        csv.into_inner().map_err(|error| error.into_error())
     }
 }

@@ -1,118 +1,138 @@
 //! Distances of points, segments and triangles by plain formulas.
 //!
-//! Each is the distance of two points that lie on the two figures, so but for rounding it is never less
-//! than the true one. `verdict` calls it for pairs that do not intersect.
+//! Each distance is the distance of two points on the two figures. Except for rounding it is
+//! therefore never less than the true distance. `verdict` computes distances of pairs that do not
+//! intersect.
 
 use crate::triangle::{EDGES, Triangle, joined};
 
 type Point = [f64; 3];
 
+/// Returns `a` less `b`.
 fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+/// Returns the scalar product of `a` and `b`.
 fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Returns the point at a fraction of the segment from `a` to `b`.
+/// Returns the point at `fraction` of the segment from `a` to `b`.
 fn interpolate(a: Point, b: Point, fraction: f64) -> Point {
     [0, 1, 2].map(|axis| a[axis] + fraction * (b[axis] - a[axis]))
 }
 
-/// Closest points of two figures, with the square of their distance in m².
+/// Closest points of two figures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Closest {
-    pub(crate) squared: f64,
+pub(crate) struct ClosestPoints {
+    /// Square of the distance of the two points, in m².
+    squared_distance: f64,
+    /// Point of the first figure and point of the second figure, in m.
     pub(crate) points: [Point; 2],
 }
 
-impl Closest {
-    const NONE: Closest = Closest { squared: f64::INFINITY, points: [[f64::NAN; 3]; 2] };
+impl ClosestPoints {
+    /// Placeholder that is farther apart than any two points.
+    const NONE: ClosestPoints =
+        ClosestPoints { squared_distance: f64::INFINITY, points: [[f64::NAN; 3]; 2] };
 
-    fn of(a: Point, b: Point) -> Closest {
+    /// Returns the points `a` and `b`.
+    fn new(a: Point, b: Point) -> ClosestPoints {
         let difference = minus(a, b);
-        Closest { squared: dot(difference, difference), points: [a, b] }
+        ClosestPoints { squared_distance: dot(difference, difference), points: [a, b] }
     }
 
-    fn or(self, other: Closest) -> Closest {
-        if other.squared < self.squared { other } else { self }
+    /// Returns the closer of `self` and `other`, and `self` if both are equally close.
+    fn min(self, other: ClosestPoints) -> ClosestPoints {
+        if other.squared_distance < self.squared_distance { other } else { self }
     }
 
-    /// Distance of the two points, in m.
+    /// Returns the points in the opposite order.
+    fn swapped(self) -> ClosestPoints {
+        ClosestPoints { points: [self.points[1], self.points[0]], ..self }
+    }
+
+    /// Returns the distance of the two points, in m.
     pub(crate) fn distance(&self) -> f64 {
-        self.squared.sqrt()
+        self.squared_distance.sqrt()
     }
 }
 
-/// Returns the closest points of a point and a segment: the foot of the perpendicular, or an end.
-pub(crate) fn point_segment(point: Point, [a, b]: [Point; 2]) -> Closest {
+/// Returns `point` and the closest point of the segment from `a` to `b`: the foot of the
+/// perpendicular, or an end.
+pub(crate) fn point_segment(point: Point, [a, b]: [Point; 2]) -> ClosestPoints {
     let along = minus(b, a);
     let fraction = (dot(minus(point, a), along) / dot(along, along)).clamp(0.0, 1.0);
     let fraction = if fraction.is_nan() { 0.0 } else { fraction };
-    Closest::of(point, interpolate(a, b, fraction))
+    ClosestPoints::new(point, interpolate(a, b, fraction))
 }
 
-/// Returns the closest points of a point and a triangle: the foot of the perpendicular where it lies
-/// inside, or a point of an edge.
-fn point_triangle(point: Point, [a, b, c]: [Point; 3]) -> Closest {
-    let mut closest = Closest::NONE;
+/// Returns `point` and the closest point of the triangle with the corners `a`, `b` and `c`: the
+/// foot of the perpendicular if it lies inside, or a point of an edge.
+fn point_triangle(point: Point, [a, b, c]: [Point; 3]) -> ClosestPoints {
+    let mut closest = ClosestPoints::NONE;
     for edge in [[a, b], [b, c], [c, a]] {
-        closest = closest.or(point_segment(point, edge));
+        closest = closest.min(point_segment(point, edge));
     }
-    // The normal equations of |a + u (b - a) + v (c - a) - point|².
+
+    // The foot a + u (b - a) + v (c - a) solves the normal equations of its distance from the
+    // point.
     let (e, f, g) = (minus(b, a), minus(c, a), minus(point, a));
     let (ee, ef, ff, eg, fg) = (dot(e, e), dot(e, f), dot(f, f), dot(e, g), dot(f, g));
     let determinant = ee * ff - ef * ef;
     let (u, v) = ((ff * eg - ef * fg) / determinant, (ee * fg - ef * eg) / determinant);
-    // Written so that NaN is outside.
+
+    // The comparison is written so that NaN is outside.
     if u >= 0.0 && v >= 0.0 && u + v <= 1.0 {
         let foot = [0, 1, 2].map(|axis| a[axis] + u * e[axis] + v * f[axis]);
-        closest = closest.or(Closest::of(point, foot));
+        closest = closest.min(ClosestPoints::new(point, foot));
     }
     closest
 }
 
-/// Returns the closest points of two segments: those of their lines if both lie inside, or an end and
-/// a point of the other segment.
-fn segment_segment([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Closest {
-    let swapped =
-        |closest: Closest| Closest { points: [closest.points[1], closest.points[0]], ..closest };
-    let mut closest = point_segment(a, [c, d]).or(point_segment(b, [c, d]));
-    closest = closest.or(swapped(point_segment(c, [a, b])));
-    closest = closest.or(swapped(point_segment(d, [a, b])));
+/// Returns the closest points of the segments from `a` to `b` and from `c` to `d`.
+///
+/// They are the closest points of the two lines if both lie inside the segments. Otherwise one of
+/// them is an end of a segment.
+fn segment_segment([a, b]: [Point; 2], [c, d]: [Point; 2]) -> ClosestPoints {
+    let mut closest = point_segment(a, [c, d]).min(point_segment(b, [c, d]));
+    closest = closest.min(point_segment(c, [a, b]).swapped());
+    closest = closest.min(point_segment(d, [a, b]).swapped());
     let (e, f, g) = (minus(b, a), minus(d, c), minus(c, a));
     let (ee, ef, ff, eg, fg) = (dot(e, e), dot(e, f), dot(f, f), dot(e, g), dot(f, g));
     let determinant = ee * ff - ef * ef;
     let (s, t) = ((eg * ff - fg * ef) / determinant, (eg * ef - fg * ee) / determinant);
-    let inside = |fraction: f64| (0.0..=1.0).contains(&fraction);
-    if inside(s) && inside(t) {
-        closest = closest.or(Closest::of(interpolate(a, b, s), interpolate(c, d, t)));
+    if [s, t].iter().all(|fraction| (0.0..=1.0).contains(fraction)) {
+        closest = closest.min(ClosestPoints::new(interpolate(a, b, s), interpolate(c, d, t)));
     }
     closest
 }
 
-/// Returns the closest points of the corners and edges of each triangle with the features of the other
-/// to which they are not joined.
+/// Returns the closest points of the triangles `first` and `second` on features that are not
+/// joined.
 ///
-/// For triangles that are neither joined nor intersect this is their distance.
-pub(crate) fn triangle_distance(one: Triangle, other: Triangle) -> Closest {
-    let Triangle { corners: first, vertices: own } = one;
-    let Triangle { corners: second, vertices: others } = other;
-    let mut closest = Closest::NONE;
+/// Corners are compared with triangles, and edges with edges. If the triangles are neither joined
+/// nor intersect, the result is the distance of the triangles.
+pub(crate) fn triangle_distance(first: Triangle, second: Triangle) -> ClosestPoints {
+    let mut closest = ClosestPoints::NONE;
     for k in 0..3 {
-        if !joined(&own[k..=k], &others) {
-            closest = closest.or(point_triangle(first[k], second));
+        if !joined(&first.vertices[k..=k], &second.vertices) {
+            closest = closest.min(point_triangle(first.corners[k], second.corners));
         }
-        if !joined(&others[k..=k], &own) {
-            closest = closest.or(point_triangle(second[k], first));
+        if !joined(&second.vertices[k..=k], &first.vertices) {
+            closest = closest.min(point_triangle(second.corners[k], first.corners));
         }
     }
+
     for edge in EDGES {
-        for other in EDGES {
-            if !joined(&edge.map(|k| own[k]), &other.map(|k| others[k])) {
-                let segments = (edge.map(|k| first[k]), other.map(|k| second[k]));
-                closest = closest.or(segment_segment(segments.0, segments.1));
+        for opposite in EDGES {
+            let edge_vertices = edge.map(|k| first.vertices[k]);
+            let opposite_vertices = opposite.map(|k| second.vertices[k]);
+            if !joined(&edge_vertices, &opposite_vertices) {
+                let edge_ends = edge.map(|k| first.corners[k]);
+                let opposite_ends = opposite.map(|k| second.corners[k]);
+                closest = closest.min(segment_segment(edge_ends, opposite_ends));
             }
         }
     }
@@ -129,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn the_distance_is_that_of_the_closest_of_many_points() {
+    fn the_distance_agrees_with_the_closest_of_many_points() {
         let mut state = 3_u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -141,7 +161,8 @@ mod tests {
             let (first, second) = (corners(0.0), corners(1.2));
             let found = triangle_distance(triangle(first, [0, 1, 2]), triangle(second, [3, 4, 5]))
                 .distance();
-            // Points of a grid on both, then of ever finer grids about the closest.
+            // Points of a grid on both triangles, then of finer and finer grids around the closest
+            // points.
             let at = |t: &[Point; 3], [u, v]: [f64; 2]| {
                 [0, 1, 2].map(|k| t[0][k] + u * (t[1][k] - t[0][k]) + v * (t[2][k] - t[0][k]))
             };
@@ -177,7 +198,8 @@ mod tests {
             triangle([a, b, [0.5, 0.0, 1.0]], [0, 1, 2]),
             triangle([b, a, [0.5, 0.1, 1.0]], [1, 0, 3]),
         );
-        // Two edges whose lines are closest just below the far corners: (1, 0, 0) along their common normal.
+        // Two edges whose lines are closest just below the far corners: (1, 0, 0) along their
+        // common normal.
         let expected = 0.1 / (0.01_f64 + 1.0 + 0.0025).sqrt();
         assert!((folded.distance() - expected).abs() < 1e-12, "{}", folded.distance());
     }

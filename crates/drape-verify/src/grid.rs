@@ -1,10 +1,7 @@
 //! Broad phase: pairs of bounding boxes that overlap, from a grid with cells of several sizes.
 //!
-//! `verdict` fills it with the boxes of all triangles of a frame and visits each overlapping pair once.
-
-/// Smallest exponent of a cell size: cells of 1 µm, so that positions up to 1000 km have cell numbers
-/// of 40 bits.
-const LEVEL_MIN: i32 = -20;
+//! `verdict` builds a [`Grid`] from the boxes of all triangles of a frame and visits each
+//! overlapping pair once.
 
 /// Axis-aligned bounding box, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,26 +11,31 @@ pub(crate) struct Aabb {
 }
 
 impl Aabb {
-    /// Returns the bounding box of a triangle, enlarged on every side by a margin in m.
+    /// Returns the bounding box of the triangle with the given `corners`, enlarged by `margin` on
+    /// every side, in m.
     pub(crate) fn around(corners: [[f64; 3]; 3], margin: f64) -> Aabb {
-        let over = |axis: usize, pick: fn(f64, f64) -> f64| {
-            pick(pick(corners[0][axis], corners[1][axis]), corners[2][axis])
-        };
-        // Rounded outwards by more than the rounding error of the sum.
-        let down = |x: f64| (x - margin) - f64::EPSILON * (x.abs() + margin);
-        let up = |x: f64| (x + margin) + f64::EPSILON * (x.abs() + margin);
+        let [a, b, c] = corners;
+        let low = [0, 1, 2].map(|axis| a[axis].min(b[axis]).min(c[axis]));
+        let high = [0, 1, 2].map(|axis| a[axis].max(b[axis]).max(c[axis]));
+
+        // The box is enlarged by more than the rounding error of the sum with the margin.
         Aabb {
-            low: [0, 1, 2].map(|axis| down(over(axis, f64::min))),
-            high: [0, 1, 2].map(|axis| up(over(axis, f64::max))),
+            low: low.map(|x| (x - margin) - f64::EPSILON * (x.abs() + margin)),
+            high: high.map(|x| (x + margin) + f64::EPSILON * (x.abs() + margin)),
         }
     }
 
+    /// Returns whether the box and `other` have a point in common.
     fn overlaps(&self, other: &Aabb) -> bool {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
-    /// Returns the exponent of the smallest cell size that is at least the size of the box.
+    /// Returns the level of the smallest cells that are at least as large as the box.
     fn level(&self) -> i32 {
+        /// Smallest level, whose cells have 1 µm. Positions up to 1000 km then have cell numbers of
+        /// 40 bits.
+        const LEVEL_MIN: i32 = -20;
+
         let longest = (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max);
         let mut level = LEVEL_MIN;
         while cell_size(level) < longest {
@@ -43,33 +45,38 @@ impl Aabb {
     }
 }
 
+/// Returns the size of the cells of `level`, in m.
 fn cell_size(level: i32) -> f64 {
     2.0_f64.powi(level)
 }
 
-/// Cell: its level, then its numbers along z, y and x.
+/// Level of a cell, then the numbers of the cell along z, y and x.
 type Cell = (i32, [i64; 3]);
 
-/// Boxes sorted by the cell of their lowest corner, in the grid whose cells are at least as large as
-/// the box: a box extends no farther than into the next cell along each axis.
+/// Boxes sorted by the cell of their lowest corner.
+///
+/// The cells of the level of a box are at least as large as the box. A box therefore extends at
+/// most into the next cell along each axis.
 #[derive(Debug)]
 pub(crate) struct Grid {
     boxes: Vec<Aabb>,
-    /// Cell and number of each box, sorted.
+    /// Cell and number of each box, in ascending order.
     cells: Vec<(Cell, u32)>,
-    /// Levels in use, with their range of `cells`.
+    /// Each level with its range of `cells`.
     levels: Vec<(i32, std::ops::Range<usize>)>,
 }
 
 impl Grid {
+    /// Returns the grid of `boxes`. The number of a box is its index.
     pub(crate) fn new(boxes: Vec<Aabb>) -> Grid {
-        let place = |(number, aabb): (usize, &Aabb)| {
+        let mut cells: Vec<(Cell, u32)> = Vec::with_capacity(boxes.len());
+        for (number, aabb) in boxes.iter().enumerate() {
             let level = aabb.level();
-            let [x, y, z] = aabb.low.map(|low| number_of(low, level));
-            ((level, [z, y, x]), number as u32)
-        };
-        let mut cells: Vec<(Cell, u32)> = boxes.iter().enumerate().map(place).collect();
+            let [x, y, z] = aabb.low.map(|low| cell_number(low, level));
+            cells.push(((level, [z, y, x]), number as u32));
+        }
         cells.sort_unstable();
+
         let mut levels = Vec::new();
         let mut first = 0;
         for group in cells.chunk_by(|a, b| a.0.0 == b.0.0) {
@@ -79,23 +86,28 @@ impl Grid {
         Grid { boxes, cells, levels }
     }
 
-    /// Visits every box that overlaps a given one and follows it in order: it has a higher level, or the
-    /// same level and a higher number. Each overlapping pair is visited once.
-    pub(crate) fn each_following(&self, number: usize, mut visit: impl FnMut(usize)) {
+    /// Calls `visit` with each box that overlaps box `number` and follows it.
+    ///
+    /// A box follows another if its level is higher, or if the levels are equal and its number is
+    /// higher. Calls for all boxes therefore visit each overlapping pair once.
+    pub(crate) fn visit_following(&self, number: usize, mut visit: impl FnMut(usize)) {
         let aabb = &self.boxes[number];
-        let own = aabb.level();
-        for (level, range) in self.levels.iter().filter(|(level, _)| *level >= own) {
+        let box_level = aabb.level();
+        for (level, range) in self.levels.iter().filter(|(level, _)| *level >= box_level) {
             let entries = &self.cells[range.clone()];
-            // A box that extends into this one begins at most one cell below it.
-            let low = aabb.low.map(|low| number_of(low, *level) - 1);
-            let high = aabb.high.map(|high| number_of(high, *level));
+
+            // A box that extends into this box begins at most one cell below it.
+            let low = aabb.low.map(|low| cell_number(low, *level) - 1);
+            let high = aabb.high.map(|high| cell_number(high, *level));
+
+            // The cells of a row along x are neighbours in the order of `cells`.
             for z in low[2]..=high[2] {
                 for y in low[1]..=high[1] {
                     let [from, to] = [low[0], high[0]].map(|x| [z, y, x]);
                     let start = entries.partition_point(|((_, cell), _)| *cell < from);
                     let row = entries[start..].iter().take_while(|((_, cell), _)| *cell <= to);
                     for &(_, other) in row {
-                        let follows = *level > own || other as usize > number;
+                        let follows = *level > box_level || other as usize > number;
                         if follows && aabb.overlaps(&self.boxes[other as usize]) {
                             visit(other as usize);
                         }
@@ -106,8 +118,8 @@ impl Grid {
     }
 }
 
-/// Returns the number of the cell along an axis that holds a coordinate.
-fn number_of(coordinate: f64, level: i32) -> i64 {
+/// Returns the number, along one axis, of the cell of `level` that contains `coordinate`.
+fn cell_number(coordinate: f64, level: i32) -> i64 {
     (coordinate / cell_size(level)).floor() as i64
 }
 
@@ -144,7 +156,7 @@ mod tests {
         let grid = Grid::new(boxes.clone());
         let mut found = Vec::new();
         for a in 0..boxes.len() {
-            grid.each_following(a, |b| found.push([a.min(b), a.max(b)]));
+            grid.visit_following(a, |b| found.push([a.min(b), a.max(b)]));
         }
         found.sort_unstable();
         assert!(expected.len() > 1000, "{}", expected.len());

@@ -1,50 +1,54 @@
 //! Exact intersection tests of triangles.
 //!
-//! All decisions are signs of determinants of the corners, evaluated exactly (\[She97\], through the
-//! crate `robust`). `verdict` calls the tests for each pair from the grid.
+//! Every decision is the sign of a determinant of corners. The crate `robust` evaluates the sign
+//! exactly \[She97\]. `verdict` calls the tests for each pair from the grid.
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 type Point = [f64; 3];
 type Corners = [Point; 3];
 
-/// Returns the sign of `$\det(b - a, c - a, d - a)$`: positive where `d` lies above the triangle.
-fn volume([a, b, c]: Corners, d: Point) -> i8 {
-    let coordinate = |[x, y, z]: Point| Coord3D { x, y, z };
-    // The predicate of the crate has the opposite sign.
-    sign(-orient3d(coordinate(a), coordinate(b), coordinate(c), coordinate(d)))
+/// Returns the sign of `$\det(b - a, c - a, d - a)$`, which is positive if `d` lies above the
+/// triangle with the corners `a`, `b` and `c`.
+fn volume_sign([a, b, c]: Corners, d: Point) -> i8 {
+    let [a, b, c, d] = [a, b, c, d].map(|[x, y, z]| Coord3D { x, y, z });
+    // `orient3d` has the opposite sign.
+    sign(-orient3d(a, b, c, d))
 }
 
+/// Returns 1 for a positive `value`, -1 for a negative `value`, and 0 otherwise.
 fn sign(value: f64) -> i8 {
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
-/// Returns the projection of a point along a coordinate axis.
+/// Returns the projection of `point` along the coordinate axis `axis`.
 fn project(point: Point, axis: usize) -> [f64; 2] {
     [point[(axis + 1) % 3], point[(axis + 2) % 3]]
 }
 
-/// Returns the sign of the area of a triangle in the plane: positive if it runs anticlockwise.
-fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> i8 {
-    let coordinate = |[x, y]: [f64; 2]| Coord { x, y };
-    sign(orient2d(coordinate(a), coordinate(b), coordinate(c)))
+/// Returns the sign of the area of the plane triangle with the corners `a`, `b` and `c`, which is
+/// positive if the corners run anticlockwise.
+fn area_sign(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> i8 {
+    let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
+    sign(orient2d(a, b, c))
 }
 
-/// Returns a coordinate axis along which the projection of a triangle has an area; `None` if the
-/// triangle is degenerate.
+/// Returns a coordinate axis along which the projection of the triangle with the corners `a`, `b`
+/// and `c` has an area, or `None` if the triangle is degenerate.
 fn projection_axis([a, b, c]: Corners) -> Option<usize> {
-    (0..3).find(|&axis| area(project(a, axis), project(b, axis), project(c, axis)) != 0)
+    (0..3).find(|&axis| area_sign(project(a, axis), project(b, axis), project(c, axis)) != 0)
 }
 
-/// Returns whether a triangle has an area.
+/// Returns whether `triangle` has an area.
 pub(crate) fn has_area(triangle: Corners) -> bool {
     projection_axis(triangle).is_some()
 }
 
-/// Returns whether two triangles, given by their corners, have a point in common.
+/// Returns whether the triangles with the corners `first` and `second` have a point in common.
 ///
-/// The test is that of Guigue and Devillers \[GD03\], evaluated exactly: touching counts, and the last
-/// bit of a coordinate decides. The triangles must have an area.
+/// The test is due to Guigue and Devillers \[GD03\] and is evaluated exactly: triangles that touch
+/// have a point in common, and the last bit of a coordinate decides. The triangles must have an
+/// area.
 ///
 /// ```
 /// use drape_verify::triangles_intersect;
@@ -56,94 +60,108 @@ pub(crate) fn has_area(triangle: Corners) -> bool {
 /// ```
 #[must_use]
 pub fn triangles_intersect(first: [[f64; 3]; 3], second: [[f64; 3]; 3]) -> bool {
-    let of_first = first.map(|corner| volume(second, corner));
-    if of_first.iter().all(|&side| side > 0) || of_first.iter().all(|&side| side < 0) {
+    // A triangle that lies strictly on one side of the plane of the other does not intersect it.
+    let first_sides = first.map(|corner| volume_sign(second, corner));
+    if first_sides.iter().all(|&side| side > 0) || first_sides.iter().all(|&side| side < 0) {
         return false;
     }
-    let of_second = second.map(|corner| volume(first, corner));
-    if of_second.iter().all(|&side| side > 0) || of_second.iter().all(|&side| side < 0) {
+    let second_sides = second.map(|corner| volume_sign(first, corner));
+    if second_sides.iter().all(|&side| side > 0) || second_sides.iter().all(|&side| side < 0) {
         return false;
     }
-    let (Some(first), Some(second)) = (Apex::of(first, of_first), Apex::of(second, of_second))
-    else {
+
+    let first_turned = TurnedTriangle::new(first, first_sides);
+    let second_turned = TurnedTriangle::new(second, second_sides);
+    let (Some(first_turned), Some(second_turned)) = (first_turned, second_turned) else {
         return coplanar_intersect(&first, &second);
     };
-    let [p, q, r] = if second.below { reversed(first.corners) } else { first.corners };
-    let [s, t, u] = if first.below { reversed(second.corners) } else { second.corners };
-    // Each triangle cuts an interval out of the line in which the planes meet; the intervals overlap.
-    volume([q, s, p], t) <= 0 && volume([p, s, r], u) <= 0
+    let [p, q, r] = first_turned.seen_from(&second_turned);
+    let [s, t, u] = second_turned.seen_from(&first_turned);
+
+    // Each triangle cuts an interval out of the line in which the planes meet. The triangles
+    // intersect if the intervals overlap.
+    volume_sign([q, s, p], t) <= 0 && volume_sign([p, s, r], u) <= 0
 }
 
-/// Triangle that begins with the corner that is alone on its side of a plane.
-struct Apex {
+/// Triangle whose corners are turned so that the first corner is alone on its side of a plane.
+struct TurnedTriangle {
     corners: Corners,
-    /// Whether that corner lies below the plane.
+    /// Whether the first corner lies below the plane.
     below: bool,
 }
 
-impl Apex {
-    /// Returns the triangle by the sides of the plane on which its corners lie; `None` if it lies in
-    /// the plane.
-    fn of([p, q, r]: Corners, [a, b, c]: [i8; 3]) -> Option<Apex> {
-        let orders = [([p, q, r], [a, b, c]), ([q, r, p], [b, c, a]), ([r, p, q], [c, a, b])];
-        let above = orders.iter().find(|(_, [a, b, c])| a > b && a > c);
-        let below = || orders.iter().find(|(_, [a, b, c])| a < b && a < c);
-        let apex = |below| move |order: &(Corners, [i8; 3])| Apex { corners: order.0, below };
-        above.map(apex(false)).or_else(|| below().map(apex(true)))
+impl TurnedTriangle {
+    /// Turns the triangle with the corners `p`, `q` and `r`, which lie on the sides `a`, `b` and
+    /// `c` of a plane. Returns `None` if the triangle lies in the plane.
+    fn new([p, q, r]: Corners, [a, b, c]: [i8; 3]) -> Option<TurnedTriangle> {
+        let turns = [([p, q, r], [a, b, c]), ([q, r, p], [b, c, a]), ([r, p, q], [c, a, b])];
+        if let Some(&(corners, _)) = turns.iter().find(|(_, [a, b, c])| a > b && a > c) {
+            return Some(TurnedTriangle { corners, below: false });
+        }
+        let &(corners, _) = turns.iter().find(|(_, [a, b, c])| a < b && a < c)?;
+        Some(TurnedTriangle { corners, below: true })
+    }
+
+    /// Returns the corners, in reversed order if the first corner of `other` lies below the plane of
+    /// `self`.
+    fn seen_from(&self, other: &TurnedTriangle) -> Corners {
+        if other.below { reversed(self.corners) } else { self.corners }
     }
 }
 
+/// Returns the corners in the order that gives the triangle the opposite orientation.
 fn reversed([p, q, r]: Corners) -> Corners {
     [p, r, q]
 }
 
-/// Returns whether a segment and a triangle have a point in common.
-pub(crate) fn segment_intersects([from, to]: [Point; 2], triangle: Corners) -> bool {
+/// Returns whether the segment between `start` and `end` and `triangle` have a point in common.
+pub(crate) fn segment_intersects([start, end]: [Point; 2], triangle: Corners) -> bool {
     let [a, b, c] = triangle;
-    match (volume(triangle, from), volume(triangle, to)) {
-        (0, 0) => coplanar_intersect(&[from, to], &triangle),
-        (one, other) if one == other => false,
+    match (volume_sign(triangle, start), volume_sign(triangle, end)) {
+        (0, 0) => coplanar_intersect(&[start, end], &triangle),
+        (start_side, end_side) if start_side == end_side => false,
         _ => {
-            // The line crosses the plane once, and there it passes all edges in the same sense.
-            let past = [[a, b], [b, c], [c, a]].map(|[a, b]| volume([from, to, a], b));
-            past.iter().all(|&side| side >= 0) || past.iter().all(|&side| side <= 0)
+            // The line crosses the plane inside the triangle if it passes all edges on one side.
+            let sides = [[a, b], [b, c], [c, a]].map(|[a, b]| volume_sign([start, end, a], b));
+            sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0)
         }
     }
 }
 
-/// Returns whether two triangles with a common edge lie on each other, given by the edge and the two
-/// corners that are not on it. Triangles without an area count as lying on each other.
+/// Returns whether two triangles with the common edge `a` to `b` lie on each other. Their other
+/// corners are `c` and `d`. Triangles without an area count as lying on each other.
 pub(crate) fn folded_flat([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    if volume([a, b, c], d) != 0 {
+    if volume_sign([a, b, c], d) != 0 {
         return false;
     }
     let Some(axis) = projection_axis([a, b, c]) else { return true };
-    let side = |apex| area(project(a, axis), project(b, axis), project(apex, axis));
-    side(c) == side(d)
+    let [a, b, c, d] = [a, b, c, d].map(|point| project(point, axis));
+    area_sign(a, b, c) == area_sign(a, b, d)
 }
 
-/// Returns whether a triangle or a segment and a triangle in one plane have a point in common.
+/// Returns whether `first`, a triangle or a segment, and the triangle `second` have a point in
+/// common. Both lie in one plane.
 ///
-/// Two convex figures are disjoint if and only if an edge of one has the other strictly beyond it.
+/// Two convex figures are disjoint if and only if one of them lies strictly beyond an edge of the
+/// other.
 fn coplanar_intersect(first: &[Point], second: &Corners) -> bool {
-    // A degenerate triangle counts as intersecting whatever may lie in its plane: it is reported anyway.
+    // A degenerate triangle counts as intersecting every figure in its plane. It is reported
+    // anyway.
     let Some(axis) = projection_axis(*second) else { return true };
-    let flat = |figure: &[Point]| figure.iter().map(|&point| project(point, axis)).collect();
-    let (first, second): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (flat(first), flat(second));
-    !separated(&first, &second) && !separated(&second, &first)
+    let first: Vec<[f64; 2]> = first.iter().map(|&point| project(point, axis)).collect();
+    let second = second.map(|point| project(point, axis));
+    !separates(&first, &second) && !separates(&second, &first)
 }
 
-/// Returns whether an edge of a figure has all of another strictly beyond it.
-fn separated(figure: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
+/// Returns whether all of `other` lies strictly beyond an edge of `figure`.
+fn separates(figure: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
     let edges = figure.len();
     (0..edges).any(|k| {
         let (a, b) = (figure[k], figure[(k + 1) % edges]);
-        // The side of the line on which the figure itself lies; a segment lies on neither.
-        let own = if edges == 3 { area(a, b, figure[(k + 2) % 3]) } else { 0 };
-        let beyond = other.iter().map(|&point| area(a, b, point));
-        let beyond: Vec<i8> = beyond.collect();
-        let strictly = |side: i8| own != side && beyond.iter().all(|&beyond| beyond == side);
-        strictly(1) || strictly(-1)
+        // The side of the edge on which a triangle lies. A segment lies on neither side.
+        let inner_side = if edges == 3 { area_sign(a, b, figure[(k + 2) % 3]) } else { 0 };
+        let sides: Vec<i8> = other.iter().map(|&point| area_sign(a, b, point)).collect();
+        [1, -1].iter().any(|side| inner_side != *side && sides.iter().all(|other| other == side))
     })
 }
 
@@ -164,23 +182,25 @@ mod tests {
         })
     }
 
-    /// Returns whether two triangles, or a segment and a triangle, with integer coordinates intersect, by
-    /// the separating axis theorem: they are disjoint if and only if their projections on one of these
-    /// axes are.
+    /// Returns whether the triangle or segment `first` and the triangle `second` intersect, by the
+    /// separating axis theorem. They are disjoint if and only if their projections on one of the
+    /// axes are disjoint.
     fn intersect_by_axes(first: &[Integers], second: &[Integers]) -> bool {
         let edges = |figure: &[Integers]| -> Vec<Integers> {
             (0..figure.len()).map(|k| minus(figure[(k + 1) % figure.len()], figure[k])).collect()
         };
-        let (own, others) = (edges(first), edges(second));
-        let normal = cross(others[0], others[1]);
+        let (first_edges, second_edges) = (edges(first), edges(second));
+        let normal = cross(second_edges[0], second_edges[1]);
         let mut axes = vec![normal];
         if first.len() == 3 {
-            let normal = cross(own[0], own[1]);
+            let normal = cross(first_edges[0], first_edges[1]);
             axes.push(normal);
-            axes.extend(own.iter().map(|&edge| cross(normal, edge)));
+            axes.extend(first_edges.iter().map(|&edge| cross(normal, edge)));
         }
-        axes.extend(others.iter().chain(&own).map(|&edge| cross(normal, edge)));
-        axes.extend(own.iter().flat_map(|&a| others.iter().map(move |&b| cross(a, b))));
+        axes.extend(second_edges.iter().chain(&first_edges).map(|&edge| cross(normal, edge)));
+        for &a in &first_edges {
+            axes.extend(second_edges.iter().map(|&b| cross(a, b)));
+        }
         let projection = |figure: &[Integers], axis: Integers| {
             let along = figure.iter().map(|p| p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2]);
             (along.clone().min().unwrap(), along.max().unwrap())
@@ -191,7 +211,7 @@ mod tests {
         })
     }
 
-    /// Random integers below a bound, the same in every run.
+    /// Generator of random integers, the same in every run.
     struct Dice(u64);
 
     impl Dice {
@@ -236,7 +256,7 @@ mod tests {
                     "{segment:?} {second:?}"
                 );
                 meeting += usize::from(expected);
-                flat += usize::from(a.iter().all(|&corner| volume(b, corner) == 0));
+                flat += usize::from(a.iter().all(|&corner| volume_sign(b, corner) == 0));
             }
             assert!(
                 meeting > count / 20 && meeting < count,

@@ -2,14 +2,17 @@
 //!
 //! # Tour
 //!
-//! [`Verifier`] opens a folder of frames and tests them one by one. A [`Verdict`] says of one frame
-//! which [`ClosePair`]s of triangles intersect or lie closer than the run promises.
-//! [`triangles_intersect`] is the exact test by itself.
+//! [`Verifier`] opens a folder of frames and tests each frame. A [`Verdict`] lists the
+//! [`ClosePair`]s of triangles of a frame that intersect or are closer than the run promises.
+//! [`triangles_intersect`] is the exact test of two triangles.
 //!
-//! Layers, lowest first: `triangle` says which triangles are joined, `intersection` and `distance` test
-//! a pair, `grid` finds the pairs; `joints` says which vertices are one point, `mesh` numbers the
-//! triangles; `inside` finds cloth in bodies, `verdict` looks at a frame; `verifier` ties frames to
-//! their folder.
+//! Layers, lowest first:
+//!
+//! * `triangle` decides which triangles are joined.
+//! * `intersection` and `distance` test a pair, and `grid` finds the pairs.
+//! * `joints` decides which vertices are one point, and `mesh` numbers the triangles.
+//! * `inside` finds cloth in bodies, and `verdict` tests a frame.
+//! * `verifier` reads the frames of a folder.
 
 // The triangles of a frame.
 mod joints;

@@ -1,12 +1,12 @@
-//! Triangles with the numbers of their vertices, and whether two of them are joined.
+//! Triangles with the numbers of their vertices, and the test whether two features are joined.
 //!
-//! `mesh` makes the vertices, `distance` and `verdict` leave out the features that are joined.
+//! `distance` and `verdict` leave out the features that are joined.
 
-/// Vertex of a triangle; vertices that are sewn together have the same number.
+/// Vertex of a triangle. Vertices that are sewn together have one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Vertex {
     pub(crate) number: u32,
-    /// Numbers of the two vertices between which it lies, if it is tied to an edge.
+    /// Numbers of the two ends of the edge to which the vertex is tied, if it is tied.
     pub(crate) between: Option<[u32; 2]>,
 }
 
@@ -18,29 +18,43 @@ pub(crate) struct Triangle {
 }
 
 impl Triangle {
-    /// Returns the corners of two triangles that are not on the edge that they share; `None` if they share
-    /// none.
+    /// Returns the index of the corner of `self`, and of the corner of `other`, that is not on the
+    /// edge that the two triangles share. Returns `None` if they share no edge, or all vertices.
     pub(crate) fn apexes(&self, other: &Triangle) -> Option<[usize; 2]> {
-        let shares = |vertex: &Vertex, of: &Triangle| {
-            of.vertices.iter().any(|other| other.number == vertex.number)
-        };
-        let apex = |of: &Triangle, with: &Triangle| {
-            let mut alone = (0..3).filter(|&k| !shares(&of.vertices[k], with));
-            alone.next().filter(|_| alone.next().is_none())
-        };
-        Some([apex(self, other)?, apex(other, self)?])
+        Some([self.apex(other)?, other.apex(self)?])
+    }
+
+    /// Returns the position of the corner whose vertex has the given `number`, if there is one.
+    pub(crate) fn corner(&self, number: u32) -> Option<[f64; 3]> {
+        let index = self.vertices.iter().position(|vertex| vertex.number == number)?;
+        Some(self.corners[index])
+    }
+
+    /// Returns the index of the only corner that is no vertex of `neighbour`.
+    fn apex(&self, neighbour: &Triangle) -> Option<usize> {
+        let mut unshared =
+            (0..3).filter(|&k| !has_number(&neighbour.vertices, self.vertices[k].number));
+        unshared.next().filter(|_| unshared.next().is_none())
     }
 }
 
-/// Edges of a triangle, by the numbers of its corners.
+/// Edges of a triangle, by the indices of its corners.
 pub(crate) const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Returns whether two vertices, edges or triangles are joined: they share a vertex, or a vertex of
-/// one is tied to an edge of the other.
-pub(crate) fn joined(one: &[Vertex], other: &[Vertex]) -> bool {
-    let has = |all: &[Vertex], number: u32| all.iter().any(|vertex| vertex.number == number);
-    let on = |vertex: &Vertex, all: &[Vertex]| {
-        has(all, vertex.number) || vertex.between.is_some_and(|[a, b]| has(all, a) && has(all, b))
-    };
-    one.iter().any(|vertex| on(vertex, other)) || other.iter().any(|vertex| on(vertex, one))
+/// Returns whether two features are joined: they share a vertex, or a vertex of one feature is tied
+/// to an edge of the other. `first` and `second` are the vertices of a vertex, edge or triangle.
+pub(crate) fn joined(first: &[Vertex], second: &[Vertex]) -> bool {
+    first.iter().any(|vertex| is_on(vertex, second))
+        || second.iter().any(|vertex| is_on(vertex, first))
+}
+
+/// Returns whether `vertex` is one of `vertices`, or is tied to an edge between two of `vertices`.
+fn is_on(vertex: &Vertex, vertices: &[Vertex]) -> bool {
+    has_number(vertices, vertex.number)
+        || vertex.between.is_some_and(|[a, b]| has_number(vertices, a) && has_number(vertices, b))
+}
+
+/// Returns whether one of `vertices` has the given `number`.
+fn has_number(vertices: &[Vertex], number: u32) -> bool {
+    vertices.iter().any(|vertex| vertex.number == number)
 }

@@ -12,25 +12,17 @@ use crate::inside::{EnclosedPiece, enclosed};
 use crate::intersection::{folded_flat, has_area, segment_intersects, triangles_intersect};
 use crate::joints::{CLOSED, Joints};
 use crate::mesh::{Mesh, PartNumber};
-use crate::triangle::{EDGES, Triangle, joined};
-
-/// Number of triangles that one thread tests at a time.
-const CHUNK: usize = 512;
+use crate::triangle::{EDGES, Triangle, Vertex, joined};
 
 /// Largest number of pairs that a verdict lists.
 const LISTED_MAX: usize = 10;
-
-/// Relative rounding error of a distance that is allowed below the minimum separation.
-///
-/// Corners have 16 digits, and a separation is a ten-thousandth of a coordinate or more.
-const ROUNDING: f64 = 1e-9;
 
 /// Result of testing one frame.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
-/// # std::fs::write(folder.path().join("surfaces.json"), r#"{ "format": 1, "guarded": true, "panels": [
-/// #     { "name": "sheet", "vertices": 3, "triangles": 1 } ], "bodies": [] }
+/// # std::fs::write(folder.path().join("surfaces.json"), r#"{ "format": 1, "guarded": true,
+/// #     "panels": [ { "name": "sheet", "vertices": 3, "triangles": 1 } ], "bodies": [] }
 /// # "#)?;
 /// # let frame = "v 0 0 0\nv 0 0 1\nv 1 0 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1 2 3\n";
 /// # std::fs::write(folder.path().join("frame-00000.obj"), frame)?;
@@ -45,35 +37,37 @@ pub struct Verdict {
     pub number: usize,
     /// File of the frame.
     pub file: PathBuf,
-    /// Time of the frame where the file gives it, in s.
+    /// Time of the frame, in s, if the file gives it.
     pub time: Option<f64>,
-    /// Growth fraction of the minimum separation that the file gives, 0 to 1: less than 1 while the
-    /// separation still grows.
+    /// Growth fraction of the minimum separation that the file gives, 0 to 1. The fraction is less
+    /// than 1 while the separation still grows.
     #[serde(rename = "grown")]
     pub growth: f64,
     /// Number of triangles of cloth and bodies.
     pub triangles: usize,
-    /// Number of pairs whose bounding boxes overlap; all others are disjoint.
+    /// Number of pairs whose bounding boxes overlap. All other pairs are disjoint.
     pub pairs: usize,
-    /// Number of pairs that intersect where they are not joined. Touching counts, and so do the two sides
-    /// of a seam that is open by more than 0.1 mm.
+    /// Number of pairs that intersect outside their joints. Pairs that touch count, and so do pairs
+    /// from the two sides of a seam that is open by more than 0.1 mm.
     pub intersections: usize,
-    /// Number of exempt pairs that intersect: they are of the two sides of a seam that counts as closed,
-    /// within 0.1 mm, before its vertices are one point.
+    /// Number of exempt pairs that intersect. Such a pair is from the two sides of a seam that
+    /// counts as closed, within 0.1 mm, but whose vertices are not one point yet.
     #[serde(rename = "exempt_intersections")]
     pub exempt: usize,
-    /// Widest gap of the seams at these pairs, in m; no side is deeper in the other. 0 without such a
-    /// pair.
+    /// Widest gap of the seams at the exempt pairs, in m. No side is deeper in the other than this
+    /// gap. 0 if there is no exempt pair.
     pub exempt_depth: f64,
     /// Pieces of cloth that lie wholly inside a body.
     pub enclosed: Vec<EnclosedPiece>,
     /// Number of triangles without an area.
     pub degenerate: usize,
-    /// Number of pairs closer than the minimum separation.
+    /// Number of pairs that are closer than the minimum separation.
     pub too_near: usize,
-    /// Smallest distance of a pair within its activation distance, in m; none without such a pair.
+    /// Smallest distance of a pair within its activation distance, in m, or `None` if there is no
+    /// such pair.
     pub min_distance: Option<f64>,
-    /// Worst pairs: those that intersect, then those closest relative to their minimum separation.
+    /// At most ten pairs, first the pairs that intersect, then the pairs that are closest in
+    /// relation to their minimum separation.
     pub worst: Vec<ClosePair>,
 }
 
@@ -84,19 +78,19 @@ pub struct ClosePair {
     pub parts: [PartNumber; 2],
     /// Numbers of the triangles in their parts, from 0.
     pub triangles: [usize; 2],
-    /// Midpoint of the closest points, or mean of all corners of two that intersect, in m.
+    /// Midpoint of the closest points, or mean of all corners of triangles that intersect, in m.
     #[serde(rename = "place")]
     pub point: [f64; 3],
-    /// Distance of the two, in m; 0 if they intersect.
+    /// Distance of the two triangles, in m. 0 if they intersect.
     pub distance: f64,
-    /// Minimum separation of the two, in m; 0 where nothing was promised.
+    /// Minimum separation of the two triangles, in m. 0 if no distance was promised.
     #[serde(rename = "kept")]
     pub min_separation: f64,
 }
 
 impl Verdict {
-    /// Returns whether no pair intersects or is too close, no triangle is degenerate, and no piece of
-    /// cloth is inside a body.
+    /// Returns `true` if no pair intersects or is too close, no triangle is degenerate, and no
+    /// piece of cloth is inside a body.
     #[must_use]
     pub fn holds(&self) -> bool {
         let faults = self.intersections + self.degenerate + self.too_near;
@@ -104,9 +98,9 @@ impl Verdict {
     }
 }
 
-/// Findings in a part of the pairs.
+/// Faults among a part of the pairs. The fields are explained at [`Verdict`].
 #[derive(Debug, Default)]
-struct Found {
+struct Findings {
     pairs: usize,
     intersections: usize,
     exempt: usize,
@@ -117,102 +111,122 @@ struct Found {
     worst: Vec<ClosePair>,
 }
 
-impl Found {
-    /// Returns the findings joined with those in later pairs.
-    fn with(mut self, other: Found) -> Found {
+impl Findings {
+    /// Returns `self` with `other`, the findings among later pairs.
+    fn merge(mut self, other: Findings) -> Findings {
         self.pairs += other.pairs;
         self.intersections += other.intersections;
         self.exempt += other.exempt;
         self.exempt_depth = self.exempt_depth.max(other.exempt_depth);
         self.degenerate += other.degenerate;
         self.too_near += other.too_near;
-        let least = self.min_distance.into_iter().chain(other.min_distance).min_by(f64::total_cmp);
-        self.min_distance = least;
+        self.min_distance =
+            self.min_distance.into_iter().chain(other.min_distance).min_by(f64::total_cmp);
         self.worst.extend(other.worst);
-        self.sort();
+        self.keep_worst();
         self
     }
 
-    fn sort(&mut self) {
-        let relative = |pair: &ClosePair| match pair.min_separation {
-            separation if separation > 0.0 => pair.distance / separation,
-            _ => pair.distance,
-        };
-        // The sort is stable: of equal pairs the first stays first.
-        self.worst.sort_by(|a, b| relative(a).total_cmp(&relative(b)));
+    /// Sorts `worst` and removes all but the first [`LISTED_MAX`] pairs.
+    fn keep_worst(&mut self) {
+        // The sort is stable, so that equal pairs keep their order.
+        self.worst.sort_by(|a, b| a.relative_distance().total_cmp(&b.relative_distance()));
         self.worst.truncate(LISTED_MAX);
     }
 }
 
-/// State to be tested: the mesh and the positions of its vertices, in m.
-struct State<'a> {
+impl ClosePair {
+    /// Returns the distance over the minimum separation, or the distance if nothing was promised.
+    fn relative_distance(&self) -> f64 {
+        if self.min_separation > 0.0 { self.distance / self.min_separation } else { self.distance }
+    }
+}
+
+/// Frame whose pairs are tested.
+struct TestedFrame<'a> {
     mesh: &'a Mesh,
+    /// Positions of the vertices of cloth and bodies, in m.
     positions: &'a [[f64; 3]],
-    /// Vertices that are one point.
+    /// Joints of the vertices that are one point.
     joints: Joints,
-    /// Vertices of closed seams, merged or about to be.
+    /// Joints of the seams that count as closed, whose vertices are merged or will be.
     closed: Joints,
     /// Growth fraction of the minimum separation, 0 to 1.
     growth: f64,
 }
 
-/// Distances of a pair, in m.
-struct Limits {
+/// Distances that a run promises for a pair, in m.
+struct PromisedDistances {
     activation_distance: f64,
     min_separation: f64,
 }
 
-/// Tests all pairs of triangles of a frame but those of bodies with bodies.
+/// Tests all pairs of triangles of `frame`, except pairs of two bodies.
 pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
     let Frame { number, file, time, growth, cloth, bodies, .. } = frame;
     let positions = [cloth, bodies].concat();
     let [joints, closed] = [0.0, CLOSED].map(|gap| mesh.sewn.joined_within(gap, &positions));
     let enclosed = enclosed(mesh, &joints, &positions);
-    let found = State { mesh, positions: &positions, joints, closed, growth }.search();
+    let findings = TestedFrame { mesh, positions: &positions, joints, closed, growth }.search();
+
     Verdict {
         number,
         file,
         time,
         growth,
-        triangles: mesh.triangles(),
-        pairs: found.pairs,
-        intersections: found.intersections,
-        exempt: found.exempt,
-        exempt_depth: found.exempt_depth,
+        triangles: mesh.triangle_count(),
+        pairs: findings.pairs,
+        intersections: findings.intersections,
+        exempt: findings.exempt,
+        exempt_depth: findings.exempt_depth,
         enclosed,
-        degenerate: found.degenerate,
-        too_near: found.too_near,
-        min_distance: found.min_distance,
-        worst: found.worst,
+        degenerate: findings.degenerate,
+        too_near: findings.too_near,
+        min_distance: findings.min_distance,
+        worst: findings.worst,
     }
 }
 
-impl State<'_> {
-    fn search(&self) -> Found {
+impl TestedFrame<'_> {
+    /// Tests all pairs whose bounding boxes overlap. The result does not depend on the number of
+    /// threads.
+    fn search(&self) -> Findings {
+        /// Number of triangles that one thread tests at a time.
+        const CHUNK: usize = 512;
+
+        // Two boxes that are enlarged by half the largest activation distance overlap if the
+        // triangles are within it.
         let mesh = self.mesh;
         let halves = mesh.parts().iter().map(|part| part.half_activation_distance);
         let margin = halves.fold(0.0, f64::max);
-        let boxes = (0..mesh.triangles()).map(|t| Aabb::around(self.corners(t), margin));
+        let boxes = (0..mesh.triangle_count()).map(|t| Aabb::around(self.corners(t), margin));
         let grid = Grid::new(boxes.collect());
-        let numbers: Vec<usize> = (0..mesh.triangles()).collect();
-        let chunks = numbers.par_chunks(CHUNK).map(|chunk| {
-            let mut found = Found::default();
-            for &triangle in chunk {
-                found.degenerate += usize::from(!has_area(self.corners(triangle)));
-                grid.each_following(triangle, |other| self.pair([triangle, other], &mut found));
-            }
-            found.sort();
-            found
-        });
-        let chunks: Vec<Found> = chunks.collect();
-        chunks.into_iter().fold(Found::default(), Found::with)
+
+        // The findings are merged in the order of the triangles.
+        let numbers: Vec<usize> = (0..mesh.triangle_count()).collect();
+        let chunks: Vec<Findings> = numbers
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                let mut findings = Findings::default();
+                for &triangle in chunk {
+                    findings.degenerate += usize::from(!has_area(self.corners(triangle)));
+                    grid.visit_following(triangle, |other| {
+                        self.test([triangle, other], &mut findings);
+                    });
+                }
+                findings.keep_worst();
+                findings
+            })
+            .collect();
+        chunks.into_iter().fold(Findings::default(), Findings::merge)
     }
 
+    /// Returns the corners of triangle `triangle`, in m.
     fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
         self.mesh.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
 
-    /// Returns two triangles of the frame, with their vertices numbered by given joints.
+    /// Returns the triangles `pair`, with their vertices numbered by `joints`.
     fn triangles(&self, pair: [usize; 2], joints: &Joints) -> [Triangle; 2] {
         pair.map(|triangle| Triangle {
             corners: self.corners(triangle),
@@ -220,77 +234,95 @@ impl State<'_> {
         })
     }
 
-    /// Tests a pair and adds it to the findings.
-    fn pair(&self, pair: [usize; 2], found: &mut Found) {
+    /// Tests the triangles `pair` and adds the result to `findings`.
+    fn test(&self, pair: [usize; 2], findings: &mut Findings) {
         if pair.iter().all(|&triangle| self.mesh.is_body(triangle)) {
             return;
         }
-        found.pairs += 1;
+        findings.pairs += 1;
+
+        // The sides of a closing seam are first taken as joined. A pair that intersects only if
+        // they are separate is exempt.
         let triangles = self.triangles(pair, &self.closed);
         if intersect(triangles) {
-            found.intersections += 1;
-            let corners = || triangles.iter().flat_map(|triangle| triangle.corners);
-            let middle = [0, 1, 2].map(|axis| corners().map(|x| x[axis]).sum::<f64>() / 6.0);
-            found.worst.push(self.listed(pair, middle, [0.0; 2]));
+            findings.intersections += 1;
+            let corners = triangles.iter().flat_map(|triangle| triangle.corners);
+            let middle = [0, 1, 2].map(|axis| corners.clone().map(|x| x[axis]).sum::<f64>() / 6.0);
+            findings.worst.push(self.close_pair(pair, middle, [0.0; 2]));
         } else {
             let separate = self.triangles(pair, &self.joints);
-            let is_closing = separate.map(|own| own.vertices) != triangles.map(|own| own.vertices);
+            let is_closing = separate.map(|triangle| triangle.vertices)
+                != triangles.map(|triangle| triangle.vertices);
             if is_closing && intersect(separate) {
-                found.exempt += 1;
-                found.exempt_depth = found.exempt_depth.max(seam_gap(triangles));
+                findings.exempt += 1;
+                findings.exempt_depth = findings.exempt_depth.max(seam_gap(triangles));
             } else {
-                self.measure(pair, separate, found);
+                self.measure(pair, separate, findings);
             }
         }
-        if found.worst.len() > 100 * LISTED_MAX {
-            found.sort();
+
+        // The list is shortened now and then, so that a frame of many faults needs little memory.
+        if findings.worst.len() > 100 * LISTED_MAX {
+            findings.keep_worst();
         }
     }
 
-    /// Adds a disjoint pair to the findings if it is within its activation distance.
-    fn measure(&self, pair: [usize; 2], triangles: [Triangle; 2], found: &mut Found) {
-        let [one, other] = triangles;
-        let closest = triangle_distance(one, other);
+    /// Adds the disjoint triangles `pair` to `findings` if they are within their activation
+    /// distance.
+    fn measure(&self, pair: [usize; 2], triangles: [Triangle; 2], findings: &mut Findings) {
+        /// Relative rounding error of a distance that is allowed below the minimum separation.
+        ///
+        /// Corners have 16 digits, and a separation is at least a ten-thousandth of a coordinate.
+        const ROUNDING: f64 = 1e-9;
+
+        let [first, second] = triangles;
+        let closest = triangle_distance(first, second);
         let distance = closest.distance();
         let parts = pair.map(|triangle| self.mesh.part[triangle] as usize);
         let [a, b] = parts.map(|part| &self.mesh.parts()[part]);
-        let mut limits = Limits {
+        let mut promised = PromisedDistances {
             activation_distance: a.half_activation_distance + b.half_activation_distance,
             min_separation: a.half_min_separation + b.half_min_separation,
         };
         if pair.iter().any(|&triangle| self.mesh.is_body(triangle)) {
-            limits.min_separation *= self.mesh.pinch_fraction;
+            promised.min_separation *= self.mesh.pinch_fraction;
         }
+
         let sewn = pair.map(|triangle| self.mesh.sewn_vertices(triangle));
-        if joined(&sewn[0], &sewn[1]) && !joined(&one.vertices, &other.vertices) {
-            // The sides of a seam that closes come as near to each other as it is open.
-            limits.min_separation = 0.0;
+        if joined(&sewn[0], &sewn[1]) && !joined(&first.vertices, &second.vertices) {
+            // The sides of a seam approach each other until the seam is closed.
+            promised.min_separation = 0.0;
         }
-        if !(distance < limits.activation_distance) {
+        if !(distance < promised.activation_distance) {
             return;
         }
+
         if parts[0] == parts[1] {
-            // Two points of one part that are close at rest repel each other only below half of their rest
-            // distance, and keep only a quarter of it.
-            let [one, other] = [0, 1]
+            // Two points of one part that are close at rest repel each other only below half of
+            // their distance at rest, and the run promises only a quarter of this distance.
+            let [first_at_rest, second_at_rest] = [0, 1]
                 .map(|k| Triangle { corners: self.mesh.rest_corners(pair[k]), ..triangles[k] });
-            let rest = triangle_distance(one, other).distance();
-            limits.activation_distance = limits.activation_distance.min(0.5 * rest);
-            limits.min_separation = limits.min_separation.min(0.25 * rest);
+            let rest_distance = triangle_distance(first_at_rest, second_at_rest).distance();
+            promised.activation_distance = promised.activation_distance.min(0.5 * rest_distance);
+            promised.min_separation = promised.min_separation.min(0.25 * rest_distance);
         }
-        limits.min_separation *= self.growth;
-        let too_near = distance < limits.min_separation * (1.0 - ROUNDING);
-        found.too_near += usize::from(too_near);
-        if distance < limits.activation_distance || too_near {
-            let least = found.min_distance.map_or(distance, |least| least.min(distance));
-            found.min_distance = Some(least);
+        promised.min_separation *= self.growth;
+
+        let too_near = distance < promised.min_separation * (1.0 - ROUNDING);
+        findings.too_near += usize::from(too_near);
+        if distance < promised.activation_distance || too_near {
+            let least = findings.min_distance.map_or(distance, |least| least.min(distance));
+            findings.min_distance = Some(least);
             let [p, q] = closest.points;
             let middle = [0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis]));
-            found.worst.push(self.listed(pair, middle, [distance, limits.min_separation]));
+            let distances = [distance, promised.min_separation];
+            findings.worst.push(self.close_pair(pair, middle, distances));
         }
     }
 
-    fn listed(
+    /// Returns the triangles `pair` as an entry of the list of a verdict, lower part and number
+    /// first.
+    fn close_pair(
         &self,
         pair: [usize; 2],
         point: [f64; 3],
@@ -304,48 +336,54 @@ impl State<'_> {
     }
 }
 
-/// Returns whether two triangles intersect elsewhere than where they are joined.
-fn intersect([one, other]: [Triangle; 2]) -> bool {
-    if !joined(&one.vertices, &other.vertices) {
-        return triangles_intersect(one.corners, other.corners);
+/// Returns whether the triangles `first` and `second` intersect outside their joints.
+fn intersect([first, second]: [Triangle; 2]) -> bool {
+    if !joined(&first.vertices, &second.vertices) {
+        return triangles_intersect(first.corners, second.corners);
     }
-    // Two that share an edge do so only if they lie on each other in one plane.
-    if let Some([apex, of_other]) = one.apexes(&other) {
-        let edge = EDGES[(apex + 1) % 3].map(|k| one.corners[k]);
-        return folded_flat(edge, [one.corners[apex], other.corners[of_other]]);
+    // Triangles that share an edge intersect only if they lie on each other in one plane.
+    if let Some([first_apex, second_apex]) = first.apexes(&second) {
+        let edge = EDGES[(first_apex + 1) % 3].map(|k| first.corners[k]);
+        return folded_flat(edge, [first.corners[first_apex], second.corners[second_apex]]);
     }
-    // Where they are not joined, an edge of one of them intersects the other.
-    [(one, other), (other, one)].into_iter().any(|(triangle, of)| {
-        EDGES.into_iter().any(|edge| {
-            !joined(&edge.map(|k| triangle.vertices[k]), &of.vertices)
-                && segment_intersects(edge.map(|k| triangle.corners[k]), of.corners)
-        })
+    // Other joined triangles intersect if an edge of one, not joined to the second, intersects it.
+    any_edge_intersects(&first, &second) || any_edge_intersects(&second, &first)
+}
+
+/// Returns whether an edge of `triangle` that is not joined to `other` intersects `other`.
+fn any_edge_intersects(triangle: &Triangle, other: &Triangle) -> bool {
+    EDGES.into_iter().any(|edge| {
+        !joined(&edge.map(|k| triangle.vertices[k]), &other.vertices)
+            && segment_intersects(edge.map(|k| triangle.corners[k]), other.corners)
     })
 }
 
-/// Returns the widest gap of the seams that join two triangles, in m.
-fn seam_gap([one, other]: [Triangle; 2]) -> f64 {
-    let corner = |of: &Triangle, number: u32| {
-        let place = of.vertices.iter().position(|vertex| vertex.number == number);
-        place.map(|place| of.corners[place])
-    };
-    let gaps = [(&one, &other), (&other, &one)].into_iter().flat_map(|(triangle, of)| {
-        triangle.corners.into_iter().zip(triangle.vertices).filter_map(move |(point, vertex)| {
-            let twin = corner(of, vertex.number).map(|twin| [twin; 2]);
-            let edge = || {
-                let [a, b] = vertex.between?;
-                Some([corner(of, a)?, corner(of, b)?])
-            };
-            Some(point_segment(point, twin.or_else(edge)?).distance())
-        })
-    });
-    gaps.fold(0.0, f64::max)
+/// Returns the widest gap of the seams that join the triangles `first` and `second`, in m.
+fn seam_gap([first, second]: [Triangle; 2]) -> f64 {
+    let mut widest: f64 = 0.0;
+    for (triangle, other) in [(&first, &second), (&second, &first)] {
+        for (point, vertex) in triangle.corners.into_iter().zip(triangle.vertices) {
+            if let Some(target) = sewing_target(vertex, other) {
+                widest = widest.max(point_segment(point, target).distance());
+            }
+        }
+    }
+    widest
+}
+
+/// Returns the corner of `triangle` to which `vertex` is sewn, twice, or the edge of `triangle` to
+/// which it is tied. Returns `None` if `vertex` is not joined to `triangle`.
+fn sewing_target(vertex: Vertex, triangle: &Triangle) -> Option<[[f64; 3]; 2]> {
+    if let Some(corner) = triangle.corner(vertex.number) {
+        return Some([corner; 2]);
+    }
+    let [a, b] = vertex.between?;
+    Some([triangle.corner(a)?, triangle.corner(b)?])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::triangle::Vertex;
 
     #[test]
     fn vertices_tied_to_an_edge_intersect_its_triangle_only_elsewhere() {
@@ -378,7 +416,7 @@ mod tests {
         // An untied triangle at the same position touches.
         let untied = Triangle { vertices: [7, 8, 9].map(plain), ..along };
         assert!(intersect([flat, untied]));
-        let own = [tied(3)];
-        assert!(joined(&own, &flat.vertices) && !joined(&own, &flat.vertices[1..]));
+        let vertex = [tied(3)];
+        assert!(joined(&vertex, &flat.vertices) && !joined(&vertex, &flat.vertices[1..]));
     }
 }

@@ -1,4 +1,4 @@
-//! Verifier: tests the frames of a folder one by one.
+//! Verifier: tests the frames of a folder.
 
 use std::path::Path;
 
@@ -15,26 +15,26 @@ pub struct Verifier {
 }
 
 impl Verifier {
-    /// Opens a folder.
+    /// Opens the frames in `folder`.
     ///
     /// # Errors
-    /// A file is missing or is not as a run writes it.
+    /// [`Error`] if a file is missing, or has content that no run writes.
     pub fn open(folder: impl AsRef<Path>) -> Result<Verifier, Error> {
         let recording = Recording::open(folder)?;
         let mesh = Mesh::new(recording.manifest(), recording.topology());
         Ok(Verifier { recording, mesh })
     }
 
-    /// Returns the folder with its frames.
+    /// Returns the [`Recording`] whose frames are tested.
     #[must_use]
     pub fn recording(&self) -> &Recording {
         &self.recording
     }
 
-    /// Reads a frame and tests all its pairs of triangles.
+    /// Reads frame `number` and tests all its pairs of triangles.
     ///
     /// # Errors
-    /// A file is missing or is not as a run writes it.
+    /// [`Error`] if a file is missing, or has content that no run writes.
     pub fn verify(&self, number: usize) -> Result<Verdict, Error> {
         Ok(verify(&self.mesh, self.recording.frame(number)?))
     }

@@ -42,7 +42,7 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     }
     input::expect(&arguments.run, &[FileKind::Run])?;
     let recording = Recording::open(&arguments.run)?;
-    let numbers = numbers(arguments, format, recording.frames() - 1);
+    let numbers = numbers(arguments, format, recording.frame_count() - 1);
     let asked = numbers.clone().count();
     if format == Format::Svg && asked != 1 {
         let reason = "--frames: svg shows one frame; name it with --frame";

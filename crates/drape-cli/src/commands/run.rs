@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use drape::dynamics::Summary;
-use drape::input::{Places, Setting};
+use drape::input::{AllowedFolders, Setting};
 use drape::run::{FolderRun, RunRequest, end_at};
 use drape::scene::Error;
 use serde_json::json;
@@ -145,7 +145,7 @@ fn check_place(place: &Path, scene: &Path, arguments: &RunArguments) -> Result<(
     if arguments.output.is_some() {
         return Ok(());
     }
-    let places = Places::new(scene.parent().unwrap_or(Path::new("")), input::allowed());
+    let places = AllowedFolders::new(scene.parent().unwrap_or(Path::new("")), input::allowed());
     places.check(place).map_err(|misplaced| {
         let (place, help) = (place.display(), misplaced.help());
         Failure::Usage(format!("{place}: {misplaced}; {help}, or name a folder with -o"))

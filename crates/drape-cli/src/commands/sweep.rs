@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use drape::run::file;
-use drape::sweep::{Batch, Engine, Outcome, Place, Point, Study, manifest};
+use drape::sweep::{Batch, Engine, Outcome, Point, PointStorage, Study, manifest};
 
 use self::collect::SweepCollectArguments;
 use self::run::SweepRunArguments;
@@ -118,7 +118,7 @@ fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
 
 /// Returns how many points take a minute, by those that have been run.
 fn chunk(study: &Study, points: &[Point]) -> usize {
-    let records = points.iter().filter_map(|point| Place::new(study, point).record());
+    let records = points.iter().filter_map(|point| PointStorage::new(study, point).record());
     let times = records.filter(|record| record.outcome == Outcome::Done);
     let times: Vec<f64> = times.map(|record| record.seconds).collect();
     let mean = times.iter().sum::<f64>() / times.len() as f64;

@@ -1,7 +1,7 @@
 //! Pictures of the stored frames of a run: from several sides, with a colour map, all in one scale.
 
 use drape::export::{FabricPalette, Field, Fields};
-use drape::frames::{Frame, Part, Recording};
+use drape::frames::{Frame, Recording, SurfacePart};
 use drape::report::{
     Camera, Colour, ColourScale, Extent, Ground, Legend, LitShapes, Picture, Scene, Surface,
     Swatches, View,
@@ -282,7 +282,7 @@ impl<'a> RunPictures<'a> {
 /// Returns the colours of the front and the back of each triangle of the cloth.
 fn sides(recording: &Recording, palette: &FabricPalette) -> Vec<[Colour; 2]> {
     let panels = recording.manifest().panels.iter();
-    let of_panel = |panel: &Part| vec![palette.sides(&panel.fabric); panel.triangles];
+    let of_panel = |panel: &SurfacePart| vec![palette.sides(&panel.fabric); panel.triangles];
     panels.flat_map(of_panel).collect()
 }
 

@@ -78,7 +78,7 @@ fn run_in(folder: &Path, text: &str, omitted: Omitted, stiffness: Option<f64>) -
     let mut film = Film(output.record(&simulation.topology()).expect("it can be written"));
     let summary = simulation.run(&mut film).expect("frames can be written");
     let verifier = Verifier::open(folder.path()).expect("a run");
-    let frames = 0..verifier.recording().frames();
+    let frames = 0..verifier.recording().frame_count();
     let verdicts = frames.map(|number| verifier.verify(number).expect("a frame"));
     let verdicts: Vec<Verdict> = verdicts.collect();
     End {

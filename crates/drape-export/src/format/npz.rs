@@ -2,7 +2,7 @@
 
 use std::io::{Seek, Write};
 
-use drape_frames::{EnergyTable, Frame, Part};
+use drape_frames::{EnergyTable, Frame, SurfacePart};
 use npyz::{AutoSerialize, DType, Serialize, TypeChar, TypeStr, WriterBuilder};
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
@@ -73,7 +73,7 @@ pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
 }
 
 /// Returns the number of the part of each vertex.
-fn owners(parts: &[Part]) -> Vec<u32> {
+fn owners(parts: &[SurfacePart]) -> Vec<u32> {
     (0..).zip(parts).flat_map(|(index, part)| std::iter::repeat_n(index, part.vertices)).collect()
 }
 

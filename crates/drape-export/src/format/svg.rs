@@ -10,7 +10,7 @@ mod sheet;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use drape_frames::{Frame, Part, Recording};
+use drape_frames::{Frame, Recording, SurfacePart};
 
 use self::region::{Flat, Node};
 use self::sheet::{Extent, Sheet};
@@ -76,7 +76,7 @@ pub fn write_svg(map: &PatternMap, mut to: impl Write) -> io::Result<()> {
 
 /// Panel, flat.
 struct FlatPanel<'a> {
-    part: &'a Part,
+    part: &'a SurfacePart,
     name: String,
     identifier: String,
     /// Positions of its vertices, in mm from its left lower corner.

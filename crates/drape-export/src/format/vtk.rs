@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use drape_frames::{Frame, Part, Recording};
+use drape_frames::{Frame, Recording, SurfacePart};
 
 use crate::error::Error;
 use crate::field::Field;
@@ -204,7 +204,7 @@ fn words<'a>(
     writeln!(to, "</Array>")
 }
 
-fn owners(parts: &[Part]) -> Vec<[i32; 1]> {
+fn owners(parts: &[SurfacePart]) -> Vec<[i32; 1]> {
     (0..)
         .zip(parts)
         .flat_map(|(index, part)| std::iter::repeat_n([index], part.triangles))

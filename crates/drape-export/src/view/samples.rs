@@ -39,7 +39,7 @@ impl Samples {
     /// Reads evenly chosen frames, the first and the last among them, with at most `vertices_max`
     /// vertices in all.
     pub(super) fn new(recording: &Recording, vertices_max: usize) -> Result<Samples, Error> {
-        let last = recording.frames() - 1;
+        let last = recording.frame_count() - 1;
         let most = vertices_max / recording.topology().material.len().max(1);
         let stride = last.div_ceil(most.clamp(1, FRAMES_MAX)).max(1);
         let mut numbers: Vec<usize> = (0..last).step_by(stride).collect();

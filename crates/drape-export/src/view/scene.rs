@@ -1,6 +1,6 @@
 //! Scene: one run as the elements of a page.
 
-use drape_frames::{EnergyTable, Error, Frame, Part, Recording};
+use drape_frames::{EnergyTable, Error, Frame, Recording, SurfacePart};
 use serde_json::{Value, json};
 
 use super::bits::{Bounds, Differences, deflated, octet};
@@ -122,9 +122,9 @@ impl Content {
 }
 
 /// Returns the box of each body over all frames.
-fn body_bounds(bodies: &[Part], frames: &[&Frame]) -> Vec<Bounds> {
+fn body_bounds(bodies: &[SurfacePart], frames: &[&Frame]) -> Vec<Bounds> {
     let mut first = 0;
-    let of = |body: &Part| {
+    let of = |body: &SurfacePart| {
         let own = first..first + body.vertices;
         first = own.end;
         frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.bodies[own.clone()]))
@@ -148,7 +148,7 @@ fn body_states(frames: &[&Frame]) -> Vec<usize> {
     states
 }
 
-fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
+fn body_words(bodies: &[SurfacePart], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
     let mut vertices = frame.bodies.iter();
     let mut words = Vec::new();
     for (body, bounds) in bodies.iter().zip(bounds) {
@@ -159,7 +159,7 @@ fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
 }
 
 /// Returns what the page says of a panel, with the colours of its fabric.
-fn panel(part: &Part, palette: &FabricPalette) -> Value {
+fn panel(part: &SurfacePart, palette: &FabricPalette) -> Value {
     let [front, back] = palette.sides(&part.fabric);
     json!({
         "name": part.name, "triangles": part.triangles, "fabric": part.fabric,
@@ -176,7 +176,7 @@ fn meta(
 ) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
     let corners = |bounds: &Bounds| json!([bounds.low, bounds.high]);
-    let body = |(part, bounds): (&Part, &Bounds)| {
+    let body = |(part, bounds): (&SurfacePart, &Bounds)| {
         json!({
             "name": part.name, "vertices": part.vertices, "triangles": part.triangles,
             "box": corners(bounds),
@@ -224,7 +224,7 @@ fn meta(
 /// Returns how many frames are shown, and how exactly.
 fn note(recording: &Recording, frames: &[&Frame], bounds: &Bounds) -> String {
     let size = (0..3).map(|axis| bounds.high[axis] - bounds.low[axis]).fold(0.0, f64::max);
-    let all = recording.frames();
+    let all = recording.frame_count();
     let shown = match frames.len() {
         count if count == all => format!("{all} frames"),
         count => format!("{count} of {all} frames"),

@@ -142,7 +142,7 @@ pub(crate) fn uncertainty(
     problem.residuals(&report.parameters, &mut residuals);
     residuals.truncate(problem.point_count());
     let independence = Independence::of(&residuals).for_parameters(count, residuals.len());
-    let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
+    let covariance = Covariance::new(problem, &parameters, report, Loss::Squares);
     // A parameter that is undetermined is left out: it is taken as known.
     let known = |j: usize| covariance.undetermined(j).is_none();
     let jacobian = derivatives(problem, &parameters, &report.parameters, known);

@@ -2,36 +2,44 @@
 
 use crate::surface::vector::{Vector, area_vector, cross, difference, dot, length, sum};
 
-/// Returns the largest size of a principal curvature of each triangle, in 1/m, from the positions of
-/// the vertices, in m; 0 for one without area.
+/// Returns the largest magnitude of a principal curvature of each of `triangles`, in 1/m, from the
+/// `positions` of the vertices, in m. The curvature of a triangle without area is 0.
 ///
-/// In the plane of a triangle the second fundamental form turns each edge into the difference of the
-/// normals at its ends. The three edges give six equations for its three coefficients, which are
-/// solved by least squares \[Rus04\].
+/// In the plane of a triangle the second fundamental form maps each edge to the difference of the
+/// normals at its ends. The three edges give six equations for the three coefficients of the form.
+/// The equations are solved by least squares \[Rus04\].
 ///
 /// # Panics
-/// If there is no position of a corner.
+/// If a corner is not an index of `positions`.
 #[must_use]
 pub fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<f64> {
     let normals = normals(positions, triangles);
-    let of = |corners: &[u32; 3]| {
-        let places = corners.map(|corner| positions[corner as usize]);
-        let value = of_triangle(places, corners.map(|corner| normals[corner as usize]));
-        if value.is_finite() { value } else { 0.0 }
-    };
-    triangles.iter().map(of).collect()
+    triangles
+        .iter()
+        .map(|corners| {
+            let corner_positions = corners.map(|corner| positions[corner as usize]);
+            let corner_normals = corners.map(|corner| normals[corner as usize]);
+            let curvature = triangle_curvature(corner_positions, corner_normals);
+            if curvature.is_finite() { curvature } else { 0.0 }
+        })
+        .collect()
 }
 
-fn of_triangle(places: [Vector; 3], normals: [Vector; 3]) -> f64 {
-    let along = unit(difference(places[1], places[0]));
-    let normal = unit(cross(difference(places[1], places[0]), difference(places[2], places[0])));
+/// Returns the largest magnitude of a principal curvature of the triangle with corners at
+/// `positions` and unit `normals` at its corners. The result is not finite for a triangle without
+/// area.
+fn triangle_curvature(positions: [Vector; 3], normals: [Vector; 3]) -> f64 {
+    let [first, second] = [1, 2].map(|k| difference(positions[k], positions[0]));
+    let along = unit(first);
+    let normal = unit(cross(first, second));
     let across = cross(normal, along);
+
     // Normal equations of the coefficients e, f, g: e u + f v = Δn·along, f u + g v = Δn·across.
     let (mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0);
     let mut right = [0.0; 3];
     for k in 0..3 {
         let next = (k + 1) % 3;
-        let edge = difference(places[next], places[k]);
+        let edge = difference(positions[next], positions[k]);
         let turn = difference(normals[next], normals[k]);
         let [u, v] = [along, across].map(|axis| dot(edge, axis));
         let [p, q] = [along, across].map(|axis| dot(turn, axis));
@@ -40,29 +48,33 @@ fn of_triangle(places: [Vector; 3], normals: [Vector; 3]) -> f64 {
         vv += v * v;
         right = [right[0] + u * p, right[1] + v * p + u * q, right[2] + v * q];
     }
+
     // The matrix is [[uu, uv, 0], [uv, uu + vv, uv], [0, uv, vv]].
     let determinant = uu * ((uu + vv) * vv - uv * uv) - uv * uv * vv;
     let [a, b, c] = right;
     let e = (a * ((uu + vv) * vv - uv * uv) - uv * (b * vv - uv * c)) / determinant;
     let f = (uu * (b * vv - c * uv) - a * uv * vv) / determinant;
     let g = (uu * ((uu + vv) * c - uv * b) - uv * (uv * c) + a * uv * uv) / determinant;
+
     let (mean, half) = (0.5 * (e + g), 0.5 * (e - g));
     mean.abs() + half.hypot(f)
 }
 
-/// Returns the unit normals at the vertices, weighted by the areas of the triangles around them.
+/// Returns the unit normal at each vertex: the mean of the normals of the `triangles` around it,
+/// weighted by their areas.
 fn normals(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<Vector> {
     let mut normals = vec![[0.0; 3]; positions.len()];
     for corners in triangles {
-        let own = area_vector(positions, corners);
+        let area = area_vector(positions, corners);
         for &corner in corners {
-            let whole = &mut normals[corner as usize];
-            *whole = sum(*whole, own);
+            let normal = &mut normals[corner as usize];
+            *normal = sum(*normal, area);
         }
     }
     normals.into_iter().map(unit).collect()
 }
 
+/// Returns the unit vector in the direction of `vector`.
 fn unit(vector: Vector) -> Vector {
     let length = length(vector);
     vector.map(|component| component / length)
@@ -72,7 +84,7 @@ fn unit(vector: Vector) -> Vector {
 mod tests {
     use super::*;
 
-    /// Triangles of a grid of so many columns and rows of vertices.
+    /// Returns the triangles of a grid with the given numbers of `columns` and `rows` of vertices.
     fn grid([columns, rows]: [u32; 2]) -> Vec<[u32; 3]> {
         let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| [column, row]));
         let cell = |[column, row]: [u32; 2]| {
@@ -102,7 +114,7 @@ mod tests {
             };
             let positions: Vec<Vector> = (0..440).map(place).collect();
             let found = curvatures(&positions, &triangles);
-            // Normals at the border are those of one side.
+            // At the border a vertex has triangles on one side only, and its normal is less exact.
             let inner = (0..10).flat_map(|row| (2..37).map(move |column| 2 * (39 * row + column)));
             for triangle in inner.filter(|t| (2 * 39 * 2..2 * 39 * 8).contains(t)) {
                 let error = found[triangle] * radius - 1.0;

@@ -1,4 +1,4 @@
-//! Reader of the values of a text for `serde`, which goes on where a value is wrong.
+//! Reader: passes the values of a text to `serde`, and continues after wrong values.
 
 use std::cell::{Cell, RefCell};
 
@@ -11,76 +11,80 @@ use crate::given;
 use crate::node::{Entry, Node, Value};
 use crate::quoting::{toml_key, toml_string};
 use crate::spelling::closest;
-use crate::unit::{Quantity, Written, parse_quantity};
+use crate::unit::{NumberWithUnit, Quantity, parse_quantity};
 
-use super::stand_in::{Kind, StandIn};
-use super::state::{Change, Fault, State};
+use super::stand_in::{ExpectedKind, StandIn};
+use super::state::{Change, Fault, ReadingState};
 use super::stop::Stop;
 
-/// Place of a value: the keys and numbers that lead to it.
-pub(super) struct Path<'a> {
-    outer: Option<&'a Path<'a>>,
-    step: Step<'a>,
+/// Path of a value: the keys and indices that lead to the value.
+pub(super) struct ValuePath<'a> {
+    outer: Option<&'a ValuePath<'a>>,
+    /// Last step of the path.
+    step: PathStep<'a>,
 }
 
+/// Step from a value to a value in it.
 #[derive(Clone, Copy)]
-enum Step<'a> {
+enum PathStep<'a> {
+    /// No step: the value is the whole text.
     Root,
-    /// Key, and the address of its value.
+    /// Key, and the [`address`] of its value.
     Key(&'a str, usize),
     Index(usize),
 }
 
-impl Path<'_> {
+impl ValuePath<'_> {
+    /// Returns the path of the whole text.
     pub(super) fn root() -> Self {
-        Self { outer: None, step: Step::Root }
+        Self { outer: None, step: PathStep::Root }
     }
 
-    /// Returns the path in the form of messages, such as `panel[1].disc`.
+    /// Returns the path as messages write it, such as `panel[1].disc`.
     fn text(&self) -> String {
-        let mut text = self.outer.map_or(String::new(), Path::text);
+        let mut text = self.outer.map_or(String::new(), ValuePath::text);
         match self.step {
-            Step::Root => {}
-            Step::Key(key, _) => {
+            PathStep::Root => {}
+            PathStep::Key(key, _) => {
                 if !text.is_empty() {
                     text.push('.');
                 }
                 text.push_str(&toml_key(&excerpt(key)));
             }
-            Step::Index(index) => text.push_str(&format!("[{index}]")),
+            PathStep::Index(index) => text.push_str(&format!("[{index}]")),
         }
         text
     }
 
-    /// Returns the path of the innermost value that has a key, and its address.
+    /// Returns the innermost path that ends with a key, and the address of its value.
     fn keyed(&self) -> Option<(&Self, usize)> {
         match self.step {
-            Step::Key(_, address) => Some((self, address)),
+            PathStep::Key(_, address) => Some((self, address)),
             _ => self.outer?.keyed(),
         }
     }
 
-    /// Returns the path of a key in here.
-    fn key(&self, key: &str) -> String {
+    /// Returns the text of the path of `key` in the value.
+    fn key_text(&self, key: &str) -> String {
         let text = self.text();
         let key = toml_key(&excerpt(key));
         if text.is_empty() { key } else { format!("{text}.{key}") }
     }
 }
 
-/// Returns the address of a value, which tells it from all others.
+/// Returns the address of `node`, which identifies the value.
 fn address(node: &Node) -> usize {
     std::ptr::from_ref(node) as usize
 }
 
-/// Reader of a value.
+/// Deserialiser of a value of the text.
 pub(super) struct Reader<'a> {
     pub(super) node: &'a Node,
-    pub(super) path: &'a Path<'a>,
-    pub(super) state: &'a RefCell<State>,
+    pub(super) path: &'a ValuePath<'a>,
+    pub(super) state: &'a RefCell<ReadingState>,
 }
 
-/// Returns whether a word says that a switch is on; `None` if it says neither.
+/// Returns whether `word` means that a switch is on or off, or `None` if it means neither.
 fn switch(word: &str) -> Option<bool> {
     match word.trim().to_ascii_lowercase().as_str() {
         "true" | "yes" | "on" => Some(true),
@@ -90,31 +94,34 @@ fn switch(word: &str) -> Option<bool> {
 }
 
 impl<'a> Reader<'a> {
-    /// Writes down that the value is not of the kind that is asked for.
-    fn wrong(&self, kind: Kind) {
+    /// Records the mistake that the value does not have the expected `kind`.
+    fn fault_of_kind(&self, kind: ExpectedKind) {
         let wanted = kind.words();
         let short = wanted.split_once(" such as").map_or(wanted.as_str(), |(short, _)| short);
         let message = format!("is {} where {short} is needed", self.node.kind());
         let help = match (&self.node.value, self.path.step) {
-            (Value::Table(_), Step::Key(key, _)) if kind == Kind::List(None) => {
+            (Value::Table(_), PathStep::Key(key, _)) if kind == ExpectedKind::List(None) => {
                 format!("write [[{}]], with two brackets: there may be several", toml_key(key))
             }
             _ => format!("write {wanted}"),
         };
         let meant = match &self.node.value {
-            Value::Text(text) if kind == Kind::Flag => switch(text).map(|on| on.to_string()),
+            Value::Text(text) if kind == ExpectedKind::Flag => {
+                switch(text).map(|on| on.to_string())
+            }
             _ => None,
         };
-        self.fault_of(message, help, meant);
+        self.correctable_fault(message, help, meant);
     }
 
-    /// Records a mistake in the value.
+    /// Records a mistake in the value, with its `message` and the remedy `help`.
     fn fault(&self, message: String, help: String) {
-        self.fault_of(message, help, None);
+        self.correctable_fault(message, help, None);
     }
 
-    /// Records a mistake in the value, with `meant`: the TOML text of the value that is right, if it is known.
-    fn fault_of(&self, message: String, help: String, meant: Option<String>) {
+    /// Records a mistake in the value, with its `message` and the remedy `help`. `meant` is the
+    /// TOML text of the right value, if it is known.
+    fn correctable_fault(&self, message: String, help: String, meant: Option<String>) {
         let mut state = self.state.borrow_mut();
         if let Some((path, address)) = self.path.keyed() {
             state.wrong.insert(address);
@@ -123,36 +130,40 @@ impl<'a> Reader<'a> {
         if state.is_last {
             return;
         }
-        let place = self.path.text();
-        let message = if place.is_empty() { message } else { format!("{place}: {message}") };
+
+        let key = self.path.text();
+        let message = if key.is_empty() { message } else { format!("{key}: {message}") };
         let span = Some(self.node.span.clone());
         let change = meant.map(Change::Value);
-        state.faults.push(Fault { span, key: place, message, help, change });
+        state.faults.push(Fault { span, key, message, help, change });
     }
 
-    fn stand_in<V>(&self, kind: Kind, visit: impl FnOnce(StandIn<'_>) -> V) -> V {
-        self.wrong(kind);
-        visit(StandIn { asked: &Cell::new(kind) })
+    /// Records that the value does not have the expected `kind`, and calls `visit` with a stand-in.
+    fn stand_in<V>(&self, kind: ExpectedKind, visit: impl FnOnce(StandIn<'_>) -> V) -> V {
+        self.fault_of_kind(kind);
+        visit(StandIn { expected: &Cell::new(kind) })
     }
 
+    /// Reads a finite number.
     fn number<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
         match self.node.value {
             Value::Integer(number) => visitor.visit_f64(number as f64),
             Value::Float(number) if number.is_finite() => visitor.visit_f64(number),
             Value::Float(number) => {
-                self.infinite(number);
+                self.fault_of_infinite(number);
                 visitor.visit_f64(1.0)
             }
-            _ => self.stand_in(Kind::Number, |by| by.deserialize_f64(visitor)),
+            _ => self.stand_in(ExpectedKind::Number, |stand_in| stand_in.deserialize_f64(visitor)),
         }
     }
 
-    /// Writes down that a number is infinite, or none.
-    fn infinite(&self, number: f64) {
+    /// Records the mistake that `number` is infinite or NaN.
+    fn fault_of_infinite(&self, number: f64) {
         let word = if number.is_nan() { "nan" } else { "inf" };
         self.fault(format!("{word} is not a finite number"), "write a finite number".into());
     }
 
+    /// Reads a whole number between `least` and `most`.
     fn whole<'de, V: Visitor<'de>>(
         self,
         least: i64,
@@ -171,18 +182,20 @@ impl<'a> Reader<'a> {
                 self.fault(message, "write a whole number, without a point".into());
                 visitor.visit_i64(1)
             }
-            _ => self.stand_in(Kind::Whole, |by| by.deserialize_i64(visitor)),
+            _ => self.stand_in(ExpectedKind::Whole, |stand_in| stand_in.deserialize_i64(visitor)),
         }
     }
 
+    /// Reads a text.
     fn text<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
         match &self.node.value {
             Value::Text(text) => visitor.visit_str(text),
-            _ => self.stand_in(Kind::Text, |by| by.deserialize_str(visitor)),
+            _ => self.stand_in(ExpectedKind::Text, |stand_in| stand_in.deserialize_str(visitor)),
         }
     }
 
-    /// Reads a quantity: a bare number, or text with a unit.
+    /// Reads a `quantity`: a bare number, or a text with a number and a unit. `examples` are a bare
+    /// number and such a text.
     fn quantity<'de, V: Visitor<'de>>(
         self,
         quantity: Quantity,
@@ -193,17 +206,19 @@ impl<'a> Reader<'a> {
             Value::Integer(_) | Value::Float(_) => return self.number(visitor),
             Value::Text(text) => text,
             _ => {
-                self.wrong(Kind::Quantity(quantity.name(), examples));
+                self.fault_of_kind(ExpectedKind::Quantity(quantity.name(), examples));
                 return visitor.visit_f64(1.0);
             }
         };
+
+        // A bare number in quotes would be taken in the laboratory's unit.
         let has_unit = text.trim().parse::<f64>().is_err();
         match parse_quantity(text, quantity) {
-            Ok(Written { number, .. }) if !number.is_finite() => {
-                self.infinite(number);
+            Ok(NumberWithUnit { number, .. }) if !number.is_finite() => {
+                self.fault_of_infinite(number);
                 visitor.visit_f64(1.0)
             }
-            Ok(Written { number, unit }) if has_unit => {
+            Ok(NumberWithUnit { number, unit }) if has_unit => {
                 visitor.visit_seq(SeqDeserializer::new([number, unit.factor].into_iter()))
             }
             Ok(_) => {
@@ -211,16 +226,17 @@ impl<'a> Reader<'a> {
                 let message = format!("\"{number}\" has no unit");
                 let help =
                     format!("write {number} without quotes, or a unit, as in \"{}\"", examples[1]);
-                self.fault_of(message, help, Some(text.trim().to_owned()));
+                self.correctable_fault(message, help, Some(text.trim().to_owned()));
                 visitor.visit_f64(1.0)
             }
             Err(error) => {
-                let help = match error.message.contains("is not a unit") {
-                    true => error.help,
-                    false => format!("write {} or \"{}\"", examples[0], examples[1]),
+                let help = if error.message.contains("is not a unit") {
+                    error.help
+                } else {
+                    format!("write {} or \"{}\"", examples[0], examples[1])
                 };
                 let meant = error.meant.map(|text| toml_string(&text));
-                self.fault_of(error.message, help, meant);
+                self.correctable_fault(error.message, help, meant);
                 visitor.visit_f64(1.0)
             }
         }
@@ -273,7 +289,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
         match self.node.value {
             Value::Flag(flag) => visitor.visit_bool(flag),
-            _ => self.stand_in(Kind::Flag, |by| by.deserialize_bool(visitor)),
+            _ => self.stand_in(ExpectedKind::Flag, |stand_in| stand_in.deserialize_bool(visitor)),
         }
     }
 
@@ -302,7 +318,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Stop> {
-        match (given::of_token(name), &self.node.value) {
+        match (given::quantity_of_token(name), &self.node.value) {
             (Some((quantity, examples)), _) => self.quantity(quantity, examples, visitor),
             (None, Value::Text(text)) if name == given::TEXT_OR => visitor.visit_str(text),
             _ => visitor.visit_newtype_struct(self),
@@ -312,7 +328,8 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
         match &self.node.value {
             Value::List(nodes) => visitor.visit_seq(Elements { nodes, index: 0, reader: self }),
-            _ => self.stand_in(Kind::List(None), |by| by.deserialize_seq(visitor)),
+            _ => self
+                .stand_in(ExpectedKind::List(None), |stand_in| stand_in.deserialize_seq(visitor)),
         }
     }
 
@@ -324,10 +341,12 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             Value::List(nodes) => {
                 let number = nodes.len();
                 let message = format!("is a list of {number} where {count} values are needed");
-                self.fault(message, format!("write {}", Kind::List(Some(count)).words()));
-                StandIn { asked: &Cell::new(Kind::Anything) }.deserialize_tuple(count, v)
+                self.fault(message, format!("write {}", ExpectedKind::List(Some(count)).words()));
+                StandIn { expected: &Cell::new(ExpectedKind::Anything) }.deserialize_tuple(count, v)
             }
-            _ => self.stand_in(Kind::List(Some(count)), |by| by.deserialize_tuple(count, v)),
+            _ => self.stand_in(ExpectedKind::List(Some(count)), |stand_in| {
+                stand_in.deserialize_tuple(count, v)
+            }),
         }
     }
 
@@ -338,7 +357,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
                 let entries = entries.map(|entry| (entry.key.as_str(), Some(entry))).collect();
                 visitor.visit_map(Entries { entries, next: 0, reader: self })
             }
-            _ => self.stand_in(Kind::Table, |by| by.deserialize_map(visitor)),
+            _ => self.stand_in(ExpectedKind::Table, |stand_in| stand_in.deserialize_map(visitor)),
         }
     }
 
@@ -349,12 +368,14 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         visitor: V,
     ) -> Result<V::Value, Stop> {
         let Value::Table(entries) = &self.node.value else {
-            return self.stand_in(Kind::Table, |by| by.deserialize_struct(name, keys, visitor));
+            return self.stand_in(ExpectedKind::Table, |stand_in| {
+                stand_in.deserialize_struct(name, keys, visitor)
+            });
         };
-        let entries = self.entries_of(name, keys, entries);
+        let entries = self.struct_entries(name, keys, entries);
         match visitor.visit_map(Entries { entries, next: 0, reader: self }) {
             Err(Stop::Missing(key)) => Err(Stop::Needs { structure: name, key }),
-            other => other,
+            result => result,
         }
     }
 
@@ -364,23 +385,26 @@ impl<'de> Deserializer<'de> for Reader<'_> {
 }
 
 impl<'a> Reader<'a> {
-    /// Returns the entries of a structure with some keys. Unknown keys are written down; one that is
-    /// a slip of the pen counts as the key that is meant. Keys that are needed and missing have no
-    /// entry.
-    fn entries_of(
+    /// Returns the entries of the structure `name`, which has the given `keys`.
+    ///
+    /// Unknown keys are recorded as mistakes. A misspelt key counts as the key that was probably
+    /// meant. `None` stands for the entry of a needed key that is missing.
+    fn struct_entries(
         &self,
         name: &'static str,
         keys: &'static [&'static str],
         entries: &'a [Entry],
     ) -> Vec<(&'a str, Option<&'a Entry>)> {
-        let mut found: Vec<(&str, Option<&Entry>)> = Vec::with_capacity(entries.len());
+        let mut known: Vec<(&str, Option<&Entry>)> = Vec::with_capacity(entries.len());
         let mut unknown = Vec::new();
         for entry in entries {
-            match keys.contains(&entry.key.as_str()) {
-                true => found.push((&entry.key, Some(entry))),
-                false => unknown.push(entry),
+            if keys.contains(&entry.key.as_str()) {
+                known.push((&entry.key, Some(entry)));
+            } else {
+                unknown.push(entry);
             }
         }
+
         for entry in unknown {
             let near = closest(&entry.key, keys.iter().copied());
             let help = match near {
@@ -388,44 +412,52 @@ impl<'a> Reader<'a> {
                 None if keys.is_empty() => "remove it".into(),
                 None => format!("known here: {}", keys.join(", ")),
             };
+
             let mut state = self.state.borrow_mut();
             if !state.is_last {
-                let key = self.path.key(&entry.key);
+                let key = self.path.key_text(&entry.key);
                 let message = format!("{key}: there is no such key");
                 let span = Some(entry.span.clone());
                 let free = near.filter(|near| self.node.entry(near).is_none());
-                let change = free.map(|near| Change::Renamed(self.path.key(near)));
+                let change = free.map(|near| Change::Renamed(self.path.key_text(near)));
                 state.faults.push(Fault { span, key, message, help, change });
             }
-            if let Some(near) = near.filter(|near| found.iter().all(|(key, _)| key != near)) {
-                found.push((near, Some(entry)));
+            if let Some(near) = near.filter(|near| known.iter().all(|(key, _)| key != near)) {
+                known.push((near, Some(entry)));
             }
         }
-        found.retain(|(_, entry)| entry.is_none_or(|entry| !self.leaves_out(entry)));
+
+        // Keys without a value follow last, so that the structure receives a stand-in for each.
+        known.retain(|(_, entry)| entry.is_none_or(|entry| !self.leaves_out(entry)));
         let state = self.state.borrow();
         for &key in keys {
-            if state.needed.contains(&(name, key)) && found.iter().all(|(own, _)| *own != key) {
-                found.push((key, None));
+            let is_missing = known.iter().all(|(present, _)| *present != key);
+            if state.needed.contains(&(name, key)) && is_missing {
+                known.push((key, None));
             }
         }
-        found
+        known
     }
 
-    /// Returns whether the last reading leaves an entry out, since its value is wrong.
+    /// Returns whether this is the last reading and leaves `entry` out because its value is wrong.
     fn leaves_out(&self, entry: &Entry) -> bool {
         let state = self.state.borrow();
         state.is_last && state.wrong.contains(&address(&entry.node))
     }
 
-    /// Hands over a stand-in for a key that is missing, and writes that down.
-    fn missing<'de, T: DeserializeSeed<'de>>(&self, key: &str, seed: T) -> Result<T::Value, Stop> {
-        let asked = Cell::new(Kind::Anything);
-        let value = seed.deserialize(StandIn { asked: &asked })?;
-        let path = self.path.key(key);
+    /// Passes a stand-in for the missing `key` to `seed`, and records the mistake.
+    fn read_missing<'de, T: DeserializeSeed<'de>>(
+        &self,
+        key: &str,
+        seed: T,
+    ) -> Result<T::Value, Stop> {
+        let expected = Cell::new(ExpectedKind::Anything);
+        let value = seed.deserialize(StandIn { expected: &expected })?;
+        let path = self.path.key_text(key);
         let mut state = self.state.borrow_mut();
         if !state.is_last {
-            let span = (!matches!(self.path.step, Step::Root)).then(|| self.node.span.clone());
-            let help = format!("add {key} = …, {}", asked.get().words());
+            let span = (!matches!(self.path.step, PathStep::Root)).then(|| self.node.span.clone());
+            let help = format!("add {key} = …, {}", expected.get().words());
             let message = format!("{path}: is missing");
             state.faults.push(Fault { span, key: path.clone(), message, help, ..Fault::default() });
         }
@@ -449,7 +481,7 @@ impl<'de> SeqAccess<'de> for Elements<'_> {
         seed: T,
     ) -> Result<Option<T::Value>, Stop> {
         let Some(node) = self.nodes.get(self.index) else { return Ok(None) };
-        let path = Path { outer: Some(self.reader.path), step: Step::Index(self.index) };
+        let path = ValuePath { outer: Some(self.reader.path), step: PathStep::Index(self.index) };
         self.index += 1;
         seed.deserialize(Reader { node, path: &path, state: self.reader.state }).map(Some)
     }
@@ -459,10 +491,10 @@ impl<'de> SeqAccess<'de> for Elements<'_> {
     }
 }
 
-/// Entries of a table, under the keys that are meant.
+/// Entries of a table, each with the key that was meant.
 struct Entries<'a> {
     entries: Vec<(&'a str, Option<&'a Entry>)>,
-    /// Number of the entry whose key comes next.
+    /// Index of the entry whose key comes next.
     next: usize,
     reader: Reader<'a>,
 }
@@ -482,9 +514,9 @@ impl<'de> MapAccess<'de> for Entries<'_> {
 
     fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Stop> {
         let (key, entry) = self.entries[self.next - 1];
-        let Some(entry) = entry else { return self.reader.missing(key, seed) };
-        let step = Step::Key(key, address(&entry.node));
-        let path = Path { outer: Some(self.reader.path), step };
+        let Some(entry) = entry else { return self.reader.read_missing(key, seed) };
+        let step = PathStep::Key(key, address(&entry.node));
+        let path = ValuePath { outer: Some(self.reader.path), step };
         let state = self.reader.state;
         seed.deserialize(Reader { node: &entry.node, path: &path, state })
     }

@@ -1,4 +1,5 @@
-//! Stand-ins for values that are missing or wrong, of whatever kind is asked for.
+//! Stand-ins for values that are missing or wrong. A stand-in has the kind that a structure
+//! expects.
 
 use std::cell::Cell;
 
@@ -10,23 +11,25 @@ use crate::given;
 
 use super::stop::Stop;
 
-/// Kind of value that a structure asks for.
+/// Kind of value that a structure expects.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum ExpectedKind {
     Text,
     Number,
+    /// Whole number.
     Whole,
     Flag,
-    /// List, of so many values if that is fixed.
+    /// List, with its number of values if the number is fixed.
     List(Option<usize>),
     Table,
-    /// Quantity, with its name and examples.
+    /// Quantity, with the name of the quantity and two examples.
     Quantity(&'static str, [&'static str; 2]),
+    /// Any kind.
     Anything,
 }
 
-impl Kind {
-    /// Returns the kind in words.
+impl ExpectedKind {
+    /// Returns the kind in words, such as `a number`.
     pub(super) fn words(self) -> String {
         match self {
             Self::Text => "text in quotes".into(),
@@ -47,19 +50,21 @@ impl Kind {
     }
 }
 
-/// Stand-in, which notes the kind of value that it was asked for.
+/// Deserialiser that provides a stand-in and records the kind that the structure expects.
 #[derive(Clone, Copy)]
 pub(super) struct StandIn<'a> {
-    pub(super) asked: &'a Cell<Kind>,
+    /// Kind that the structure expects.
+    pub(super) expected: &'a Cell<ExpectedKind>,
 }
 
 impl StandIn<'_> {
-    fn note(self, kind: Kind) {
-        self.asked.set(kind);
+    /// Records that the structure expects `kind`.
+    fn note(self, kind: ExpectedKind) {
+        self.expected.set(kind);
     }
 }
 
-/// Implements functions that hand over one value.
+/// Implements functions that record the kind `$kind` and visit the value `$value`.
 macro_rules! stand_in {
     ($($function:ident $kind:expr, $visit:ident $value:expr;)*) => {
         $(
@@ -75,17 +80,17 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
     type Error = Stop;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
-        self.note(Kind::Anything);
+        self.note(ExpectedKind::Anything);
         visitor.visit_unit()
     }
 
     stand_in! {
-        deserialize_f64 Kind::Number, visit_f64 1.0;
-        deserialize_u64 Kind::Whole, visit_u64 1;
-        deserialize_i64 Kind::Whole, visit_i64 1;
-        deserialize_bool Kind::Flag, visit_bool false;
-        deserialize_str Kind::Text, visit_str "";
-        deserialize_string Kind::Text, visit_str "";
+        deserialize_f64 ExpectedKind::Number, visit_f64 1.0;
+        deserialize_u64 ExpectedKind::Whole, visit_u64 1;
+        deserialize_i64 ExpectedKind::Whole, visit_i64 1;
+        deserialize_bool ExpectedKind::Flag, visit_bool false;
+        deserialize_str ExpectedKind::Text, visit_str "";
+        deserialize_string ExpectedKind::Text, visit_str "";
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
@@ -93,19 +98,19 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
-        self.note(Kind::List(None));
-        visitor.visit_seq(Elements { count: 0, asked: self.asked })
+        self.note(ExpectedKind::List(None));
+        visitor.visit_seq(StandInElements { count: 0, expected: self.expected })
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, count: usize, v: V) -> Result<V::Value, Stop> {
-        let inner = Cell::new(Kind::Anything);
-        self.note(Kind::List(Some(count)));
-        v.visit_seq(Elements { count, asked: &inner })
+        let inner = Cell::new(ExpectedKind::Anything);
+        self.note(ExpectedKind::List(Some(count)));
+        v.visit_seq(StandInElements { count, expected: &inner })
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
-        self.note(Kind::Table);
-        visitor.visit_map(Fields { keys: &[], asked: self.asked })
+        self.note(ExpectedKind::Table);
+        visitor.visit_map(StandInFields { keys: &[], expected: self.expected })
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
@@ -114,9 +119,9 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
         keys: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Stop> {
-        let inner = Cell::new(Kind::Anything);
-        self.note(Kind::Table);
-        visitor.visit_map(Fields { keys, asked: &inner })
+        let inner = Cell::new(ExpectedKind::Anything);
+        self.note(ExpectedKind::Table);
+        visitor.visit_map(StandInFields { keys, expected: &inner })
     }
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
@@ -124,12 +129,12 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Stop> {
-        if let Some((quantity, examples)) = given::of_token(name) {
-            self.note(Kind::Quantity(quantity.name(), examples));
+        if let Some((quantity, examples)) = given::quantity_of_token(name) {
+            self.note(ExpectedKind::Quantity(quantity.name(), examples));
             return visitor.visit_f64(1.0);
         }
         if name == given::TEXT_OR {
-            self.note(Kind::Text);
+            self.note(ExpectedKind::Text);
             return visitor.visit_str("");
         }
         visitor.visit_newtype_struct(self)
@@ -142,44 +147,46 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
 }
 
 /// Stand-ins for the elements of a list.
-struct Elements<'a> {
+struct StandInElements<'a> {
+    /// Number of elements that remain.
     count: usize,
-    asked: &'a Cell<Kind>,
+    expected: &'a Cell<ExpectedKind>,
 }
 
-impl<'de> SeqAccess<'de> for Elements<'_> {
+impl<'de> SeqAccess<'de> for StandInElements<'_> {
     type Error = Stop;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(
         &mut self,
         seed: T,
     ) -> Result<Option<T::Value>, Stop> {
-        let Some(left) = self.count.checked_sub(1) else { return Ok(None) };
-        self.count = left;
-        seed.deserialize(StandIn { asked: self.asked }).map(Some)
+        let Some(remaining) = self.count.checked_sub(1) else { return Ok(None) };
+        self.count = remaining;
+        seed.deserialize(StandIn { expected: self.expected }).map(Some)
     }
 }
 
 /// Stand-ins for the values of a structure.
-struct Fields<'a> {
+struct StandInFields<'a> {
+    /// Keys that remain.
     keys: &'static [&'static str],
-    asked: &'a Cell<Kind>,
+    expected: &'a Cell<ExpectedKind>,
 }
 
-impl<'de> MapAccess<'de> for Fields<'_> {
+impl<'de> MapAccess<'de> for StandInFields<'_> {
     type Error = Stop;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(
         &mut self,
         seed: K,
     ) -> Result<Option<K::Value>, Stop> {
-        let Some((first, rest)) = self.keys.split_first() else { return Ok(None) };
-        self.keys = rest;
+        let Some((first, remaining)) = self.keys.split_first() else { return Ok(None) };
+        self.keys = remaining;
         let key: StrDeserializer<'_, Stop> = (*first).into_deserializer();
         seed.deserialize(key).map(Some)
     }
 
     fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Stop> {
-        seed.deserialize(StandIn { asked: self.asked })
+        seed.deserialize(StandIn { expected: self.expected })
     }
 }

@@ -1,37 +1,40 @@
-//! State of a reading: the mistakes found so far, and what the structures need.
+//! State of a reading: the mistakes so far, and the keys that structures need.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Mistake of a text, before its line is looked up.
+/// Mistake of a text whose line has not been looked up yet.
 #[derive(Default)]
 pub(crate) struct Fault {
+    /// Bytes of the text that the mistake covers.
     pub(crate) span: Option<Range<usize>>,
-    /// Key path of the value; empty of the whole text.
+    /// Key path of the value. Empty for the whole text.
     pub(crate) key: String,
     pub(crate) message: String,
     pub(crate) help: String,
-    /// Change at the key path that remedies it.
+    /// Change at the key path that corrects the mistake.
     pub(crate) change: Option<Change>,
 }
 
-/// Change at a key path.
+/// Change that corrects a mistake at a key path.
 pub(crate) enum Change {
-    /// Another value, in TOML.
+    /// Replacement of the value by this value, in TOML.
     Value(String),
-    /// Another key path.
+    /// Move of the value to this key path.
     Renamed(String),
 }
 
 /// State of a reading.
 #[derive(Default)]
-pub(crate) struct State {
+pub(crate) struct ReadingState {
+    /// Mistakes so far.
     pub(super) faults: Vec<Fault>,
+    /// Key paths of wrong and missing values.
     pub(super) keys: BTreeSet<String>,
-    /// Names of structures with the keys that they need.
+    /// Names of structures, each with a key that the structure needs.
     pub(super) needed: BTreeSet<(&'static str, &'static str)>,
     /// Addresses of values that are wrong.
     pub(super) wrong: BTreeSet<usize>,
-    /// Whether wrong values are left out, and mistakes are not written down again.
+    /// Whether this is the last reading, which leaves wrong values out and records no mistakes.
     pub(super) is_last: bool,
 }

@@ -1,15 +1,15 @@
-//! Reasons for which a reading of a text ends.
+//! Reasons why a reading of a text ends.
 
 use std::fmt;
 
-/// Reason for which a reading ends before the end of the text.
+/// Reason why a reading ends before the end of the text.
 #[derive(Debug)]
 pub(super) enum Stop {
-    /// A structure has no value for a key.
+    /// A structure has no value for this key.
     Missing(&'static str),
-    /// The same, with the name of the structure.
+    /// The structure with this name has no value for the key.
     Needs { structure: &'static str, key: &'static str },
-    /// Any other.
+    /// Any other reason, in words.
     Other(String),
 }
 

@@ -1,9 +1,9 @@
-//! Parts of an input that a mistake speaks of, as data for programs that show them.
+//! Parts of an input that a mistake concerns, as data for programs that show them.
 
-use crate::node::key_path::{Part, parts};
+use crate::node::key_path::{KeyPart, key_parts};
 use crate::node::{Node, Value};
 
-/// Part of an input, by the name that the input gives it.
+/// Part of an input, identified by the name that the input gives it.
 ///
 /// ```
 /// use drape_input::{Document, Subject};
@@ -14,7 +14,7 @@ use crate::node::{Node, Value};
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Subject {
-    /// Panel.
+    /// Panel with this name.
     Panel(String),
     /// Edge of a panel.
     Edge {
@@ -23,18 +23,19 @@ pub enum Subject {
         /// The edge.
         edge: String,
     },
-    /// Seam.
+    /// Seam with this name.
     Seam(String),
-    /// Curve of a sheet, by its file.
+    /// Curve of a sheet, identified by its file.
     Curve(String),
-    /// Body.
+    /// Body with this name.
     Body(String),
-    /// Fabric.
+    /// Fabric with this name.
     Fabric(String),
 }
 
 impl Subject {
-    /// Returns its names, each with its kind, as in `panel`, `front` and `edge`, `left`.
+    /// Returns the names of the part, each with its kind, such as `("panel", "front")` and
+    /// `("edge", "left")`.
     #[must_use]
     pub fn names(&self) -> Vec<(&'static str, &str)> {
         match self {
@@ -47,28 +48,27 @@ impl Subject {
         }
     }
 
-    /// Returns the part that a key path leads to, or through, if it is a known one.
-    pub(crate) fn of_key(root: &Node, key: &str) -> Option<Self> {
-        let path: Vec<Part<'_>> = parts(key).collect();
+    /// Returns the innermost part on the way from `root` along the key path `key`, if there is one.
+    pub(crate) fn from_key(root: &Node, key: &str) -> Option<Self> {
+        let path: Vec<KeyPart<'_>> = key_parts(key).collect();
         let mut subject = None;
         let mut node = Some(root);
         for (number, part) in path.iter().enumerate() {
-            // A table of tables has the name in the next key, a list of tables in their `name`.
-            let element = part.entry(node);
-            let named = path.get(number + 1);
-            let text = |key: &str| element?.entry(key)?.node.as_text();
-            let next = match (part.name, named, &part.indices[..]) {
+            // In a table of tables the next key is the name. In a list of tables each has a `name`.
+            let element = part.find(node);
+            let next_key = path.get(number + 1);
+            let name = element_text(element, "name");
+            let inner = match (part.name, next_key, &part.indices[..]) {
                 ("panel", Some(panel), []) => Some(Self::Panel(panel.name.to_owned())),
-                ("panel", _, [_, ..]) => text("name").map(Self::Panel),
+                ("panel", _, [_, ..]) => name.map(Self::Panel),
                 ("seam", Some(seam), []) => Some(Self::Seam(seam.name.to_owned())),
                 ("fabric", Some(fabric), []) => Some(Self::Fabric(fabric.name.to_owned())),
-                ("curve", _, [_, ..]) => text("file").map(Self::Curve),
+                ("curve", _, [_, ..]) => element_text(element, "file").map(Self::Curve),
                 (kind, _, [index, ..]) if number > 0 && path[number - 1].name == "collider" => {
-                    let numbered = || format!("{kind} {}", index + 1);
-                    Some(Self::Body(text("name").unwrap_or_else(numbered)))
+                    Some(Self::Body(name.unwrap_or_else(|| format!("{kind} {}", index + 1))))
                 }
                 ("outline", _, [index, ..]) => {
-                    let edge = text("name").unwrap_or_else(|| (index + 1).to_string());
+                    let edge = name.unwrap_or_else(|| (index + 1).to_string());
                     subject.as_ref().and_then(|panel: &Self| panel.edge(edge))
                 }
                 ("hems" | "split", Some(edge), []) => {
@@ -76,13 +76,13 @@ impl Subject {
                 }
                 _ => None,
             };
-            subject = next.or(subject);
+            subject = inner.or(subject);
             node = element;
         }
         subject
     }
 
-    /// Returns an edge of a panel.
+    /// Returns the edge `edge` of the panel, or `None` if the part is no panel.
     fn edge(&self, edge: String) -> Option<Self> {
         match self {
             Self::Panel(panel) => Some(Self::Edge { panel: panel.clone(), edge }),
@@ -91,9 +91,14 @@ impl Subject {
     }
 }
 
-impl Part<'_> {
-    /// Returns the value that the part of a key path leads to from a value.
-    fn entry<'a>(&self, node: Option<&'a Node>) -> Option<&'a Node> {
+/// Returns the text at `key` in the table `element`, if there is one.
+fn element_text(element: Option<&Node>, key: &str) -> Option<String> {
+    element?.entry(key)?.node.as_text()
+}
+
+impl KeyPart<'_> {
+    /// Returns the value to which the part of a key path leads from `node`.
+    fn find<'a>(&self, node: Option<&'a Node>) -> Option<&'a Node> {
         let mut node = &node?.entry(self.name)?.node;
         for index in &self.indices {
             let Value::List(elements) = &node.value else { return None };

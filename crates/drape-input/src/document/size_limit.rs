@@ -1,12 +1,12 @@
-//! Limits of the sizes of input files.
+//! Limits on the sizes of input files.
 
 use std::fmt;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Factor of all limits in this process.
+/// Factor by which all limits in this process are raised.
 static FACTOR: AtomicU32 = AtomicU32::new(1);
 
-/// Largest size of a kind of input file, which keeps a wrong path from filling the memory.
+/// Largest size of a kind of input file. The limit keeps a wrong path from filling the memory.
 ///
 /// ```
 /// use drape_input::SizeLimit;
@@ -23,33 +23,33 @@ pub struct SizeLimit {
     bytes: u64,
 }
 
-/// Refusal of a file that is larger than its kind may be.
+/// Refusal of a file that is larger than the limit of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooLarge {
     kind: &'static str,
     bytes: u64,
     limit: u64,
-    /// Limit where no one has raised it, in bytes.
+    /// Limit without the factor of the process, in bytes.
     usual: u64,
 }
 
 impl SizeLimit {
-    /// Returns the limit of a kind of files, in the plural, in bytes.
+    /// Returns the limit of `bytes` for the files `kind`, a noun in the plural.
     #[must_use]
     pub const fn new(kind: &'static str, bytes: u64) -> Self {
         Self { kind, bytes }
     }
 
-    /// Returns the limit in this process, in bytes.
+    /// Returns the limit times the factor [`size_limit_factor`], in bytes.
     #[must_use]
     pub fn bytes(self) -> u64 {
         self.bytes.saturating_mul(u64::from(size_limit_factor()))
     }
 
-    /// Refuses a file of so many bytes, if it is larger.
+    /// Checks that a file of `bytes` bytes is not larger than the limit.
     ///
     /// # Errors
-    /// [`TooLarge`].
+    /// [`TooLarge`] if the file is larger.
     pub fn check(self, bytes: u64) -> Result<(), TooLarge> {
         let Self { kind, bytes: usual } = self;
         let limit = self.bytes();
@@ -57,18 +57,19 @@ impl SizeLimit {
     }
 }
 
-/// Multiplies all limits in this process by a factor of 1 or more, for a user who asks for it.
+/// Multiplies all limits in this process by `factor`, or by 1 if `factor` is 0, for a user who asks
+/// for larger limits.
 pub fn raise_size_limits(factor: u32) {
     FACTOR.store(factor.max(1), Ordering::Relaxed);
 }
 
-/// Returns the factor of all limits in this process.
+/// Returns the factor by which [`raise_size_limits`] has raised all limits in this process.
 pub fn size_limit_factor() -> u32 {
     FACTOR.load(Ordering::Relaxed)
 }
 
 impl TooLarge {
-    /// Returns the remedy.
+    /// Returns the remedy for the user, which names `--raise-limits`.
     #[must_use]
     pub fn help(&self) -> String {
         let Self { kind, bytes, usual, .. } = self;

@@ -11,7 +11,7 @@ use crate::sheets::findings::Findings;
 use crate::sheets::spelling::{self, KEYS};
 use crate::tables::layout::{Column, Take};
 use crate::test::Direction;
-use drape_input::{Quantity, Written, parse_quantity};
+use drape_input::{NumberWithUnit, Quantity, parse_quantity};
 
 /// Table of the file, with its key path.
 #[derive(Clone)]
@@ -372,7 +372,7 @@ impl<'t> Section<'t> {
                     }),
                 };
                 match parsed {
-                    Ok(Written { number, unit }) => (number, unit, text.to_string()),
+                    Ok(NumberWithUnit { number, unit }) => (number, unit, text.to_string()),
                     Err(error) => {
                         findings.error(&self.key(key), error.message, error.help);
                         return None;

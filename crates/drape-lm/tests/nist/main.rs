@@ -45,7 +45,7 @@ struct Outcome {
 fn solve(problem: &Nist, start: usize) -> Outcome {
     let parameters = problem.parameters(start);
     let report = minimise(problem, &parameters, &MinimiserSettings::default());
-    let covariance = Covariance::of(problem, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(problem, &parameters, &report, Loss::Squares);
     let errors = (0..parameters.len()).map(|j| covariance.standard_error(j).unwrap_or(f64::NAN));
     assert_eq!(
         covariance.degrees_of_freedom,

@@ -14,7 +14,7 @@ fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
     let problem = line(&weights);
     let parameters = starts(&[1.0, 1.0]);
     let report = minimise(&problem, &parameters, &MinimiserSettings::default());
-    let found = Covariance::of(&problem, &parameters, &report, Loss::Squares);
+    let found = Covariance::new(&problem, &parameters, &report, Loss::Squares);
 
     let a = DMatrix::from_fn(22, 2, |i, j| if j == 0 { 1.0 } else { i as f64 });
     let w = DMatrix::from_diagonal(&DVector::from_vec(weights.clone()));
@@ -50,7 +50,7 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
     let mut parameters = starts(&[0.0, 2.0, 5.0, 2.0]);
     let settings = MinimiserSettings::default();
     let report = minimise(&product, &parameters, &settings);
-    let covariance = Covariance::of(&product, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&product, &parameters, &report, Loss::Squares);
     assert!(covariance.standard_error(0).is_ok());
     let with = |others: &[usize]| Err(Undetermined::Unidentifiable(others.to_vec()));
     assert_eq!(covariance.standard_error(1), with(&[3]));
@@ -68,7 +68,7 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
     parameters[3] = Parameter::new(2.0).fixed();
     let report = minimise(&product, &parameters, &settings);
     assert_eq!(report.parameters[3], 2.0);
-    let covariance = Covariance::of(&product, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&product, &parameters, &report, Loss::Squares);
     assert_eq!(covariance.standard_error(3), Err(Undetermined::Fixed));
     assert!(covariance.standard_error(1).is_ok());
 }
@@ -82,7 +82,7 @@ fn as_many_parameters_as_residuals_leave_no_error_to_estimate() {
     let parameters = starts(&[0.0, 0.0]);
     let settings = MinimiserSettings::default();
     let report = minimise(&exact, &parameters, &settings);
-    let covariance = Covariance::of(&exact, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&exact, &parameters, &report, Loss::Squares);
     assert_eq!(covariance.standard_error(0), Err(Undetermined::NoDegreesOfFreedom));
     let intervals = profile(
         &exact,

@@ -20,8 +20,8 @@ fn linked_parameters_follow_and_pass_their_errors_on() {
     let other = minimise(&written, &starts(&[2.0]), &settings);
     assert!((report.parameters[0] - other.parameters[0]).abs() < 1e-8);
     let all = linked.complete(&report.parameters);
-    let covariance = Covariance::of(&linked, &parameters, &report, Loss::Squares);
-    let one = Covariance::of(&written, &starts(&[2.0]), &other, Loss::Squares);
+    let covariance = Covariance::new(&linked, &parameters, &report, Loss::Squares);
+    let one = Covariance::new(&written, &starts(&[2.0]), &other, Loss::Squares);
     assert_eq!(covariance.degrees_of_freedom, one.degrees_of_freedom);
     let slope =
         covariance.propagated_error(&linked.gradient(1, &report.parameters)).expect("determined");

@@ -17,7 +17,7 @@ fn robust_losses_hardly_see_outliers_that_spoil_least_squares() {
         let settings = MinimiserSettings { loss, ..MinimiserSettings::default() };
         let report = minimise(&spoilt, &parameters, &settings);
         assert!(report.stop.converged(), "{loss:?}: {report:?}");
-        let covariance = Covariance::of(&spoilt, &parameters, &report, loss);
+        let covariance = Covariance::new(&spoilt, &parameters, &report, loss);
         let off = report.parameters[0] - 3.0;
         (off, covariance.standard_error(0).expect("determined"))
     };
@@ -38,7 +38,7 @@ fn without_outliers_a_robust_loss_gives_nearly_the_errors_of_least_squares() {
     let error = |loss: Loss| {
         let settings = MinimiserSettings { loss, ..MinimiserSettings::default() };
         let report = minimise(&problem, &parameters, &settings);
-        let covariance = Covariance::of(&problem, &parameters, &report, loss);
+        let covariance = Covariance::new(&problem, &parameters, &report, loss);
         let interval = profile(
             &problem,
             &parameters,

@@ -12,7 +12,7 @@ fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
     type Plain = Model<fn(&[f64], &mut [f64])>;
     let all = |problem: &Plain, parameters: &[Parameter]| {
         let report = minimise(problem, parameters, &settings);
-        let covariance = Covariance::of(problem, parameters, &report, settings.loss);
+        let covariance = Covariance::new(problem, parameters, &report, settings.loss);
         let intervals = profile(
             problem,
             parameters,

@@ -14,7 +14,7 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     let parameters = starts(&[1.0, 1.0]);
     let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
-    let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&problem, &parameters, &report, Loss::Squares);
     for (j, interval) in profile(
         &problem,
         &parameters,
@@ -92,7 +92,7 @@ fn a_parameter_at_its_bound_has_a_one_sided_interval_and_no_error() {
     let settings = MinimiserSettings::default();
     let report = minimise(&problem, &parameters, &settings);
     assert_eq!(report.parameters[1], -0.45);
-    let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
+    let covariance = Covariance::new(&problem, &parameters, &report, Loss::Squares);
     let reason = Undetermined::AtBound(-0.45);
     assert_eq!(covariance.standard_error(1), Err(reason));
     assert!(covariance.standard_error(0).is_ok());
@@ -175,8 +175,9 @@ fn interval(problem: &(impl Problem + Sync), parameter: Parameter) -> Interval {
 
 #[test]
 fn a_model_that_ends_beyond_its_interval_has_both_ends_in_any_unit() {
-    // The residual ⅔((1 + p)^1.5 − 1) has no value below p = −1. The others make its error such that
-    // the level is at ±½: the step of the linear model, ½, is too short below and too long above.
+    // The residual ⅔((1 + p)^1.5 − 1) has no value below p = −1. The others make its error such
+    // that the level is at ±½: the step of the linear model, ½, is too short below and too long
+    // above.
     let quantile = student_quantile(0.95, 21);
     for unit in [1e-3, 1.0, 1e3] {
         let bent = model(22, move |p, r| {

@@ -28,7 +28,8 @@ mod panels;
 use std::collections::BTreeSet;
 
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Faults, closest, excerpt, near_file, toml_key, toml_string,
+    Diagnostic, Diagnostics, Document, Faults, closest, excerpt, similar_file, toml_key,
+    toml_string,
 };
 
 use self::keys::{PanelKeys, PatternKeys};
@@ -73,7 +74,7 @@ impl File<'_> {
         }
         if !path.is_file() {
             let message = format!("there is no file {}", path.display());
-            let near = near_file(&path).map(|name| {
+            let near = similar_file(&path).map(|name| {
                 let near = std::path::Path::new(&from.file).with_file_name(name);
                 toml_string(&near.to_string_lossy())
             });

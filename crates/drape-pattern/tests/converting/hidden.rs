@@ -206,7 +206,7 @@ fn sizes_that_no_garment_has_are_questioned_and_long_panels_are_not() {
     let pattern = folder.join("shirt.toml");
     std::fs::write(&pattern, text).expect("it is written");
     let mistakes = Pattern::parse(&Document::new(&pattern, text)).expect_err("it is asked");
-    let mended = drape_input::edited(text, &mistakes.0[0].edits).expect("it fits");
+    let mended = drape_input::apply_edits(text, &mistakes.0[0].edits).expect("it fits");
     assert_eq!(mended, format!("{text}unit = \"cm\"\n"));
     let read_again = Pattern::parse(&Document::new(&pattern, mended)).expect("the unit is known");
     assert!((read_again.panels()[0].area() - 0.55 * 0.73).abs() < 1e-9);

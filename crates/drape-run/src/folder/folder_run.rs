@@ -165,7 +165,7 @@ impl EndedRun {
 /// Saves the last frame as `last.obj`, which any program opens.
 fn save_last(folder: &Path) -> Result<(), Error> {
     let recording = Recording::open(folder)?;
-    let frame = recording.frame(recording.frames() - 1)?;
+    let frame = recording.frame(recording.frame_count() - 1)?;
     let path = folder.join("last.obj");
     let mut obj = Vec::new();
     write_obj(&recording, &frame, &mut obj)

@@ -24,7 +24,7 @@ impl ViewerPage {
         let named = names.iter().zip(recordings).map(|(name, recording)| Named { name, recording });
         let View { html, frames } =
             View::new(&named.collect::<Vec<_>>(), (1e6 * megabytes) as usize)?;
-        let counts = frames.iter().zip(recordings).map(|(own, all)| [own.len(), all.frames()]);
+        let counts = frames.iter().zip(recordings).map(|(own, all)| [own.len(), all.frame_count()]);
         let thinned = counts.zip(&names).filter(|([own, all], _)| own < all);
         let thinned = thinned
             .map(|([own, all], name)| format!("{own} of the {all} frames of {name} are shown"))

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use drape_collide::{MESH_BYTES_MAX, Triangulation, parse_mesh, read_mesh_within};
 use drape_input::{
     Diagnostic, Diagnostics, Document, Faults, SizeLimit, Subject, closest, excerpt, figure,
-    near_file, nearest_file, tidy, toml_key, toml_string,
+    missing_file_help, similar_file, tidy, toml_key, toml_string,
 };
 
 use crate::check::documents::Documents;
@@ -124,8 +124,8 @@ impl<'a> Checker<'a> {
     /// Adds the mistake that there is no file of a path, which the value of a key names.
     pub(crate) fn no_file(&mut self, key: &str, name: &str, path: &Path) {
         let message = format!("there is no file {}", path.display());
-        let index = self.fail(key, message, &nearest_file(path));
-        if let Some(near) = near_file(path) {
+        let index = self.fail(key, message, &missing_file_help(path));
+        if let Some(near) = similar_file(path) {
             let near = Path::new(name).with_file_name(near);
             self.remedy(index, key, Some(&toml_string(&near.to_string_lossy())));
         }

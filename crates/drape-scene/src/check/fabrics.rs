@@ -71,7 +71,7 @@ fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabr
     let (mut settings, mut is_sound) = (Vec::new(), true);
     for (key, number) in numbers {
         match Setting::new(key, &format!("{number:?}")) {
-            Ok(setting) => settings.push(setting.given_in(&format!("set by [fabric.{name}]"))),
+            Ok(setting) => settings.push(setting.with_origin(&format!("set by [fabric.{name}]"))),
             Err(SettingError { message, help }) => {
                 checker.fail(&place(key), message, &help);
                 is_sound = false;

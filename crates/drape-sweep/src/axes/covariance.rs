@@ -1,4 +1,4 @@
-//! Samples of the numbers of a fitted fabric, by their errors and correlations.
+//! Samples of the numbers of a fitted fabric, from their standard errors and correlations.
 
 use std::collections::BTreeMap;
 
@@ -7,43 +7,41 @@ use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 
 use crate::axes::random::Random;
-use crate::axes::range::number;
+use crate::axes::range::toml_number;
 
-/// Largest standard error over its value that is sampled: the numbers of others lie over decades.
-const ERROR_MAX: f64 = 1.0;
-
-/// Numbers of a fabric, and what its fit says of them.
+/// Numbers of a fitted fabric, and their errors.
 #[derive(Debug, Deserialize)]
 struct FabricNumbers {
     #[serde(default)]
-    provenance: Errors,
+    provenance: FitErrors,
     /// Laws of the fabric.
     #[serde(flatten)]
     laws: BTreeMap<String, toml::Value>,
 }
 
+/// Standard errors and correlations of the numbers, by the keys of the numbers.
 #[derive(Debug, Default, Deserialize)]
-struct Errors {
+struct FitErrors {
     #[serde(default)]
     standard_errors: BTreeMap<String, f64>,
     #[serde(default)]
     correlations: BTreeMap<String, BTreeMap<String, f64>>,
 }
 
-/// Scale on which the errors of a number are those of a normal distribution.
+/// Scale on which the errors of a number have a normal distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Scale {
     /// The number itself.
     Linear,
-    /// Its logarithm: of a number above 0.
+    /// Logarithm of the number, which is above 0.
     Log,
-    /// The logarithm of `p / (1 - p)`: of a ratio from 0 to 1.
+    /// Logarithm of `p / (1 - p)` for the number `p`, a ratio from 0 to 1.
     Logit,
 }
 
 impl Scale {
-    /// Returns the scale of a number.
-    fn of(key: &str, value: f64) -> Self {
+    /// Returns the scale of the number at `key`, which has the given `value`.
+    fn for_number(key: &str, value: f64) -> Self {
         match value {
             _ if key.ends_with(".intercept") || value <= 0.0 => Self::Linear,
             _ if key.ends_with(".toe_ratio") && value < 1.0 => Self::Logit,
@@ -51,8 +49,8 @@ impl Scale {
         }
     }
 
-    /// Returns a number and its error on the scale.
-    fn onto(self, value: f64, error: f64) -> [f64; 2] {
+    /// Returns `value` and its standard `error` on the scale.
+    fn transform(self, value: f64, error: f64) -> [f64; 2] {
         match self {
             Self::Linear => [value, error],
             Self::Log => [value.ln(), error / value],
@@ -60,40 +58,43 @@ impl Scale {
         }
     }
 
-    /// Returns the number at a place on the scale.
-    fn back(self, place: f64) -> f64 {
+    /// Returns the number that has the value `transformed` on the scale.
+    fn invert(self, transformed: f64) -> f64 {
         match self {
-            Self::Linear => place,
-            Self::Log => place.exp(),
-            Self::Logit => 1.0 / (1.0 + (-place).exp()),
+            Self::Linear => transformed,
+            Self::Log => transformed.exp(),
+            Self::Logit => 1.0 / (1.0 + (-transformed).exp()),
         }
     }
 }
 
 /// Fitted number with a standard error.
 #[derive(Debug, Clone)]
-struct Uncertain {
+struct UncertainNumber {
     key: String,
     scale: Scale,
-    /// Value and error on the scale.
-    place: [f64; 2],
-    /// Other numbers that are in a fixed ratio to it, with the ratio.
+    /// Value on the scale.
+    mean: f64,
+    /// Standard error on the scale.
+    error: f64,
+    /// Keys of the numbers with a fixed ratio to this number, each with the ratio.
     followers: Vec<(String, f64)>,
 }
 
 /// Fitted numbers of a fabric that are sampled together.
 #[derive(Debug, Clone)]
 pub(crate) struct Covariance {
-    numbers: Vec<Uncertain>,
-    /// Matrix `A` of which `A Aᵀ` are the correlations.
+    numbers: Vec<UncertainNumber>,
+    /// Matrix `A` for which `A Aᵀ` is the matrix of correlations.
     root: DMatrix<f64>,
 }
 
-/// Sampled number.
+/// Samples of a number.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Sampled {
+pub(crate) struct SampledNumber {
+    /// Key of the number.
     pub(crate) key: String,
-    /// Values of TOML.
+    /// Samples, as TOML values.
     pub(crate) values: Vec<String>,
     /// Whether the number keeps a fixed ratio to another sampled number.
     pub(crate) is_follower: bool,
@@ -107,13 +108,18 @@ pub(crate) struct CovarianceError {
 }
 
 impl CovarianceError {
+    /// Returns the error with the given `message` and the remedy `help`.
     fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: help.into() }
     }
 }
 
 impl Covariance {
-    /// Reads the errors of a fitted fabric: of those numbers whose keys are asked for, or of all.
+    /// Reads the errors of the fitted `fabric`, for the numbers with the given `keys`, or for all
+    /// numbers.
+    ///
+    /// # Errors
+    /// [`CovarianceError`] if a number has no standard error, or an error larger than the number.
     pub(crate) fn read(
         fabric: &Document,
         keys: Option<&[String]>,
@@ -124,117 +130,146 @@ impl Covariance {
         let FabricNumbers { provenance, laws } = fabric
             .decode()
             .map_err(|mistakes| CovarianceError::new(format!("{file}: {mistakes}"), refit))?;
-        let Errors { standard_errors: errors, correlations } = provenance;
+        let FitErrors { standard_errors: errors, correlations } = provenance;
         if errors.is_empty() {
             return Err(CovarianceError::new(format!("{file} has no standard errors"), refit));
         }
-        let value = |key: &str| lookup(&laws, key);
-        let known: Vec<&String> = errors.keys().filter(|key| value(key).is_some()).collect();
-        let wide =
-            |key: &&String| value(key).is_some_and(|own| errors[*key] > ERROR_MAX * own.abs());
-        let narrow = || {
-            let narrow: Vec<String> =
-                known.iter().filter(|key| !wide(key)).map(|key| format!("{key:?}")).collect();
-            format!("name those that are known better: keys = [{}]", narrow.join(", "))
-        };
+
+        let known: Vec<&String> =
+            errors.keys().filter(|key| lookup(&laws, key).is_some()).collect();
+        let narrow: Vec<String> = known
+            .iter()
+            .filter(|key| !is_wide(key, &laws, &errors))
+            .map(|key| format!("{key:?}"))
+            .collect();
+        let help = format!("name those that are known better: keys = [{}]", narrow.join(", "));
         let chosen: Vec<&String> = match keys {
             None => known.clone(),
             Some(keys) => keys.iter().collect(),
         };
         if let Some(key) = chosen.iter().find(|key| !known.contains(key)) {
             let message = format!("{file} has no standard error of \"{}\"", excerpt(key));
-            return Err(CovarianceError::new(message, narrow()));
+            return Err(CovarianceError::new(message, help));
         }
-        if let Some(key) = chosen.iter().find(|key| wide(key)) {
-            let [error, value] = [errors[*key], value(key).unwrap_or_default()].map(figure);
+        if let Some(key) = chosen.iter().find(|key| is_wide(key, &laws, &errors)) {
+            let value = lookup(&laws, key).unwrap_or_default();
+            let [error, value] = [errors[*key], value].map(figure);
             let message = format!("{key} of {file} is {value} with a standard error of {error}");
-            return Err(CovarianceError::new(message, narrow()));
+            return Err(CovarianceError::new(message, help));
         }
         if chosen.is_empty() {
-            return Err(CovarianceError::new("there are no keys", narrow()));
+            return Err(CovarianceError::new("there are no keys", help));
         }
-        let numbers: Vec<Uncertain> = chosen
+
+        let numbers: Vec<UncertainNumber> = chosen
             .iter()
             .filter_map(|key| {
-                let own = value(key)?;
-                let scale = Scale::of(key, own);
-                let followers = followers(key, own, &laws, &errors);
-                let place = scale.onto(own, errors[*key]);
-                Some(Uncertain { key: (*key).clone(), scale, place, followers })
+                let value = lookup(&laws, key)?;
+                let scale = Scale::for_number(key, value);
+                let followers = followers(key, value, &laws, &errors);
+                let [mean, error] = scale.transform(value, errors[*key]);
+                Some(UncertainNumber { key: (*key).clone(), scale, mean, error, followers })
             })
             .collect();
-        let correlation = |i: usize, j: usize| {
-            let pair = |a: &str, b: &str| correlations.get(a)?.get(b).copied();
+
+        // The file gives each correlation once, in either order of the two keys.
+        let matrix = DMatrix::from_fn(numbers.len(), numbers.len(), |i, j| {
             let [a, b] = [i, j].map(|index| numbers[index].key.as_str());
-            if i == j { 1.0 } else { pair(a, b).or_else(|| pair(b, a)).unwrap_or(0.0) }
-        };
-        let matrix = DMatrix::from_fn(numbers.len(), numbers.len(), correlation);
+            let correlation = correlations.get(a).and_then(|row| row.get(b));
+            let reverse = correlations.get(b).and_then(|row| row.get(a));
+            if i == j { 1.0 } else { correlation.or(reverse).copied().unwrap_or(0.0) }
+        });
+
+        // The root comes from the eigenvalues. Rounding may turn a variance of zero negative.
         let eigen = matrix.symmetric_eigen();
-        // Rounding may leave a variance of zero below it.
         let lengths = eigen.eigenvalues.map(|variance| variance.max(0.0).sqrt());
         let root = eigen.eigenvectors * DMatrix::from_diagonal(&lengths);
         Ok(Self { numbers, root })
     }
 
-    /// Draws a number of samples.
-    pub(crate) fn sample(&self, count: u32, seed: u32) -> Vec<Sampled> {
+    /// Draws `count` samples of all numbers and their followers. `seed` chooses the sample.
+    pub(crate) fn sample(&self, count: u32, seed: u32) -> Vec<SampledNumber> {
+        let mut columns: Vec<SampledNumber> = Vec::new();
+        for number in &self.numbers {
+            columns.push(SampledNumber::new(&number.key, false));
+            for (key, _) in &number.followers {
+                columns.push(SampledNumber::new(key, true));
+            }
+        }
+
         let mut random = Random::new("covariance", &[seed]);
-        let empty = |key: &String, is_follower| Sampled {
-            key: key.clone(),
-            values: Vec::new(),
-            is_follower,
-        };
-        let columns = self.numbers.iter().flat_map(|own| {
-            let followers = own.followers.iter().map(|(key, _)| empty(key, true));
-            std::iter::once(empty(&own.key, false)).chain(followers)
-        });
-        let mut columns: Vec<Sampled> = columns.collect();
         for _ in 0..count {
             let normal = DVector::from_fn(self.numbers.len(), |_, _| random.normal());
             let deviations = &self.root * normal;
-            let values = self.numbers.iter().zip(deviations.iter()).flat_map(|(own, deviation)| {
-                let [place, error] = own.place;
-                let value = own.scale.back(place + error * deviation);
-                let followers = own.followers.iter().map(move |(_, ratio)| ratio * value);
-                std::iter::once(value).chain(followers)
-            });
-            columns.iter_mut().zip(values).for_each(|(own, value)| own.values.push(number(value)));
+            let mut columns = columns.iter_mut();
+            for (number, deviation) in self.numbers.iter().zip(deviations.iter()) {
+                let value = number.scale.invert(number.mean + number.error * deviation);
+                let followers = number.followers.iter().map(|(_, ratio)| ratio * value);
+                for (value, column) in std::iter::once(value).chain(followers).zip(&mut columns) {
+                    column.values.push(toml_number(value));
+                }
+            }
         }
         columns
     }
 }
 
-/// Returns the numbers that keep their ratio to a sampled number: that of the weft where it was taken
-/// from the warp's, or the reverse, and the toe strain after the first pull.
+impl SampledNumber {
+    /// Returns the number at `key` without samples.
+    fn new(key: &str, is_follower: bool) -> Self {
+        Self { key: key.to_owned(), values: Vec::new(), is_follower }
+    }
+}
+
+/// Returns whether the standard error of the number at `key` is larger than the number itself.
+/// Samples of such a number would spread over decades.
+fn is_wide(
+    key: &str,
+    laws: &BTreeMap<String, toml::Value>,
+    errors: &BTreeMap<String, f64>,
+) -> bool {
+    /// Largest ratio of a standard error to its number.
+    const ERROR_MAX: f64 = 1.0;
+
+    lookup(laws, key).is_some_and(|value| errors[key] > ERROR_MAX * value.abs())
+}
+
+/// Returns the keys of the numbers that keep their ratio to the sampled number at `key`, each with
+/// the ratio.
+///
+/// They are the number of the other direction, if it was taken from this one, and the toe strains
+/// after the first pull.
 fn followers(
     key: &str,
     value: f64,
     laws: &BTreeMap<String, toml::Value>,
     errors: &BTreeMap<String, f64>,
 ) -> Vec<(String, f64)> {
-    let mut followers = Vec::new();
-    let after = |key: &str| key.ends_with(".toe_strain").then(|| format!("{key}_after"));
-    let other = match key.split_once('.') {
-        Some(("warp", rest)) => Some(format!("weft.{rest}")),
-        Some(("weft", rest)) => Some(format!("warp.{rest}")),
+    let opposite = match key.split_once('.') {
+        Some(("warp", law)) => Some(format!("weft.{law}")),
+        Some(("weft", law)) => Some(format!("warp.{law}")),
         _ => None,
     };
-    let mut add = |key: String| {
-        if let Some(own) = lookup(laws, &key).filter(|_| value != 0.0) {
-            followers.push((key, own / value));
-        }
-    };
-    after(key).into_iter().for_each(&mut add);
-    let is_same =
-        |other: &String| !errors.contains_key(other) && lookup(laws, other) == Some(value);
-    if let Some(other) = other.filter(is_same) {
-        after(&other).into_iter().for_each(&mut add);
-        add(other);
+    let copy = opposite
+        .filter(|opposite| !errors.contains_key(opposite) && lookup(laws, opposite) == Some(value));
+
+    let mut keys: Vec<String> = strain_after(key).into_iter().collect();
+    if let Some(copy) = copy {
+        keys.extend(strain_after(&copy));
+        keys.push(copy);
     }
-    followers
+
+    // A number of zero has no ratio.
+    let with_values = keys.into_iter().filter_map(|key| Some((lookup(laws, &key)?, key)));
+    with_values.filter(|_| value != 0.0).map(|(follower, key)| (key, follower / value)).collect()
 }
 
-/// Returns the number at a key path such as `warp.bending.friction[0].plateau`.
+/// Returns the key of the toe strain after the first pull, if `key` is the key of a toe strain.
+fn strain_after(key: &str) -> Option<String> {
+    key.ends_with(".toe_strain").then(|| format!("{key}_after"))
+}
+
+/// Returns the number in `laws` at the key path `key`, such as `warp.bending.friction[0].plateau`.
 fn lookup(laws: &BTreeMap<String, toml::Value>, key: &str) -> Option<f64> {
     let mut parts = key.split(['.', '[']).map(|part| part.trim_end_matches(']'));
     let mut value = laws.get(parts.next()?)?;
@@ -279,16 +314,16 @@ stiffness = 30.0
 "warp.traction.primed.toe_strain" = 0.5
 "#;
 
-    fn numbers(columns: &[Sampled], key: &str) -> Vec<f64> {
-        let column = columns.iter().find(|own| own.key == key).expect("it is sampled");
+    fn numbers(columns: &[SampledNumber], key: &str) -> Vec<f64> {
+        let column = columns.iter().find(|column| column.key == key).expect("it is sampled");
         column.values.iter().map(|value| value.parse().expect("a number")).collect()
     }
 
     #[test]
     fn a_number_at_the_end_of_its_scale_is_on_one_that_it_fits() {
-        assert_eq!(Scale::of("warp.traction.primed.toe_ratio", 0.999), Scale::Logit);
-        assert_eq!(Scale::of("warp.traction.primed.toe_ratio", 1.0), Scale::Log);
-        assert_eq!(Scale::of("shear.stiffness", 0.0), Scale::Linear);
+        assert_eq!(Scale::for_number("warp.traction.primed.toe_ratio", 0.999), Scale::Logit);
+        assert_eq!(Scale::for_number("warp.traction.primed.toe_ratio", 1.0), Scale::Log);
+        assert_eq!(Scale::for_number("shear.stiffness", 0.0), Scale::Linear);
     }
 
     #[test]
@@ -329,7 +364,7 @@ stiffness = 30.0
             let found = covariance(&a.0, &b.0) / (a.2 * b.2);
             assert!((found - expected).abs() < 4.0 * (2.0 / n).sqrt(), "{found} for {expected}");
         }
-        // The weft's, which is the warp's, and the later toe go along.
+        // The number of the weft, which was taken from the warp, and the later toe strain follow.
         let weft = numbers(&columns, "weft.bending.rigidity");
         assert_eq!(weft, numbers(&columns, "warp.bending.rigidity"));
         let after = numbers(&columns, "warp.traction.primed.toe_strain_after");

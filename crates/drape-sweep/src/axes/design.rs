@@ -1,4 +1,4 @@
-//! Designs: points in the unit cube that fill it evenly.
+//! Designs: points that fill the unit cube evenly.
 
 use crate::axes::random::Random;
 
@@ -7,13 +7,13 @@ use crate::axes::random::Random;
 pub(crate) enum Method {
     /// Sobol's sequence with Owen's scrambling (Burley 2020).
     Sobol,
-    /// Latin hypercube: each interval of each coordinate has one point (McKay, Beckman & Conover
-    /// 1979).
+    /// Latin hypercube: each interval of each coordinate contains one point (McKay, Beckman &
+    /// Conover 1979).
     LatinHypercube,
 }
 
 impl Method {
-    /// Largest number of points: the sequence has 2¹⁶.
+    /// Returns the largest number of points. Sobol's sequence here has 2¹⁶ points.
     pub(crate) fn points_max(self) -> u32 {
         match self {
             Self::Sobol => 1 << 16,
@@ -21,36 +21,42 @@ impl Method {
         }
     }
 
-    /// Largest number of coordinates.
+    /// Returns the largest number of coordinates.
     pub(crate) fn dimensions_max(self) -> usize {
         sobol_burley::NUM_DIMENSIONS as usize
     }
 
-    /// Returns points with coordinates of 0 to 1, a list for each coordinate.
+    /// Returns `count` points with `dimensions` coordinates from 0 to 1, as a list for each
+    /// coordinate.
     pub(crate) fn coordinates(self, dimensions: usize, count: u32, seed: u32) -> Vec<Vec<f64>> {
-        let coordinate = |dimension: u32| -> Vec<f64> {
-            match self {
-                Self::Sobol => (0..count)
-                    .map(|index| f64::from(sobol_burley::sample(index, dimension, seed)))
-                    .collect(),
-                Self::LatinHypercube => {
-                    latin(count, &mut Random::new("latin hypercube", &[seed, dimension]))
-                }
+        (0..dimensions as u32).map(|dimension| self.coordinate(dimension, count, seed)).collect()
+    }
+
+    /// Returns the coordinate `dimension` of `count` points.
+    fn coordinate(self, dimension: u32, count: u32, seed: u32) -> Vec<f64> {
+        match self {
+            Self::Sobol => (0..count)
+                .map(|index| f64::from(sobol_burley::sample(index, dimension, seed)))
+                .collect(),
+            Self::LatinHypercube => {
+                let mut random = Random::new("latin hypercube", &[seed, dimension]);
+                latin_hypercube_coordinate(count, &mut random)
             }
-        };
-        (0..dimensions as u32).map(coordinate).collect()
+        }
     }
 }
 
-/// Returns a coordinate of a Latin hypercube: one number in each of so many intervals, shuffled.
-fn latin(count: u32, random: &mut Random) -> Vec<f64> {
+/// Returns one coordinate of a Latin hypercube: a number in each of `count` intervals, shuffled.
+fn latin_hypercube_coordinate(count: u32, random: &mut Random) -> Vec<f64> {
     let mut intervals: Vec<u32> = (0..count).collect();
     for last in (1..intervals.len()).rev() {
         let other = (random.uniform() * (last + 1) as f64) as usize;
         intervals.swap(last, other.min(last));
     }
-    let within = |interval| (f64::from(interval) + random.uniform()) / f64::from(count);
-    intervals.into_iter().map(within).collect()
+    intervals
+        .into_iter()
+        .map(|interval| (f64::from(interval) + random.uniform()) / f64::from(count))
+        .collect()
 }
 
 #[cfg(test)]

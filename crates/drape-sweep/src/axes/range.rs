@@ -13,7 +13,10 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// Checks a range; a mistake is made by a function of the key, its message and its remedy.
+    /// Creates the range between two `ends` on a `scale`, which is linear if it is `None`.
+    ///
+    /// # Errors
+    /// The mistake that `fail` returns for a key of the range, a message and a remedy.
     pub(crate) fn new(
         ends: [f64; 2],
         scale: Option<&str>,
@@ -23,8 +26,8 @@ impl Range {
         let is_log = match scale {
             None | Some("linear") => false,
             Some("log") => true,
-            Some(other) => {
-                let message = format!("there is no scale \"{other}\"");
+            Some(unknown) => {
+                let message = format!("there is no scale \"{unknown}\"");
                 return Err(fail("scale", message, "write \"linear\" or \"log\"").into());
             }
         };
@@ -39,27 +42,30 @@ impl Range {
         Ok(Self { start, end, is_log })
     }
 
-    /// Returns the number at a part of the range, 0 to 1, as a value of TOML.
-    pub(crate) fn at(self, part: f64) -> String {
+    /// Returns the number at `fraction` of the range, 0 to 1, as a TOML value.
+    pub(crate) fn at(self, fraction: f64) -> String {
         let Self { start, end, is_log } = self;
-        if part == 0.0 || part == 1.0 {
-            return number(if part == 0.0 { start } else { end });
-        }
-        number(match is_log {
-            true => (start.ln() * (1.0 - part) + end.ln() * part).exp(),
-            false => start * (1.0 - part) + end * part,
+        toml_number(if fraction == 0.0 {
+            start
+        } else if fraction == 1.0 {
+            end
+        } else if is_log {
+            (start.ln() * (1.0 - fraction) + end.ln() * fraction).exp()
+        } else {
+            start * (1.0 - fraction) + end * fraction
         })
     }
 
-    /// Returns the levels of a range of so many.
+    /// Returns `count` levels that divide the range evenly.
     pub(crate) fn levels(self, RangeFile { count, .. }: &RangeFile) -> Vec<String> {
         let last = f64::from(count - 1);
         (0..*count).map(|index| self.at(f64::from(index) / last)).collect()
     }
 }
 
-/// Returns a number as a value of TOML, to 12 digits; a whole one serves for keys of either kind.
-pub(crate) fn number(value: f64) -> String {
+/// Returns `value` as a TOML value with 12 digits. A whole number is written without a point, so
+/// that keys of whole numbers accept it too.
+pub(crate) fn toml_number(value: f64) -> String {
     let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
     if rounded.fract() == 0.0 && rounded.abs() < 1e15 {
         return format!("{rounded:.0}");

@@ -1,9 +1,9 @@
-//! Reader of the axes of a study, with the mistakes found so far.
+//! Reader of the axes of a study.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_input::{
-    Diagnostic, Document, Setting, SettingError, excerpt, nearest_file, toml_key, toml_string,
+    Diagnostic, Document, Setting, SettingError, excerpt, missing_file_help, toml_key, toml_string,
 };
 
 use crate::axes::covariance::{Covariance, CovarianceError};
@@ -14,21 +14,24 @@ use crate::base::Base;
 use crate::file::{CovarianceFile, SampleFile, StudyFile};
 use crate::point::POINTS_MAX;
 
-/// Reader of the axes of a study.
+/// Reader of the axes of a study, which collects mistakes.
 pub(crate) struct Reader<'a> {
+    /// Study.
     pub(crate) document: &'a Document,
     pub(crate) base: Base,
-    /// File of the base, with the settings of the study that hold at all points.
-    pub(crate) own: &'a Document,
+    /// File of the base, with the settings that the study gives to all points.
+    pub(crate) base_document: &'a Document,
+    /// Mistakes so far.
     pub(crate) mistakes: Vec<Diagnostic>,
 }
 
 impl Reader<'_> {
+    /// Records a mistake at the key path `key` of the study.
     pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.mistakes.push(self.document.at(key, message).help(help));
     }
 
-    /// Returns the axes in groups that go in step.
+    /// Returns the axes of the study `file`, in groups of axes that go in step.
     pub(crate) fn groups(&mut self, file: &StudyFile) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
         for (index, axis) in file.axis.iter().enumerate() {
@@ -36,25 +39,28 @@ impl Reader<'_> {
             let Some(levels) = self.levels(&place, axis) else { continue };
             let name = axis.together.clone();
             let kind = axis.starts.map_or(AxisKind::Levels, |_| AxisKind::Starts);
-            let own = Axis {
+            let axis = Axis {
                 name: axis.name.clone().unwrap_or_else(|| axis.key.clone()),
                 key: axis.key.clone(),
                 levels,
                 kind,
             };
+
             let group = groups.iter_mut().find(|group| name.is_some() && group.name == name);
             match group {
-                None => groups.push(Group { name, axes: vec![own] }),
-                Some(group) if group.len() == own.levels.len() => group.axes.push(own),
+                None => groups.push(Group { name, axes: vec![axis] }),
+                Some(group) if group.level_count() == axis.levels.len() => group.axes.push(axis),
                 Some(group) => {
-                    let (first, count) = (&group.axes[0], own.levels.len());
-                    let message =
-                        format!("{count} levels in step with {} of {}", group.len(), first.name);
+                    let (count, group_count) = (axis.levels.len(), group.level_count());
+                    let first = &group.axes[0].name;
+                    let message = format!("{count} levels in step with {group_count} of {first}");
                     let help = "give axes that go together as many levels each";
                     self.fail(&format!("{place}.together"), message, help);
                 }
             }
         }
+
+        // The numbers of a sample always go in step.
         for (index, sample) in file.sample.iter().enumerate() {
             let axes = self.sample(&format!("sample[{index}]"), sample);
             groups.extend((!axes.is_empty()).then_some(Group { name: None, axes }));
@@ -63,8 +69,9 @@ impl Reader<'_> {
             let axes = self.covariance(&format!("covariance[{index}]"), covariance);
             groups.extend((!axes.is_empty()).then_some(Group { name: None, axes }));
         }
+
         self.check_names(&groups);
-        let count = groups.iter().map(Group::len).try_fold(1_usize, usize::checked_mul);
+        let count = groups.iter().map(Group::level_count).try_fold(1_usize, usize::checked_mul);
         if file.axis.is_empty() && file.sample.is_empty() && file.covariance.is_empty() {
             let help =
                 "add an [[axis]] with a key and its values, a [[sample]] or a [[covariance]]";
@@ -78,26 +85,28 @@ impl Reader<'_> {
         groups
     }
 
-    /// Checks a key of the base with a level.
+    /// Checks that the key `key` of the base can be set to `level`.
     pub(super) fn check_key(&mut self, place: &str, key: &str, level: &str) {
-        let set = Setting::new(key, level).and_then(|setting| self.own.accepts(&setting));
-        if let Err(SettingError { message, help }) = set {
+        let result =
+            Setting::new(key, level).and_then(|setting| self.base_document.accepts(&setting));
+        if let Err(SettingError { message, help }) = result {
             self.fail(&format!("{place}.key"), message, help);
         }
     }
 
-    /// Returns the axes of a sample.
+    /// Returns the axes of `sample`, which is at the key path `place` of the study.
     fn sample(&mut self, place: &str, sample: &SampleFile) -> Vec<Axis> {
         let method = match sample.method.as_str() {
             "sobol" => Method::Sobol,
             "latin-hypercube" => Method::LatinHypercube,
-            other => {
-                let message = format!("there is no method \"{}\"", excerpt(other));
+            unknown => {
+                let message = format!("there is no method \"{}\"", excerpt(unknown));
                 let help = "write \"sobol\" or \"latin-hypercube\"";
                 self.fail(&format!("{place}.method"), message, help);
                 return Vec::new();
             }
         };
+
         let count_max = method.points_max().min(POINTS_MAX as u32);
         if !(1..=count_max).contains(&sample.count) {
             let message = format!("a sample of {}", sample.count);
@@ -111,29 +120,32 @@ impl Reader<'_> {
             self.fail(place, message, help);
             return Vec::new();
         }
+
         let coordinates = method.coordinates(dimensions, sample.count, sample.seed);
         let mut axes = Vec::new();
-        for (index, (own, coordinates)) in sample.range.iter().zip(coordinates).enumerate() {
+        for (index, (file, coordinates)) in sample.range.iter().zip(coordinates).enumerate() {
             let place = format!("{place}.range[{index}]");
-            let document = self.document;
-            let fail = |own: &str, message: String, help: &str| {
-                document.at(&format!("{place}.{own}"), message).help(help)
-            };
-            match Range::new([own.start, own.end], own.scale.as_deref(), fail) {
+            let ends = [file.start, file.end];
+            let range = Range::new(ends, file.scale.as_deref(), |key, message, help| {
+                self.document.at(&format!("{place}.{key}"), message).help(help)
+            });
+            match range {
                 Ok(range) => {
                     let levels: Vec<String> =
                         coordinates.into_iter().map(|x| range.at(x)).collect();
-                    self.check_key(&place, &own.key, &levels[0]);
-                    let name = own.name.clone().unwrap_or_else(|| own.key.clone());
-                    axes.push(Axis { name, key: own.key.clone(), levels, kind: AxisKind::Sample });
+                    self.check_key(&place, &file.key, &levels[0]);
+                    let key = file.key.clone();
+                    let name = file.name.clone().unwrap_or_else(|| key.clone());
+                    axes.push(Axis { name, key, levels, kind: AxisKind::Sample });
                 }
-                Err(found) => self.mistakes.extend(found.0),
+                Err(mistakes) => self.mistakes.extend(mistakes.0),
             }
         }
         axes
     }
 
-    /// Returns the axes of a sample of the numbers of a fitted fabric.
+    /// Returns the axes of a sample of the numbers of the fitted fabric that `file` names. `file`
+    /// is at the key path `place` of the study.
     fn covariance(&mut self, place: &str, file: &CovarianceFile) -> Vec<Axis> {
         if !(1..=POINTS_MAX as u32).contains(&file.count) {
             let message = format!("a sample of {}", file.count);
@@ -145,53 +157,45 @@ impl Reader<'_> {
             self.fail(place, format!("the base is a {}", self.base.key()), help);
             return Vec::new();
         }
-        let known: BTreeMap<String, toml::Value> =
-            self.own.decode::<Fabrics>().map(|scene| scene.fabric).unwrap_or_default();
-        if !known.contains_key(&file.fabric) {
-            let names: Vec<&str> = known.keys().map(String::as_str).collect();
+
+        let scene = self.base_document.decode::<SceneFabrics>();
+        let fabrics = scene.map(|scene| scene.fabric).unwrap_or_default();
+        if !fabrics.contains_key(&file.fabric) {
+            let names: Vec<&str> = fabrics.keys().map(String::as_str).collect();
             let message = format!("the scene has no fabric \"{}\"", excerpt(&file.fabric));
             let help = format!("its fabrics are: {}", names.join(", "));
             self.fail(&format!("{place}.fabric"), message, help);
             return Vec::new();
         }
-        let fabric = self.document.beside(&file.file).map_err(|misplaced| CovarianceError {
-            message: misplaced.to_string(),
-            help: misplaced.help(),
+
+        let fabric_and_covariance = self.read_fabric(&file.file).and_then(|fabric| {
+            let covariance = Covariance::read(&fabric, file.keys.as_deref())?;
+            Ok((fabric, covariance))
         });
-        let fabric = fabric.and_then(|path| match path.is_file() {
-            true => Document::read(&path).map_err(|mistakes| CovarianceError {
-                message: mistakes.to_string(),
-                help: "name a fabric.toml".into(),
-            }),
-            false => Err(CovarianceError {
-                message: format!("there is no {}", path.display()),
-                help: nearest_file(&path),
-            }),
-        });
-        let sampled = fabric.and_then(|fabric| {
-            Covariance::read(&fabric, file.keys.as_deref()).map(|c| (fabric, c))
-        });
-        let (fabric, covariance) = match sampled {
-            Ok(found) => found,
+        let (fabric, covariance) = match fabric_and_covariance {
+            Ok(pair) => pair,
             Err(CovarianceError { message, help }) => {
                 self.fail(&format!("{place}.file"), message, help);
                 return Vec::new();
             }
         };
-        let of_scene = format!("fabric.{}", toml_key(&file.fabric));
-        let Some(level) = self.seen_from_base(fabric.path()) else { return Vec::new() };
-        let own = known[&file.fabric].get("file").and_then(|file| file.as_str()).map(toml_string);
+
+        // Where the scene names another file, an axis with a single value replaces this file.
+        let fabric_key = format!("fabric.{}", toml_key(&file.fabric));
+        let Some(level) = self.relative_to_base(fabric.path()) else { return Vec::new() };
+        let scene_file =
+            fabrics[&file.fabric].get("file").and_then(|file| file.as_str()).map(toml_string);
         let mut axes = Vec::new();
-        if own.as_ref() != Some(&level) {
+        if scene_file.as_ref() != Some(&level) {
             let levels = vec![level; file.count as usize];
-            let key = format!("{of_scene}.file");
+            let key = format!("{fabric_key}.file");
             axes.push(Axis { name: key.clone(), key, levels, kind: AxisKind::Follower });
         }
         for sampled in covariance.sample(file.count, file.seed) {
             let kind = if sampled.is_follower { AxisKind::Follower } else { AxisKind::Sample };
             axes.push(Axis {
                 name: format!("{} {}", file.fabric, sampled.key),
-                key: format!("{of_scene}.set.\"{}\"", sampled.key),
+                key: format!("{fabric_key}.set.\"{}\"", sampled.key),
                 levels: sampled.values,
                 kind,
             });
@@ -199,24 +203,42 @@ impl Reader<'_> {
         axes
     }
 
-    /// Checks that each key and each name is there once.
+    /// Reads the fabric in the file `name`, which the study names.
+    fn read_fabric(&self, name: &str) -> Result<Document, CovarianceError> {
+        let path = self.document.beside(name).map_err(|forbidden| CovarianceError {
+            message: forbidden.to_string(),
+            help: forbidden.help(),
+        })?;
+        if !path.is_file() {
+            return Err(CovarianceError {
+                message: format!("there is no {}", path.display()),
+                help: missing_file_help(&path),
+            });
+        }
+        Document::read(&path).map_err(|mistakes| CovarianceError {
+            message: mistakes.to_string(),
+            help: "name a fabric.toml".into(),
+        })
+    }
+
+    /// Checks that no two axes of `groups` have one key or one name.
     fn check_names(&mut self, groups: &[Group]) {
         let (mut keys, mut names) = (BTreeSet::new(), BTreeSet::new());
         for axis in groups.iter().flat_map(|group| &group.axes) {
-            let what = match (keys.insert(&axis.key), names.insert(&axis.name)) {
+            let message = match (keys.insert(&axis.key), names.insert(&axis.name)) {
                 (false, _) => format!("the key \"{}\" is set by two axes", excerpt(&axis.key)),
                 (_, false) => format!("two axes have the name \"{}\"", excerpt(&axis.name)),
                 _ => continue,
             };
             let help = "give each axis its own key and its own name";
-            self.mistakes.push(Diagnostic::new(self.document.path(), what).help(help));
+            self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
         }
     }
 }
 
-/// Fabrics of a scene.
+/// Fabrics of a scene, by their names.
 #[derive(serde::Deserialize)]
-struct Fabrics {
+struct SceneFabrics {
     #[serde(default)]
     fabric: BTreeMap<String, toml::Value>,
 }

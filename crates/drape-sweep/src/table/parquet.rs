@@ -1,4 +1,4 @@
-//! Tables as Parquet: numbers as doubles, all else as text, empty cells as nulls.
+//! Tables as Parquet: columns of numbers as doubles, other columns as text, empty cells as nulls.
 
 use std::io::Error as IoError;
 use std::path::Path;
@@ -15,17 +15,19 @@ use crate::error::Error;
 use crate::table::{Column, Table};
 
 impl Column {
-    /// Returns whether all cells are numbers or empty, and one is a number.
+    /// Returns whether each cell is a number or empty, and at least one cell is a number.
     fn is_numeric(&self) -> bool {
-        let is_right = |cell: &String| cell.is_empty() || cell.parse::<f64>().is_ok();
-        self.cells.iter().all(is_right) && self.cells.iter().any(|cell| !cell.is_empty())
+        let mut values = self.cells.iter().filter(|cell| !cell.is_empty()).peekable();
+        values.peek().is_some() && values.all(|value| value.parse::<f64>().is_ok())
     }
 
+    /// Returns the field of the column in the schema.
     fn field(&self) -> Result<Arc<Type>, ParquetError> {
-        let field = match self.is_numeric() {
-            true => Type::primitive_type_builder(&self.name, Physical::DOUBLE),
-            false => Type::primitive_type_builder(&self.name, Physical::BYTE_ARRAY)
-                .with_logical_type(Some(LogicalType::String)),
+        let field = if self.is_numeric() {
+            Type::primitive_type_builder(&self.name, Physical::DOUBLE)
+        } else {
+            Type::primitive_type_builder(&self.name, Physical::BYTE_ARRAY)
+                .with_logical_type(Some(LogicalType::String))
         };
         field.with_repetition(Repetition::OPTIONAL).build().map(Arc::new)
     }
@@ -35,23 +37,23 @@ impl Table {
     /// Returns the table as Parquet.
     ///
     /// # Errors
-    /// None but those of memory.
+    /// [`Error::Io`] if the memory is exhausted.
     pub fn to_parquet(&self) -> Result<Vec<u8>, Error> {
-        let failed = |error: ParquetError| {
-            Error::io("write", Path::new("table.parquet"))(IoError::other(error))
-        };
-        self.parquet().map_err(failed)
+        self.parquet()
+            .map_err(|error| Error::io("write", Path::new("table.parquet"))(IoError::other(error)))
     }
 
+    /// Returns the table as Parquet, or the error of the writer.
     fn parquet(&self) -> Result<Vec<u8>, ParquetError> {
         let fields = self.columns().map(Column::field).collect::<Result<_, _>>()?;
         let schema = Arc::new(Type::group_type_builder("table").with_fields(fields).build()?);
         let properties = Arc::new(WriterProperties::default());
+
         let mut bytes = Vec::new();
         let mut file = SerializedFileWriter::new(&mut bytes, schema, properties)?;
         let mut group = file.next_row_group()?;
         for column in self.columns() {
-            // A null has level 0, a value 1.
+            // The definition level is 0 for a null and 1 for a value.
             let levels = column.cells.iter().map(|cell| i16::from(!cell.is_empty()));
             let levels: Vec<i16> = levels.collect();
             let cells = column.cells.iter().filter(|cell| !cell.is_empty());

@@ -1,4 +1,4 @@
-//! Parts of a table: those of shards, collected on their own and joined.
+//! Tables of shards, which are collected separately and joined.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,26 +8,21 @@ use crate::study::Study;
 use crate::table::{Column, RECORDS, Table};
 
 impl Table {
-    /// Reads the table of a study, or of a shard of it, from the text of [`to_csv`](Self::to_csv);
-    /// the path is that of messages.
+    /// Reads the table of `study`, or of a shard of it, from `text`, which [`to_csv`](Self::to_csv)
+    /// wrote. Messages name the file `path`.
     ///
     /// # Errors
-    /// The text is no table of this study.
+    /// [`Error::Io`] if `text` is no table of `study`.
     pub fn from_csv(study: &Study, path: &Path, text: &[u8]) -> Result<Self, Error> {
-        let failed = |error: csv::Error| Error::io("read", path)(error.into());
-        let mut csv = csv::Reader::from_reader(text);
-        let names = csv.headers().map_err(failed)?;
-        let named = |name: &str| Column { name: name.to_owned(), cells: Vec::new() };
-        let mut columns: Vec<Column> = names.iter().map(named).collect();
-        for row in csv.records() {
-            let row = row.map_err(failed)?;
-            columns.iter_mut().zip(&row).for_each(|(own, cell)| own.cells.push(cell.to_owned()));
-        }
-        let own = ["point", "key"].into_iter();
+        let mut columns =
+            read_columns(text).map_err(|error| Error::io("read", path)(error.into()))?;
+
+        // The first columns are fixed by the study, and measures follow.
         let inputs = study.axes().map(|axis| axis.name.as_str());
-        let expected: Vec<&str> = own.chain(inputs).chain(RECORDS).collect();
-        let found = columns.iter().map(|column| column.name.as_str());
-        if !found.take(expected.len()).eq(expected.iter().copied()) {
+        let expected: Vec<&str> =
+            ["point", "key"].into_iter().chain(inputs).chain(RECORDS).collect();
+        let names = columns.iter().map(|column| column.name.as_str());
+        if !names.take(expected.len()).eq(expected.iter().copied()) {
             let message = "its columns are not those of the study; collect its shards anew";
             return Err(Error::io("use", path)(std::io::Error::other(message)));
         }
@@ -37,46 +32,98 @@ impl Table {
         Ok(Self { points: columns, inputs, records, measures })
     }
 
-    /// Joins the tables of shards: rows in the order of the plan, all measures that one of them has.
-    /// Returns the table, and the number of points that are in none of them.
+    /// Joins `parts`, the tables of shards of `study`. The rows are in the order of the plan, and
+    /// the table has every measure that a shard has. Returns the table, and the number of points
+    /// without a row.
     #[must_use]
     pub fn join(study: &Study, parts: &[Self]) -> (Self, usize) {
-        let mut places: Vec<(usize, usize, usize)> = Vec::new();
-        for (part, table) in parts.iter().enumerate() {
-            let numbers = table.points.first().map_or(&[][..], |column| &column.cells[..]);
-            let numbers = numbers.iter().enumerate();
-            places.extend(numbers.filter_map(|(row, n)| Some((n.parse().ok()?, part, row))));
-        }
-        places.sort_unstable();
-        places.dedup_by_key(|place| place.0);
-        let missing = study.count().saturating_sub(places.len());
-        let pick = |column: &dyn Fn(&Self) -> Option<&Column>, name: &str| {
-            let cells: Vec<Option<&Column>> = parts.iter().map(column).collect();
-            let cell = |&(_, part, row): &(usize, usize, usize)| {
-                cells[part].map_or(String::new(), |column| column.cells[row].clone())
-            };
-            Column { name: name.to_owned(), cells: places.iter().map(cell).collect() }
-        };
-        let fixed = |columns: fn(&Self) -> &Vec<Column>| -> Vec<Column> {
-            let Some(first) = parts.first() else { return Vec::new() };
-            let own = columns(first).iter().enumerate();
-            own.map(|(index, own)| pick(&|part| columns(part).get(index), &own.name)).collect()
-        };
+        let rows = joined_rows(parts);
+        let missing = study.point_count().saturating_sub(rows.len());
+
+        // Measures that the study does not name are sorted by name.
         let mut known = BTreeSet::new();
-        let named = parts.iter().flat_map(|part| &part.measures).map(|column| &column.name);
-        let mut names: Vec<&String> = named.filter(|name| known.insert(*name)).collect();
+        let measures = parts.iter().flat_map(|part| &part.measures).map(|column| &column.name);
+        let mut names: Vec<&String> = measures.filter(|name| known.insert(*name)).collect();
         if study.measures().is_empty() {
             names.sort();
         }
-        let of_name = |name: &String| {
-            pick(&|part| part.measures.iter().find(|column| column.name == *name), name)
-        };
+        let measures = names.into_iter().map(|name| {
+            let columns: Vec<Option<&Column>> = parts
+                .iter()
+                .map(|part| part.measures.iter().find(|column| column.name == *name))
+                .collect();
+            join_column(name, &columns, &rows)
+        });
+
         let table = Self {
-            points: fixed(|part| &part.points),
-            inputs: fixed(|part| &part.inputs),
-            records: fixed(|part| &part.records),
-            measures: names.into_iter().map(of_name).collect(),
+            points: join_columns(parts, &rows, |part| &part.points),
+            inputs: join_columns(parts, &rows, |part| &part.inputs),
+            records: join_columns(parts, &rows, |part| &part.records),
+            measures: measures.collect(),
         };
         (table, missing)
     }
+}
+
+/// Row of a point in the table of a shard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct ShardRow {
+    /// Number of the point in the order of the plan.
+    point: usize,
+    /// Index of the table of the shard.
+    part: usize,
+    /// Index of the row in this table.
+    row: usize,
+}
+
+/// Returns the rows of the tables `parts` in the order of the plan, one row for each point.
+fn joined_rows(parts: &[Table]) -> Vec<ShardRow> {
+    let mut rows = Vec::new();
+    for (part, table) in parts.iter().enumerate() {
+        let numbers = table.points.first().map_or(&[][..], |column| &column.cells[..]);
+        for (row, number) in numbers.iter().enumerate() {
+            rows.extend(number.parse().ok().map(|point| ShardRow { point, part, row }));
+        }
+    }
+    rows.sort_unstable();
+    rows.dedup_by_key(|row| row.point);
+    rows
+}
+
+/// Joins those columns of the tables `parts` that `columns` returns and that all tables have.
+fn join_columns(
+    parts: &[Table],
+    rows: &[ShardRow],
+    columns: fn(&Table) -> &Vec<Column>,
+) -> Vec<Column> {
+    let Some(first) = parts.first() else { return Vec::new() };
+    let mut joined = Vec::new();
+    for (index, column) in columns(first).iter().enumerate() {
+        let of_parts: Vec<Option<&Column>> =
+            parts.iter().map(|part| columns(part).get(index)).collect();
+        joined.push(join_column(&column.name, &of_parts, rows));
+    }
+    joined
+}
+
+/// Joins one column of each table of a shard to the column `name`. Rows of a table without the
+/// column have empty cells.
+fn join_column(name: &str, columns: &[Option<&Column>], rows: &[ShardRow]) -> Column {
+    let cells = rows.iter().map(|&ShardRow { part, row, .. }| {
+        columns[part].map_or(String::new(), |column| column.cells[row].clone())
+    });
+    Column::new(name, cells)
+}
+
+/// Reads the columns of the CSV file `text`, whose first line has their names.
+fn read_columns(text: &[u8]) -> Result<Vec<Column>, csv::Error> {
+    let mut csv = csv::Reader::from_reader(text);
+    let mut columns: Vec<Column> =
+        csv.headers()?.iter().map(|name| Column::new(name, Vec::new())).collect();
+    for row in csv.records() {
+        for (column, cell) in columns.iter_mut().zip(&row?) {
+            column.cells.push(cell.to_owned());
+        }
+    }
+    Ok(columns)
 }

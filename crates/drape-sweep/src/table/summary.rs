@@ -1,4 +1,4 @@
-//! Values of summaries, by their names.
+//! Values of summaries, with their names.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,50 +6,57 @@ use serde_json::Value;
 
 use crate::measure::Measure;
 
-/// Most elements of a list of a summary's measures that have columns.
-const ELEMENTS_MAX: usize = 32;
-
-/// Returns the values of the measures that a study names, in their units.
-pub(super) fn chosen(measures: &[Measure], values: Vec<(String, String)>) -> Vec<(String, String)> {
+/// Returns the entries of `values` that `measures` name, in the units of the measures.
+pub(super) fn measured_values(
+    measures: &[Measure],
+    values: Vec<(String, String)>,
+) -> Vec<(String, String)> {
     let values: BTreeMap<String, String> = values.into_iter().collect();
-    let value =
-        |own: &Measure| Some((own.name.clone(), own.in_unit(values.get(&own.key)?.clone())));
-    measures.iter().filter_map(value).collect()
+    let mut measured = Vec::new();
+    for measure in measures {
+        if let Some(value) = values.get(&measure.key) {
+            measured.push((measure.name.clone(), measure.in_unit(value.clone())));
+        }
+    }
+    measured
 }
 
-/// Fields of an element of a list that name it: the first that is there, or the last two together.
-const NAMES: [&[&str]; 5] = [&["title"], &["symbol"], &["name"], &["of"], &["test", "direction"]];
-
-/// Adds the values of a summary with their names, such as `strain.traction_max`. Of lists there are
-/// those of measures, up to some length; their elements have names or numbers.
+/// Adds each value in `value`, a part of a summary, to `values`, with its name, such as
+/// `strain.traction_max`. `name` is the name of `value`.
+///
+/// Only lists of measures are added, and only short ones. Their elements have names or numbers.
 pub(super) fn flatten(name: &str, value: &Value, values: &mut Vec<(String, String)>) {
-    let inner = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
+    /// Largest number of elements of a list that have columns.
+    const ELEMENTS_MAX: usize = 32;
+
     match value {
         Value::Object(entries) => {
-            entries.iter().for_each(|(key, value)| flatten(&inner(key), value, values));
+            for (key, value) in entries {
+                flatten(&inner_name(name, key), value, values);
+            }
         }
         Value::Array(elements)
             if name.starts_with("measures") && elements.len() <= ELEMENTS_MAX =>
         {
-            let names = names(elements);
-            names.iter().zip(elements).for_each(|(own, value)| flatten(&inner(own), value, values));
+            for (key, value) in element_names(elements).iter().zip(elements) {
+                flatten(&inner_name(name, key), value, values);
+            }
         }
         Value::Null | Value::Array(_) => {}
-        value => values.push((name.to_owned(), cell(value))),
+        value => values.push((name.to_owned(), cell_text(value))),
     }
 }
 
-/// Returns the names of the elements of a list: by their fields, if these tell all of them apart,
-/// else their numbers.
-fn names(elements: &[Value]) -> Vec<String> {
-    let name = |element: &Value| {
-        let texts = |fields: &&[&str]| {
-            let texts = fields.iter().map(|field| element.get(field)?.as_str());
-            Some(texts.collect::<Option<Vec<_>>>()?.join("."))
-        };
-        NAMES.iter().find_map(texts).unwrap_or_default()
-    };
-    let names: Vec<String> = elements.iter().map(name).collect();
+/// Returns the name of the value at `key` in the value `name`.
+fn inner_name(name: &str, key: &str) -> String {
+    if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") }
+}
+
+/// Returns the names of the `elements` of a list. The names are the numbers of the elements unless
+/// fields of the elements give each of them another name.
+fn element_names(elements: &[Value]) -> Vec<String> {
+    let names: Vec<String> =
+        elements.iter().map(|element| field_name(element).unwrap_or_default()).collect();
     let known: BTreeSet<&String> = names.iter().filter(|name| !name.is_empty()).collect();
     if known.len() == names.len() {
         return names;
@@ -57,8 +64,21 @@ fn names(elements: &[Value]) -> Vec<String> {
     (0..elements.len()).map(|index| index.to_string()).collect()
 }
 
-/// Returns a value as a cell: texts without quotes.
-pub(super) fn cell(value: &Value) -> String {
+/// Returns the name that fields of `element` give it, if it has such fields.
+fn field_name(element: &Value) -> Option<String> {
+    /// Fields that name an element. The first ones that the element has are used.
+    const NAME_FIELDS: [&[&str]; 5] =
+        [&["title"], &["symbol"], &["name"], &["of"], &["test", "direction"]];
+
+    NAME_FIELDS.iter().find_map(|fields| {
+        let texts: Option<Vec<&str>> =
+            fields.iter().map(|field| element.get(field)?.as_str()).collect();
+        Some(texts?.join("."))
+    })
+}
+
+/// Returns `value` as the text of a cell. Texts have no quotes.
+pub(super) fn cell_text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 

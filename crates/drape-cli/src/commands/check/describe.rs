@@ -87,7 +87,7 @@ fn study(path: &Path) -> Result<String, Diagnostics> {
         "study of the {} {}, {} points, results in {}\n",
         study.base().key(),
         study.base_file().display(),
-        study.count(),
+        study.point_count(),
         study.output().display()
     );
     for axis in study.axes() {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::frames::{Part, Recording};
+use drape::frames::{Recording, SurfacePart};
 use drape::verify::{ClosePair, PartNumber, Verdict, Verifier};
 use serde_json::{Value, json};
 
@@ -51,7 +51,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failu
             say(headline(folder, recording))?;
         }
         let mut verdicts = Vec::new();
-        for number in 0..recording.frames() {
+        for number in 0..recording.frame_count() {
             let verdict = verifier.verify(number)?;
             if !json {
                 say(describe(recording, &verdict))?;
@@ -63,7 +63,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failu
         }
         let holds = verdicts.iter().all(Verdict::holds);
         let (guarded, ended) = (recording.manifest().surface_contact, recording.ended());
-        let names = |part: &Part| part.name.clone();
+        let names = |part: &SurfacePart| part.name.clone();
         found.push(json!({
             "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
             "panels": recording.manifest().panels.iter().map(names).collect::<Vec<_>>(),
@@ -86,7 +86,7 @@ fn headline(folder: &Path, recording: &Recording) -> String {
     format!(
         "{}: {} frames of {} panels and {} bodies, {} triangles; {promise}{end}",
         folder.display(),
-        recording.frames(),
+        recording.frame_count(),
         manifest.panels.len(),
         manifest.bodies.len(),
         recording.topology().cloth.len() + recording.topology().bodies.len()

@@ -91,7 +91,7 @@ pub(crate) fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
 
 /// Returns the number of the frame that is asked for.
 fn number(arguments: &PictureArguments, recording: &Recording) -> Result<usize, Failure> {
-    let last = recording.frames() - 1;
+    let last = recording.frame_count() - 1;
     let Some(asked) = arguments.time else {
         return Ok(match arguments.frame {
             Some(FrameNumber::Number(number)) => number,
@@ -143,8 +143,8 @@ fn turntable(
 
 /// Writes a film strip of so many frames.
 fn strip(arguments: &PictureArguments, recording: &Recording, count: u32) -> Result<(), Failure> {
-    let count = (count as usize).min(recording.frames());
-    let last = recording.frames() - 1;
+    let count = (count as usize).min(recording.frame_count());
+    let last = recording.frame_count() - 1;
     let frame = |k: usize| (2 * k * last + count - 1) / (2 * (count - 1).max(1));
     let numbers: Vec<usize> = (0..count).map(frame).collect();
     let size = [count as u32 * FRAME[0], FRAME[1]];

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 use drape::run::file;
-use drape::sweep::{Outcome, Place, Point, Record, Shard, Study, manifest};
+use drape::sweep::{Outcome, Point, PointStorage, Record, Shard, Study, manifest};
 use indicatif::ProgressBar;
 use serde_json::json;
 
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     }
     // Those that could not be run before come last, since they may fail again and end the sweep.
     chosen.sort_by_cached_key(|point| {
-        let record = Place::new(&study, point).record();
+        let record = PointStorage::new(&study, point).record();
         record.is_some_and(|record| record.outcome == Outcome::WorkerFailed)
     });
     let again = format!("drape sweep run {}", arguments.study.study.display());
@@ -134,7 +134,7 @@ fn is_of(point: &Point, key: &str) -> bool {
 
 /// Prints a line for a point.
 fn list(study: &Study, point: &Point) -> Result<(), Failure> {
-    let outcome = Place::new(study, point).outcome();
+    let outcome = PointStorage::new(study, point).outcome();
     say(format_args!("{}\t{}\t{outcome}\t{}", point.index, point.key, values(point)))
 }
 
@@ -221,7 +221,7 @@ impl Sweep<'_> {
             let Some(point) = self.points.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
                 break;
             };
-            let ended = self.worker.run(&Place::new(self.study, point), point)?;
+            let ended = self.worker.run(&PointStorage::new(self.study, point), point)?;
             self.count(point, &ended);
         }
         Ok(())

@@ -8,7 +8,7 @@ use std::process::{Command, ExitStatus, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use drape::sweep::{Base, Error, Outcome, Place, Point, Record, Study};
+use drape::sweep::{Base, Error, Outcome, Point, PointStorage, Record, Study};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 
@@ -61,14 +61,14 @@ impl<'a> Worker<'a> {
     }
 
     /// Runs a point, unless it has a record or another sweep runs it.
-    pub(super) fn run(&self, place: &Place, point: &Point) -> Result<Ended, Failure> {
+    pub(super) fn run(&self, place: &PointStorage, point: &Point) -> Result<Ended, Failure> {
         let earlier = || place.record().filter(|own| own.outcome != Outcome::WorkerFailed);
         if let Some(record) = earlier() {
             return Ok(Ended::Before(record));
         }
         let Some(lock) = place.lock()? else { return Ok(Ended::Elsewhere) };
         if let Some(record) = earlier() {
-            lock.retire();
+            lock.remove();
             return Ok(Ended::Before(record));
         }
         while place.is_busy() {
@@ -81,7 +81,7 @@ impl<'a> Worker<'a> {
         let mut retries = 0;
         let Exit { code, message } = loop {
             let exit = self.attempt(place, point)?;
-            let is_worker = Outcome::of(exit.code) == Outcome::WorkerFailed;
+            let is_worker = Outcome::from_exit_code(exit.code) == Outcome::WorkerFailed;
             if is_worker && signal::received().is_some() {
                 return Ok(Ended::Interrupted);
             }
@@ -92,7 +92,7 @@ impl<'a> Worker<'a> {
         };
         let record = Record {
             key: point.key.clone(),
-            outcome: Outcome::of(code),
+            outcome: Outcome::from_exit_code(code),
             exit_code: code,
             retries,
             seconds: begin.elapsed().as_secs_f64(),
@@ -101,20 +101,20 @@ impl<'a> Worker<'a> {
         };
         place.finish(&record, self.study.keep())?;
         if record.outcome != Outcome::WorkerFailed {
-            lock.retire();
+            lock.remove();
         }
         Ok(Ended::Now(record))
     }
 
     /// Runs the process of a point once, from its checkpoint if there is one.
-    fn attempt(&self, place: &Place, point: &Point) -> Result<Exit, Failure> {
+    fn attempt(&self, place: &PointStorage, point: &Point) -> Result<Exit, Failure> {
         if self.study.base() != Base::Scene {
             return self.report(place, point);
         }
         if place.is_finished() {
             return Ok(Exit { code: Some(0), message: String::new() });
         }
-        if place.is_begun() {
+        if place.is_interrupted() {
             let exit = self.process(place, Stdio::null(), |command| {
                 command.arg("resume").arg(place.folder()).arg("--no-picture");
             })?;
@@ -131,7 +131,7 @@ impl<'a> Worker<'a> {
     }
 
     /// Runs the process of a fit or of a test once; what it prints becomes the summary.
-    fn report(&self, place: &Place, point: &Point) -> Result<Exit, Failure> {
+    fn report(&self, place: &PointStorage, point: &Point) -> Result<Exit, Failure> {
         let folder = place.folder();
         let failed = |what: &'static str, path: &Path| {
             let path = path.to_owned();
@@ -150,7 +150,7 @@ impl<'a> Worker<'a> {
         })?;
         if exit.code == Some(0) {
             let text = std::fs::read(&path).map_err(failed("read", &path))?;
-            place.summarise(&text)?;
+            place.write_summary(&text)?;
         }
         std::fs::remove_file(&path).map_err(failed("remove", &path))?;
         Ok(exit)
@@ -159,7 +159,7 @@ impl<'a> Worker<'a> {
     /// Runs a process of this program to its end.
     fn process(
         &self,
-        place: &Place,
+        place: &PointStorage,
         output: Stdio,
         arguments: impl FnOnce(&mut Command),
     ) -> Result<Exit, Failure> {

@@ -3,7 +3,7 @@
 use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
 use drape::report::{EffectTable, Error, MeasureEffects, StudyPage};
 use drape::run::reports::VERSION;
-use drape::sweep::{Approach, Column, Convergence, GridValue, Mean, ORDER, Study, Table};
+use drape::sweep::{Approach, Column, Convergence, GRID_ORDER, GridValue, Mean, Study, Table};
 use serde::Serialize;
 
 use super::digits::{like_scatter, number, with_scatter};
@@ -92,7 +92,7 @@ impl Converged {
             if !differ && !named.contains(&column.name) {
                 return None;
             }
-            let convergence = Convergence::of(&found)?;
+            let convergence = Convergence::new(&found)?;
             let shown = ShownMeasure::new(column);
             let in_unit: Vec<GridValue> = of(&shown.column).into_iter().flatten().collect();
             let order = match convergence.approach {
@@ -106,7 +106,7 @@ impl Converged {
                 uncertainty: convergence.uncertainty,
                 order,
                 shown: Shown {
-                    convergence: Convergence::of(&in_unit)?,
+                    convergence: Convergence::new(&in_unit)?,
                     label: shown.label,
                     unit: shown.unit,
                     values: in_unit,
@@ -150,9 +150,9 @@ impl Shown {
 
     fn order(&self) -> String {
         match self.convergence.approach {
-            Approach::Measured(order) if order < ORDER => format!("{order:.2}"),
-            Approach::Measured(_) => format!("{ORDER} or more"),
-            Approach::Assumed => format!("{ORDER}, assumed"),
+            Approach::Measured(order) if order < GRID_ORDER => format!("{order:.2}"),
+            Approach::Measured(_) => format!("{GRID_ORDER} or more"),
+            Approach::Assumed => format!("{GRID_ORDER}, assumed"),
             Approach::None => "none".into(),
         }
     }
@@ -178,7 +178,7 @@ pub(crate) fn page(study: &Study, table: &Table, converged: &Converged) -> Resul
         format!("{} of {} runs ended well", grids.len(), table.records[0].cells.len()),
         format!(
             "the error of a value is taken as C hᵖ, h being the spacing; the order p comes of the three \
-             finest grids and is at most {ORDER}, which is also that of two grids"
+             finest grids and is at most {GRID_ORDER}, which is also that of two grids"
         ),
         "± is the uncertainty of the value on the finest grid: 1.25 times its error, 3 times with the \
          order of two grids, 3 times the range of the values where they approach no limit"

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape_collide::{Mesh, PointCache, Triangulation};
-use drape_input::Misplaced;
+use drape_input::ForbiddenPath;
 
 use crate::check::checker::{Checker, MESH_LIMIT};
 use crate::file::body::MeshBodyFile;
@@ -18,13 +18,13 @@ pub(crate) enum ShapeError {
     /// A file cannot be read.
     File(drape_collide::Error),
     /// A file is not below the folders of the scene.
-    Misplaced(Misplaced),
+    Misplaced(ForbiddenPath),
     /// Files do not fit together.
     Mismatch(String),
 }
 
-impl From<Misplaced> for ShapeError {
-    fn from(misplaced: Misplaced) -> Self {
+impl From<ForbiddenPath> for ShapeError {
+    fn from(misplaced: ForbiddenPath) -> Self {
         Self::Misplaced(misplaced)
     }
 }

@@ -1,18 +1,18 @@
-//! Records: what came of a point.
+//! Records: the outcome of each point.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// How a point ended.
+/// Outcome of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// Its run came to its end.
+    /// The run came to its end.
     #[serde(rename = "done")]
     Done,
-    /// Its run was refused or failed, and would fail so again.
+    /// The run was refused or failed, and would fail again in this way.
     #[serde(rename = "job failed")]
     JobFailed,
-    /// What ran it failed, several times; another machine may do better.
+    /// The process that ran the point failed several times. Another machine may succeed.
     #[serde(rename = "worker failed")]
     WorkerFailed,
 }
@@ -22,39 +22,40 @@ pub enum Outcome {
 pub struct Record {
     /// Key of the point.
     pub key: String,
-    /// How it ended.
+    /// Outcome of the point.
     pub outcome: Outcome,
     /// Exit code of the last process, if it ended by itself.
     pub exit_code: Option<i32>,
-    /// Number of processes that ended otherwise than by their work before that.
+    /// Number of earlier processes that failed for a reason other than the run itself.
     pub retries: u32,
-    /// Wall-clock time of all its processes, in s.
+    /// Wall-clock time of all processes of the point, in s.
     pub seconds: f64,
-    /// Message of the last process; empty where it had none.
+    /// Message of the last process. Empty if it printed none.
     pub message: String,
-    /// Summary of its run, where nothing else is kept of it.
+    /// Summary of the run, if the study keeps only the measures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub summary: Option<Value>,
 }
 
 impl Record {
-    /// Returns how the point ended, in the words of the table; its run has a summary or none.
-    pub(crate) fn word(&self, summary: Option<&Value>) -> String {
+    /// Returns the outcome of the point as the table shows it. `summary` is the summary of the run,
+    /// if there is one.
+    pub(crate) fn outcome_text(&self, summary: Option<&Value>) -> String {
         let status = summary.and_then(|summary| summary["status"].as_str());
-        let word = match (self.outcome, status) {
+        let text = match (self.outcome, status) {
             (Outcome::WorkerFailed, _) => "worker failed",
             (Outcome::JobFailed, None) => "refused",
             (_, status) => status.unwrap_or_default(),
         };
-        word.to_owned()
+        text.to_owned()
     }
 }
 
 impl Outcome {
-    /// Returns how a process ended, by its exit code; `None` for one that a signal ended, which
-    /// stands for a worker that failed, as do failures of files.
+    /// Returns the outcome of a process with the given `exit_code`, which is `None` if a signal
+    /// ended the process. A signal and a failure of files mean that the worker failed.
     #[must_use]
-    pub fn of(exit_code: Option<i32>) -> Self {
+    pub fn from_exit_code(exit_code: Option<i32>) -> Self {
         match exit_code {
             Some(0) => Self::Done,
             None | Some(6 | 8 | 129..) => Self::WorkerFailed,

@@ -1,4 +1,4 @@
-//! Places of points: where each has its results, its lock and its record.
+//! Storage of points: the folder, the lock and the record of each point.
 
 mod record;
 
@@ -13,102 +13,108 @@ use crate::study::{Keep, Study};
 
 pub use record::{Outcome, Record};
 
-/// Place of a point: `points/ab/KEY`, with its lock and its record beside it.
+/// Storage of a point: the folder `points/ab/KEY` with the results, and the lock and the record
+/// beside it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct PointStorage {
+    /// Key of the point.
     key: String,
     folder: PathBuf,
 }
 
-/// Lock of a point, until it is dropped or its process ends, however it does.
+/// Lock of a point. The lock is released when it is dropped, or when its process ends in any way.
 #[derive(Debug)]
-pub struct PlaceLock {
+pub struct PointLock {
     file: File,
     path: PathBuf,
 }
 
-impl PlaceLock {
-    /// Removes the file of the lock, which no one needs once the point has a record: whoever takes
-    /// the lock looks for one first.
-    pub fn retire(self) {
-        // Where it cannot be removed it is in nobody's way.
+impl PointLock {
+    /// Removes the file of the lock. The file is not needed once the point has a record, because a
+    /// process that takes the lock first looks for a record.
+    pub fn remove(self) {
+        // A file that cannot be removed does no harm.
         let _ = std::fs::remove_file(&self.path);
         drop(self.file);
     }
 }
 
-impl Place {
-    /// Returns the place of a point of a study.
+impl PointStorage {
+    /// Returns the storage of `point` of `study`.
     #[must_use]
     pub fn new(study: &Study, point: &Point) -> Self {
-        let shelf = point.key.get(..2).unwrap_or_default();
-        let folder = study.output().join("points").join(shelf).join(&point.key);
+        // Subfolders by the first two digits keep the folder of a large study short.
+        let prefix = point.key.get(..2).unwrap_or_default();
+        let folder = study.output().join("points").join(prefix).join(&point.key);
         Self { key: point.key.clone(), folder }
     }
 
-    /// Folder of the results of its run.
+    /// Returns the folder `points/ab/KEY` with the results of the run.
     #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// File of the messages of its run, while it goes.
+    /// Returns the file `KEY.log` with the messages of the run, which exists while the run goes on.
     #[must_use]
     pub fn log(&self) -> PathBuf {
         self.folder.with_extension("log")
     }
 
-    /// Takes the lock of the point; returns `None` while another process has it.
+    /// Takes the lock of the point. Returns `None` if another process has the lock.
     ///
     /// # Errors
-    /// The folder cannot be written.
-    pub fn lock(&self) -> Result<Option<PlaceLock>, Error> {
+    /// [`Error::Io`] if the folder or the file of the lock cannot be written.
+    pub fn lock(&self) -> Result<Option<PointLock>, Error> {
         let path = self.folder.with_extension("lock");
-        if let Some(shelf) = path.parent() {
-            std::fs::create_dir_all(shelf).map_err(Error::io("create", shelf))?;
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(Error::io("create", parent))?;
         }
         let file = File::options().write(true).create(true).truncate(false).open(&path);
         let file = file.map_err(Error::io("write", &path))?;
         match file.try_lock() {
-            Ok(()) => Ok(Some(PlaceLock { file, path })),
+            Ok(()) => Ok(Some(PointLock { file, path })),
             Err(TryLockError::WouldBlock) => Ok(None),
             Err(TryLockError::Error(error)) => Err(Error::io("lock", &path)(error)),
         }
     }
 
-    /// Returns whether a process of the point is running, such as one that outlived its sweep: it
-    /// holds the lock of its log.
+    /// Returns whether a process of the point is running, such as a process that outlived its
+    /// sweep. The process holds a lock on the file [`log`](Self::log).
     #[must_use]
     pub fn is_busy(&self) -> bool {
         let file = File::options().write(true).open(self.log());
         file.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
-    /// Returns the record of the point, if there is one that holds: that of a finished run has its
-    /// summary in it, or beside it.
+    /// Returns the record of the point, or `None` if there is no valid record. The record of a
+    /// finished run is valid if the summary is in the record or in the folder.
     #[must_use]
     pub fn record(&self) -> Option<Record> {
         let bytes = std::fs::read(self.record_file()).ok()?;
         let record: Record = serde_json::from_slice(&bytes).ok()?;
-        let has_summary = || record.summary.is_some() || self.summary().is_some();
-        let holds = record.outcome != Outcome::Done || has_summary();
-        (record.key == self.key && holds).then_some(record)
+        let is_valid =
+            record.outcome != Outcome::Done || record.summary.is_some() || self.summary().is_some();
+        (record.key == self.key && is_valid).then_some(record)
     }
 
-    /// Returns how the point ended, in the words of the table.
+    /// Returns the outcome of the point as the table shows it, such as `ok` or `not run`.
     #[must_use]
     pub fn outcome(&self) -> String {
         let Some(record) = self.record() else { return "not run".into() };
-        record.word(self.summary_of(&record).as_ref())
+        record.outcome_text(self.summary_of(&record).as_ref())
     }
 
-    /// Returns the summary of the run of a record, unless what ran it failed.
+    /// Returns the summary of the run with the given `record`, or `None` if the worker failed.
     pub(crate) fn summary_of(&self, record: &Record) -> Option<Value> {
-        let is_own = record.outcome != Outcome::WorkerFailed;
-        is_own.then(|| record.summary.clone().or_else(|| self.summary()))?
+        // After a failure of the worker a summary in the folder may be an earlier one.
+        if record.outcome == Outcome::WorkerFailed {
+            return None;
+        }
+        record.summary.clone().or_else(|| self.summary())
     }
 
-    /// Returns the summary in the folder of its run.
+    /// Returns the content of `summary.json` in the folder, if it has a status.
     #[must_use]
     pub fn summary(&self) -> Option<Value> {
         let bytes = std::fs::read(self.folder.join("summary.json")).ok()?;
@@ -116,11 +122,12 @@ impl Place {
         summary.get("status").is_some().then_some(summary)
     }
 
-    /// Writes the summary of a fit or a test, with what it printed as measures.
+    /// Writes the summary of a fit or a test. `report` is the JSON that the command printed. Its
+    /// values become the measures.
     ///
     /// # Errors
-    /// The text is not JSON, or the summary cannot be written.
-    pub fn summarise(&self, report: &[u8]) -> Result<(), Error> {
+    /// [`Error::Io`] if `report` is not JSON, or if the summary cannot be written.
+    pub fn write_summary(&self, report: &[u8]) -> Result<(), Error> {
         let path = self.folder.join("summary.json");
         let report: Value = serde_json::from_slice(report)
             .map_err(|error| Error::io("write", &path)(error.into()))?;
@@ -128,7 +135,8 @@ impl Place {
         std::fs::write(&path, text).map_err(Error::io("write", &path))
     }
 
-    /// Returns whether its folder holds a run that came to its end, to the last file.
+    /// Returns whether the folder holds a complete run: both `status.json` and `summary.json` say
+    /// `ok`.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         let state = std::fs::read(self.folder.join("status.json")).ok();
@@ -137,58 +145,69 @@ impl Place {
             && self.summary().is_some_and(|summary| summary["status"] == "ok")
     }
 
-    /// Returns whether its folder holds a run that was begun and was cut off.
+    /// Returns whether the folder holds a run that was begun, as `run.json` shows, and did not end.
     #[must_use]
-    pub fn is_begun(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         let status = self.summary().map(|summary| summary["status"].clone());
-        self.folder.join("run.json").is_file() && status.is_none_or(|is| is == "interrupted")
+        let has_ended = status.is_some_and(|status| status != "interrupted");
+        self.folder.join("run.json").is_file() && !has_ended
     }
 
-    /// Puts the record of the point beside its folder, which keeps what it is to keep: of measures
-    /// alone, nothing is left but the record, which has the summary.
+    /// Writes `record` beside the folder of the point, and removes the files that `keep` does not
+    /// name.
+    ///
+    /// With [`Keep::Measures`] the record contains the summary, and the folder is removed. If the
+    /// worker failed, no results are removed.
     ///
     /// # Errors
-    /// A file cannot be written or removed.
+    /// [`Error::Io`] if a file cannot be written or removed.
     pub fn finish(&self, record: &Record, keep: Keep) -> Result<(), Error> {
-        let is_last = record.outcome != Outcome::WorkerFailed;
+        let is_final = record.outcome != Outcome::WorkerFailed;
         let mut record = record.clone();
-        if keep == Keep::Measures && is_last {
+        if keep == Keep::Measures && is_final {
             record.summary = self.summary();
         }
+
+        // The record is renamed once it is complete, so that no process reads a part of it.
         let path = self.record_file();
         let text = serde_json::to_string(&record).expect("a record has a JSON form") + "\n";
         let part = self.folder.with_extension("part");
         std::fs::write(&part, text).map_err(Error::io("write", &part))?;
         std::fs::rename(&part, &path).map_err(Error::io("write", &path))?;
+
         let log = self.log();
-        removed(&log, std::fs::remove_file(&log))?;
-        if is_last { self.prune(keep) } else { Ok(()) }
+        check_removal(&log, std::fs::remove_file(&log))?;
+        if is_final { self.prune(keep) } else { Ok(()) }
     }
 
-    /// Removes what is not kept.
+    /// Removes the files of the folder that `keep` does not name.
     fn prune(&self, keep: Keep) -> Result<(), Error> {
         let kept: &[&str] = match keep {
             Keep::All => return Ok(()),
             Keep::Last => &["summary.json", "last.obj", "fabric.toml"],
-            Keep::Measures => return removed(&self.folder, std::fs::remove_dir_all(&self.folder)),
+            Keep::Measures => {
+                return check_removal(&self.folder, std::fs::remove_dir_all(&self.folder));
+            }
         };
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| path.is_file()) {
             let name = path.file_name().unwrap_or_default();
             if kept.iter().all(|kept| name != *kept) {
-                removed(&path, std::fs::remove_file(&path))?;
+                check_removal(&path, std::fs::remove_file(&path))?;
             }
         }
         Ok(())
     }
 
+    /// Returns the file `KEY.json` of the record.
     fn record_file(&self) -> PathBuf {
         self.folder.with_extension("json")
     }
 }
 
-/// Returns what came of a removal; what is not there is removed.
-fn removed(path: &Path, result: std::io::Result<()>) -> Result<(), Error> {
+/// Returns the error of the removal of `path`, if it failed. A file that did not exist counts as
+/// removed.
+fn check_removal(path: &Path, result: std::io::Result<()>) -> Result<(), Error> {
     match result {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
             Err(Error::io("remove", path)(error))
@@ -201,22 +220,22 @@ fn removed(path: &Path, result: std::io::Result<()>) -> Result<(), Error> {
 mod tests {
     use super::*;
 
-    /// Place in a folder, with files of its run.
-    fn place(root: &Path, files: &[(&str, &str)]) -> Place {
-        let place = Place { key: "ab12".into(), folder: root.join("ab12") };
-        std::fs::create_dir_all(&place.folder).expect("a folder");
+    /// Returns a storage in the folder `root` with the given `files` of its run.
+    fn storage(root: &Path, files: &[(&str, &str)]) -> PointStorage {
+        let storage = PointStorage { key: "ab12".into(), folder: root.join("ab12") };
+        std::fs::create_dir_all(&storage.folder).expect("a folder");
         for (name, text) in files {
-            std::fs::write(place.folder.join(name), text).expect("a file");
+            std::fs::write(storage.folder.join(name), text).expect("a file");
         }
-        place
+        storage
     }
 
     #[test]
     fn a_run_is_finished_if_both_files_say_so_and_begun_if_it_was_cut_off() {
         let is = |files: &[(&str, &str)]| {
             let root = tempfile::tempdir().expect("a folder");
-            let place = place(root.path(), files);
-            (place.is_finished(), place.is_begun())
+            let stored = storage(root.path(), files);
+            (stored.is_finished(), stored.is_interrupted())
         };
         let run = ("run.json", "{}");
         let [ok, stopped] = [r#"{"status": "ok"}"#, r#"{"status": "interrupted"}"#];
@@ -232,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn of_measures_alone_the_record_is_kept_unless_a_worker_failed() {
+    fn with_measures_only_the_record_is_kept_unless_a_worker_failed() {
         let root = tempfile::tempdir().expect("a folder");
         let files = [("summary.json", r#"{"status": "ok"}"#)];
         let mut record = Record {
@@ -244,22 +263,24 @@ mod tests {
             message: String::new(),
             summary: None,
         };
-        let own = place(root.path(), &files);
-        own.finish(&record, Keep::Measures).expect("finished");
-        assert!(own.folder.is_dir() && own.record() == Some(record.clone()));
+        let stored = storage(root.path(), &files);
+        stored.finish(&record, Keep::Measures).expect("finished");
+        assert!(stored.folder.is_dir() && stored.record() == Some(record.clone()));
         record.outcome = Outcome::Done;
-        own.finish(&record, Keep::All).expect("finished");
-        assert!(own.folder.is_dir() && own.record() == Some(record.clone()));
-        own.finish(&record, Keep::Measures).expect("finished");
+        stored.finish(&record, Keep::All).expect("finished");
+        assert!(stored.folder.is_dir() && stored.record() == Some(record.clone()));
+        stored.finish(&record, Keep::Measures).expect("finished");
         record.summary = Some(json!({ "status": "ok" }));
-        assert!(!own.folder.exists() && own.record() == Some(record));
+        assert!(!stored.folder.exists() && stored.record() == Some(record));
     }
 
     #[test]
-    fn what_is_in_the_way_of_a_removal_is_said() {
+    fn a_removal_that_fails_is_an_error() {
         let path = Path::new("here");
-        let failed = |kind: std::io::ErrorKind| removed(path, Err(kind.into()));
-        assert!(failed(std::io::ErrorKind::NotFound).is_ok() && removed(path, Ok(())).is_ok());
+        let failed = |kind: std::io::ErrorKind| check_removal(path, Err(kind.into()));
+        assert!(
+            failed(std::io::ErrorKind::NotFound).is_ok() && check_removal(path, Ok(())).is_ok()
+        );
         assert!(failed(std::io::ErrorKind::PermissionDenied).is_err());
     }
 }
