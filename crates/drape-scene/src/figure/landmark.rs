@@ -1,7 +1,7 @@
 //! Landmarks of a body: the heights of bust, waist and hip.
 //!
-//! A figure stands on two legs and has a neck. Its bust is at the level of the bust points, the foremost
-//! points of the chest, and its hip at the most prominent level of the buttocks \[ISO17\]. Its waist is where
+//! A figure stands on two legs and has a neck. Its bust is at the level of the bust points, where the
+//! chest is deepest, and its hip at the most prominent level of the buttocks \[ISO17\]. Its waist is where
 //! the trunk is thinnest. The feet tell where the front is. The landmarks are looked for where people have
 //! them, by fractions of the stature.
 //!
@@ -187,33 +187,35 @@ impl<'a> Profile<'a> {
         let chest = *BUST.start()..=chest_end;
         let hips = HIP.start().max(crotch + ABOVE_CROTCH)..=*HIP.end();
 
-        // Without feet nobody knows where the front is, and girths tell.
-        let front = self.front(crotch);
-        let foremost = front.and_then(|front| self.peak(&chest, |trunk| reach(trunk, front)));
-        let back = front.map(|front| front.map(|x| -x));
+        // The bust is where the chest is deepest: a back that leans carries the chest to and fro. For the hip
+        // the feet tell where the back is; without feet girths tell.
+        let across = self.across(crotch);
+        let deepest = across.and_then(|across| self.peak(&chest, |trunk| trunk.depth(across)));
+        let back = across.and_then(|across| self.back(across));
         let hindmost = back.and_then(|back| self.peak(&hips, |trunk| reach(trunk, back)));
-        let bust = foremost.or_else(|| self.peak(&chest, most)).map_or(usual(USUAL_BUST), shaped);
+        let bust = deepest.or_else(|| self.peak(&chest, most)).map_or(usual(USUAL_BUST), shaped);
         let hip = hindmost.or_else(|| self.peak(&hips, most));
         let hip = hip.map_or(usual(USUAL_HIP.max(crotch + ABOVE_CROTCH)), shaped);
         let waist = self.peak(&WAIST, least).map_or(usual(USUAL_WAIST), shaped);
         vec![Landmark::new("bust", bust), Landmark::new("waist", waist), Landmark::new("hip", hip)]
     }
 
-    /// Returns the direction in which the feet point, if they do.
-    fn front(&self, crotch: f64) -> Option<[f64; 2]> {
-        let middle = |range: RangeInclusive<f64>| {
-            let slices: Vec<&Slice> = self.within(&range).collect();
-            let middles = slices.iter().map(|slice| slice.trunk.middle());
-            let sum = middles.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-            (!slices.is_empty()).then(|| sum.map(|x| x / slices.len() as f64))
-        };
-        let [foot, shin] = [middle(0.0..=0.025)?, middle(0.08..=0.2)?];
-        let way = [foot[0] - shin[0], foot[1] - shin[1]];
+    /// Returns the direction from the front to the back or the other way, across the hips.
+    fn across(&self, crotch: f64) -> Option<[f64; 2]> {
         let hips = self.slices.iter().find(|slice| slice.fraction > crotch + 0.03)?;
-        let (side, _) = hips.trunk.longest();
-        let front = [-side[1], side[0]];
-        let ahead = along(way, front);
-        (ahead.abs() > 0.01 * self.stature).then(|| front.map(|x| ahead.signum() * x))
+        let ([x, z], _) = hips.trunk.longest();
+        Some([-z, x])
+    }
+
+    /// Returns which sense of a direction points to the back, if the feet tell: they point to the front.
+    fn back(&self, across: [f64; 2]) -> Option<[f64; 2]> {
+        let middle = |range: RangeInclusive<f64>| {
+            let middles: Vec<f64> =
+                self.within(&range).map(|slice| along(slice.trunk.middle(), across)).collect();
+            (!middles.is_empty()).then(|| middles.iter().sum::<f64>() / middles.len() as f64)
+        };
+        let ahead = middle(0.0..=0.025)? - middle(0.08..=0.2)?;
+        (ahead.abs() > 0.01 * self.stature).then(|| across.map(|x| -ahead.signum() * x))
     }
 
     /// Returns the height in a range at which a measure of the section is largest; none where that is at an

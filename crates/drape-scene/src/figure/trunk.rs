@@ -95,6 +95,12 @@ impl Trunk {
         self.arms.iter().map(|arm| middle(arm))
     }
 
+    /// Returns its extent in a direction, in m.
+    pub(crate) fn depth(&self, across: [f64; 2]) -> f64 {
+        let [low, high] = extent(self.points(), across);
+        high - low
+    }
+
     /// Returns the direction of its longest diameter, of length 1, and its width over its depth.
     pub(crate) fn longest(&self) -> ([f64; 2], f64) {
         let hull = convex_hull(self.points().collect());

@@ -57,7 +57,10 @@ fn girths(summary: &Summary) -> String {
         }
     };
     let line = |(name, places): (&String, &Value)| {
-        let places: Vec<String> = places.as_object().into_iter().flatten().map(place).collect();
+        let mut places: Vec<_> = places.as_object().into_iter().flatten().collect();
+        let height = |row: &Value| row["height"].as_f64().unwrap_or_default();
+        places.sort_by(|a, b| height(b.1).total_cmp(&height(a.1)));
+        let places: Vec<String> = places.into_iter().map(place).collect();
         format!("\nease of \"{name}\": {}", places.join(", "))
     };
     garments.into_iter().flatten().map(line).collect()

@@ -10,9 +10,13 @@ use crate::scene::Scene;
 use crate::scene::garment::Garment;
 
 use super::girth::Girths;
+use super::rings::Ring;
 
 /// Difference of two girths that is no difference, in m.
 const EQUAL: f64 = 5e-4;
+
+/// Distance of a ring from a height at which it still is at that height, in m.
+const LEVEL: f64 = 0.01;
 
 /// Returns a note for each place at which a garment of a scene is smaller than its body.
 pub(crate) fn ease_notes(scene: &Scene) -> Vec<String> {
@@ -30,15 +34,16 @@ fn notes(scene: &Scene, figures: &Figures, (number, garment): (usize, &Garment))
     let girths = Girths::new(scene, number);
     for (bodies, found) in figures.candidates() {
         let (mut is_about, mut notes) = (false, Vec::new());
-        for landmark in merged(found, &named(garment)) {
+        let landmarks = merged(found, &named(garment));
+        for landmark in &landmarks {
             let Some(trunk) = Trunk::at(bodies, landmark.height) else { continue };
-            let Some((girth, parts)) = girths.around(landmark.height, trunk.middle()) else {
+            let ring = girths.around(landmark.height, trunk.middle());
+            let Some(ring) = ring.filter(|ring| is_worn_at(ring, landmark, &landmarks)) else {
                 continue;
             };
             is_about = true;
-            let short = trunk.girth() - girth;
-            if short > EQUAL {
-                notes.push(note(&garment.name, &landmark, [girth, trunk.girth()], &parts));
+            if trunk.girth() - ring.girth > EQUAL {
+                notes.push(note(&garment.name, landmark, ring, trunk.girth()));
             }
         }
         if is_about {
@@ -48,14 +53,21 @@ fn notes(scene: &Scene, figures: &Figures, (number, garment): (usize, &Garment))
     Vec::new()
 }
 
+/// Returns whether a ring near a landmark belongs to it: it is at its height, or to no other one it is nearer.
+fn is_worn_at(ring: &Ring, landmark: &Landmark, all: &[Landmark]) -> bool {
+    let away = |own: &Landmark| (own.height - ring.plane.height()).abs();
+    away(landmark) <= LEVEL || all.iter().all(|own| away(landmark) <= away(own))
+}
+
 /// Describes a garment that is smaller than its body.
-fn note(name: &str, landmark: &Landmark, [garment, body]: [f64; 2], parts: &str) -> String {
+fn note(name: &str, landmark: &Landmark, ring: &Ring, body: f64) -> String {
     let by_stature = match landmark.found_by {
         FoundBy::Stature => ", where bodies of its height have it",
         FoundBy::Shape | FoundBy::Scene => "",
     };
     // The difference is that of the figures that are shown.
-    let [garment, body] = [garment, body].map(|girth| (1e3 * girth).round());
+    let [garment, body] = [ring.girth, body].map(|girth| (1e3 * girth).round());
+    let parts = ring.parts.join(" + ");
     format!(
         "\"{name}\" is smaller than the body at the {} ({:.2} m{by_stature}): {parts} measure {garment:.0} mm round in the \
          flat pattern, and the body {body:.0} mm, so its ease is −{:.0} mm and it has to stretch by {:.1} %; widen it \

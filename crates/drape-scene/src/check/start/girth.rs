@@ -104,9 +104,8 @@ impl<'a> Girths<'a> {
         tight.max_by(|a, b| a.stretch().total_cmp(&b.stretch()))
     }
 
-    /// Returns the girth of the ring round a point that is nearest to a height, in m, with the names of its
-    /// parts, if one is near.
-    pub(crate) fn around(&self, height: f64, point: [f64; 2]) -> Option<(f64, String)> {
+    /// Returns the ring round a point that is nearest to a height, in m, if one is near.
+    pub(crate) fn around(&self, height: f64, point: [f64; 2]) -> Option<&Ring> {
         let away = |ring: &Ring| (ring.plane.height() - height).abs();
         let goes_round = |ring: &&Ring| {
             let plane = SectionPlane::horizontal(height);
@@ -114,8 +113,7 @@ impl<'a> Girths<'a> {
             away(ring) <= SLACK && encloses(&convex_hull(outline), point)
         };
         let near = self.rings.iter().filter(goes_round);
-        let ring = near.min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        Some((ring.girth, ring.parts.join(" + ")))
+        near.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// Returns whether the garment is worn at the waist, as skirts with two openings and trousers
