@@ -229,6 +229,36 @@ fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
 }
 
 #[test]
+fn a_tshirt_has_ease_at_bust_and_hip_and_names_their_heights() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let named = ("fabric = \"wool\"", "fabric = \"wool\"\nmeasure.\"high hip\" = 0.98");
+    let scene = changed("tshirt", &[("spacing = 0.01", "spacing = 0.03"), named], folder.path());
+    let one = run(&scene, 1);
+    let girths = &one["measures"]["girths"]["tshirt"];
+    // Girths of the body as its README has them, and of the pattern.
+    for (place, height, body) in [("waist", 1.08, 0.669), ("high hip", 0.98, 0.828)] {
+        let row = &girths[place];
+        let at = |key: &str| number(&row[key]);
+        assert!((at("height") - height).abs() < 0.015, "{place}: {row}");
+        assert!((at("body") - body).abs() < 0.002, "{place}: {row}");
+        assert!((at("ease") - (at("garment") - at("body"))).abs() < 1e-12, "{place}: {row}");
+        assert!((at("pattern_ease") - (at("pattern") - at("body"))).abs() < 1e-12);
+        assert!(at("hull") <= at("garment") + 1e-9, "{place}: {row}");
+        // It hangs: the cloth is hardly longer than its pattern.
+        let stretch = at("garment") / at("pattern") - 1.0;
+        assert!((-0.03..0.03).contains(&stretch), "{place}: {row}");
+    }
+    let bust = &girths["bust"];
+    assert!((0.70..0.75).contains(&(number(&bust["height"]) / 1.665)), "{bust}");
+    // The pattern's chest is 992 mm.
+    assert!((number(&bust["pattern"]) - 0.992).abs() < 0.01, "{bust}");
+    assert_eq!(
+        (&bust["found_by"], &girths["high hip"]["found_by"]),
+        (&"shape".into(), &"scene".into())
+    );
+}
+
+#[test]
 fn a_seam_that_is_too_short_at_a_coarse_spacing_is_sewn_stretched_and_says_why() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = changed("tshirt", &[("spacing = 0.01", "spacing = 0.06")], folder.path());

@@ -89,10 +89,34 @@ impl SectionPlane {
     /// on closed lines, one for each limb that it cuts.
     #[must_use]
     pub fn lines(&self, mesh: &Triangulation) -> Vec<Vec<[f64; 2]>> {
+        let MeshCut { points, class, .. } = self.cut(mesh);
+        let mut lines: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
+        for (point, class) in points.into_iter().zip(class) {
+            lines.entry(class).or_default().push(point);
+        }
+        lines.into_values().collect()
+    }
+
+    /// Returns the straight pieces of the lines in which the plane cuts a mesh, line by line. The
+    /// pieces of a line are in the order of the triangles, not along the line.
+    #[must_use]
+    pub fn pieces(&self, mesh: &Triangulation) -> Vec<Vec<[[f64; 2]; 2]>> {
+        let MeshCut { points, pieces, class } = self.cut(mesh);
+        let mut lines: BTreeMap<u32, Vec<[[f64; 2]; 2]>> = BTreeMap::new();
+        for ends in pieces {
+            let line = lines.entry(class[ends[0] as usize]).or_default();
+            line.push(ends.map(|end| points[end as usize]));
+        }
+        lines.into_values().collect()
+    }
+
+    /// Returns the cut through a mesh.
+    fn cut(&self, mesh: &Triangulation) -> MeshCut {
         let height = |vertex: &[f64; 3]| dot(self.normal, subtract(*vertex, self.middle));
         let is_below: Vec<bool> = mesh.vertices.iter().map(|v| height(v) < 0.0).collect();
+        // Number each side of a triangle that is cut, and join the two sides of each triangle.
         let mut sides: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-        let mut pairs = Vec::new();
+        let mut pieces = Vec::new();
         for triangle in &mesh.triangles {
             let below = triangle.map(|corner| is_below[corner as usize]);
             if below == [below[0]; 3] {
@@ -104,18 +128,33 @@ impl SectionPlane {
                 *sides.entry([a.min(b), a.max(b)]).or_insert(next)
             });
             // A triangle has no or two sides that are cut.
-            pairs.extend(<[u32; 2]>::try_from(&cut.collect::<Vec<u32>>()[..]));
+            pieces.extend(<[u32; 2]>::try_from(&cut.collect::<Vec<u32>>()[..]));
         }
-        let class = equivalence_classes(sides.len(), &pairs);
-        let mut lines: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
+
+        // A line is a class of sides that pieces join. Points are in the order of the sides.
+        let class = equivalence_classes(sides.len(), &pieces);
+        let mut place = vec![0; sides.len()];
+        let (mut points, mut classes) = (Vec::new(), Vec::new());
         for (side, number) in sides {
             let [a, b] = side.map(|corner| mesh.vertices[corner as usize]);
             let (low, high) = (height(&a), height(&b));
-            let point = self.flat(between(a, b, low / (low - high)));
-            lines.entry(class[number as usize]).or_default().push(point);
+            place[number as usize] = points.len() as u32;
+            points.push(self.flat(between(a, b, low / (low - high))));
+            classes.push(class[number as usize]);
         }
-        lines.into_values().collect()
+        let pieces = pieces.into_iter().map(|ends| ends.map(|end| place[end as usize])).collect();
+        MeshCut { points, pieces, class: classes }
     }
+}
+
+/// Cut of a plane through a mesh.
+struct MeshCut {
+    /// Points on the sides of triangles.
+    points: Vec<[f64; 2]>,
+    /// Straight pieces across triangles, by the numbers of their ends.
+    pieces: Vec<[u32; 2]>,
+    /// Line of each point.
+    class: Vec<u32>,
 }
 
 /// Returns the length of a closed line in a plane or in space, in m.
@@ -237,6 +276,15 @@ mod tests {
             let corners = convex_hull(line);
             assert_eq!(corners, [[left, 0.0], [left + 0.5, 0.0], [left, 0.5]]);
         }
+        // The three pieces of each line go once round its corners.
+        let mut pieces = SectionPlane::horizontal(0.5).pieces(&mesh);
+        pieces.sort_by(|a, b| a[0][0][0].total_cmp(&b[0][0][0]));
+        for line in &pieces {
+            let length = |[[a, b], [c, d]]: &[[f64; 2]; 2]| (c - a).hypot(d - b);
+            let round = line.iter().map(length).sum::<f64>();
+            assert!(line.len() == 3 && (round - 1.0 - 0.5_f64.sqrt()).abs() < 1e-12, "{line:?}");
+        }
+        assert_eq!(pieces.len(), 2);
         assert!(SectionPlane::horizontal(1.5).lines(&mesh).is_empty());
     }
 

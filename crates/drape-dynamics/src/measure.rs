@@ -7,6 +7,7 @@
 
 mod fall;
 pub(crate) mod garment_parts;
+mod girths;
 pub(crate) mod open_seam;
 mod openings;
 mod pressure;
@@ -55,6 +56,7 @@ pub(crate) fn measures(parts: &GarmentParts, world: &mut World) -> Map<String, V
         .collect();
     measures.insert("free_edges".into(), json!(edges));
     measures.insert("openings".into(), openings::measures(parts, world));
+    measures.insert("girths".into(), girths::measures(parts, world));
     measures.insert("strain".into(), strain::measures(world));
     if let Some(pressures) = pressure::pressures(world, &positions) {
         measures.insert("pressure".into(), pressures);

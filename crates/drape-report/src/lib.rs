@@ -31,9 +31,9 @@ pub use error::Error;
 pub use page::{
     CaptionedPicture, ComparePage, Compared, ComparedNumber, ComparedValue, CustomerPage,
     Difference, EffectTable, Evidence, FabricName, FitPage, KesValue, LawReport, LawValue, Limits,
-    MeasureEffects, ModelScore, Quantity, ReportedDrape, ReportedFabric, ReportedLoop,
-    ReportedNote, ReportedValue, Statistics, StudyPage, Trust, ValidationCase, ValidationPage,
-    ValidationRow, Verdict,
+    MeasureEffects, ModelScore, Quantity, ReportedDrape, ReportedFabric, ReportedGarment,
+    ReportedGirth, ReportedLoop, ReportedNote, ReportedValue, Statistics, StudyPage, Trust,
+    ValidationCase, ValidationPage, ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::{Animation, Colour, ColourScale, Legend, Picture, Swatches, diverging};

@@ -22,7 +22,8 @@ mod validation_page;
 pub use compare_page::{ComparePage, FabricName};
 pub use compared_value::{Compared, ComparedNumber, ComparedValue, Difference};
 pub use customer::{
-    CustomerPage, ReportedDrape, ReportedFabric, ReportedLoop, ReportedNote, ReportedValue,
+    CustomerPage, ReportedDrape, ReportedFabric, ReportedGarment, ReportedGirth, ReportedLoop,
+    ReportedNote, ReportedValue,
 };
 pub use fit_page::{FitPage, KesValue, Quantity};
 pub use law_report::{Evidence, LawReport, Limits, ModelScore, Statistics, Trust, Verdict};

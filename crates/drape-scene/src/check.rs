@@ -72,7 +72,11 @@ pub(crate) fn check(
     let (mut seams, mut notes, mut garments) = (Vec::new(), Vec::new(), Vec::new());
     for garment in garment::garments(checker, &materials, count, grading.as_ref()) {
         let particles = garment.particles();
-        garments.extend(particles.map(|particles| Garment { name: garment.name, particles }));
+        garments.extend(particles.map(|particles| Garment {
+            name: garment.name,
+            particles,
+            measured_heights: garment.measured_heights,
+        }));
         placed.extend(garment.panels);
         seams.extend(garment.seams);
         notes.extend(garment.notes);

@@ -2,6 +2,7 @@
 
 // Values
 mod contact_stiffness;
+mod figure;
 mod grading;
 mod needs;
 mod scene;
@@ -17,6 +18,9 @@ mod read;
 
 pub use check::checker::MESH_LIMIT;
 pub use error::{Error, Refused};
+pub use figure::cloth_section::ClothPlaces;
+pub use figure::ease::{Figures, GarmentGirth, GirthPair, MeasuredGarment, NoGirth};
+pub use figure::landmark::{FoundBy, Landmark};
 #[cfg(feature = "schema")]
 pub use file::schema::scene_schema;
 pub use needs::Needs;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use drape_collide::{Body, Shape};
-use drape_scene::{Garment, Material, Panel, Scene, Seam, SeamPairs};
+use drape_scene::{Garment, Material, MeasuredGarment, Panel, Scene, Seam, SeamPairs};
 use serde::{Deserialize, Serialize};
 
 /// Parts of the cloth of a scene.
@@ -14,6 +14,8 @@ pub(crate) struct GarmentParts {
     /// Panels, in the order of the scene.
     pub(crate) panels: Vec<PanelSpan>,
     pub(crate) garments: Vec<HungGarment>,
+    /// The garments as surfaces that girths are measured of.
+    pub(crate) measured: Vec<MeasuredGarment>,
     /// Lowest point of the bodies, in m, if a garment that is below it falls for ever.
     pub(crate) ground: Option<f64>,
     /// Whether there is a body but the ground.
@@ -87,6 +89,7 @@ impl GarmentParts {
             panels: scene.panels.iter().map(span).collect(),
             ground: if garments.is_empty() { None } else { lowest(bodies.clone()) },
             garments,
+            measured: MeasuredGarment::all(scene),
             has_bodies: bodies.clone().any(|body| !matches!(body.shape, Shape::Plane)),
             seams: seams.unwrap_or_default(),
             named_seams: scene.sewing.as_ref().map_or_else(Vec::new, |own| own.seams.clone()),
@@ -120,7 +123,7 @@ impl GarmentParts {
 
 impl HungGarment {
     fn new(garment: &Garment, positions: &[f64]) -> Self {
-        let Garment { name, particles } = garment.clone();
+        let Garment { name, particles, .. } = garment.clone();
         let hung = VerticalExtent { low: 0.0, high: 0.0 };
         let mut own = Self { name, particles, hung, slid: None };
         own.hang(positions);

@@ -8,6 +8,7 @@ mod placed_panel;
 mod seam_order;
 pub(crate) mod sewing;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
@@ -28,6 +29,9 @@ use self::layer::layer;
 use self::placed_panel::{Piece, placed_panel};
 use self::seam_order::{PlacedSeam, SeamHome};
 
+/// Largest height at which a garment is measured, in m.
+const HEIGHT_MAX: f64 = 10.0;
+
 /// Garment as its panels and its seams.
 pub(crate) struct CutGarment {
     /// Its own name, or else that of the file of its pattern.
@@ -36,6 +40,8 @@ pub(crate) struct CutGarment {
     pub(crate) seams: Vec<Seam>,
     /// Notes on its pattern.
     pub(crate) notes: Vec<String>,
+    /// Heights at which it is measured, in m, by their names.
+    pub(crate) measured_heights: BTreeMap<String, f64>,
 }
 
 impl CutGarment {
@@ -220,7 +226,25 @@ fn cut(
     };
     let seams = seams.collect();
     let panels = pieces.into_iter().map(|piece| piece.panel).collect();
-    Some(CutGarment { name, panels, seams, notes })
+    let measured_heights = measured_heights(checker, key, entry);
+    Some(CutGarment { name, panels, seams, notes, measured_heights })
+}
+
+/// Returns the heights at which a garment is measured, in m, by their names.
+fn measured_heights(
+    checker: &mut Checker<'_>,
+    key: &str,
+    entry: &GarmentFile,
+) -> BTreeMap<String, f64> {
+    let unit = checker.unit;
+    let heights = entry.measure.iter().map(|(name, height)| (name.clone(), *height * unit));
+    let heights: BTreeMap<String, f64> = heights.collect();
+    let help = "the height above y = 0, in the file's unit, or with a unit: \"1080 mm\"";
+    for (name, height) in &heights {
+        let key = format!("{key}.measure.{}", toml_key(name));
+        checker.within(&key, height / unit, -HEIGHT_MAX / unit..=HEIGHT_MAX / unit, help);
+    }
+    heights
 }
 
 /// Checks the order and the sense of the seams of a garment, whose edges have their places from a

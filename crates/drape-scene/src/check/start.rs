@@ -3,6 +3,7 @@
 
 mod apart;
 mod bodies;
+mod ease_notes;
 pub(crate) mod girth;
 mod layers;
 mod place_key;
@@ -23,6 +24,7 @@ use crate::tangle::Tangle;
 
 use self::apart::{leave_bodies, part_panels};
 use self::bodies::{body_notes, contact_limits};
+use self::ease_notes::ease_notes;
 use self::girth::girth_notes;
 use self::layers::check_layers;
 use self::place_key::place_key;
@@ -61,9 +63,13 @@ pub(crate) fn check_start(
         _ => check_particles_outside(checker, &particles, &scene),
     }
     if tangle.is_none() {
-        let notes =
-            [stitches_through_bodies(&scene), stitches_through_panels(&scene), girth_notes(&scene)]
-                .concat();
+        let notes = [
+            stitches_through_bodies(&scene),
+            stitches_through_panels(&scene),
+            girth_notes(&scene),
+            ease_notes(&scene),
+        ]
+        .concat();
         scene.source.notes.extend(notes);
     }
     if tangle.is_none() {

@@ -34,6 +34,10 @@ pub(crate) struct GarmentFile {
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
     pub(crate) noise: Option<NoiseFile>,
+    /// Heights above y = 0 at which girth and ease are measured, by their names: `waist = 1.08`. `bust`,
+    /// `waist` and `hip` are found on the body where they are missing.
+    #[serde(default)]
+    pub(crate) measure: BTreeMap<String, Given<Length>>,
     /// Keys of single panels, in place of those of the pattern.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, GarmentPanelFile>,

@@ -1,5 +1,6 @@
 //! Garments of a scene, and how they are sewn.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use drape_cloth::{Cloth, SeamBending};
@@ -7,12 +8,14 @@ use drape_cloth::{Cloth, SeamBending};
 use crate::scene::seam::{Seam, SeamPairs};
 
 /// Garment of a scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Garment {
     /// Its own name, or that of the file of its pattern.
     pub name: String,
     /// Its particles.
     pub particles: Range<usize>,
+    /// Heights at which girth and ease are measured, in m, by the names that the scene gives them.
+    pub measured_heights: BTreeMap<String, f64>,
 }
 
 /// Sewing of the garments of a scene before they hang: the sides of all seams are drawn together,

@@ -1,10 +1,11 @@
 //! `drape report`: the report on fabrics that a laboratory sends to its customer, one HTML page.
 //!
 //! The fabrics are read and fitted ([`tested`]), their drapes are taken from results of `drape test --drape`
-//! or run, and the page is made by `drape::run::reports`.
+//! or run, girths of garments from runs ([`worn`]), and the page is made by `drape::run::reports`.
 
 mod arguments;
 mod tested;
+mod worn;
 
 use std::path::Path;
 
@@ -46,7 +47,8 @@ pub(crate) fn report(arguments: &ReportArguments) -> Result<(), Failure> {
         });
     }
 
-    let page = customer_page(&subjects);
+    let mut page = customer_page(&subjects);
+    page.garments = worn::read(&arguments.garments)?;
     let html = page.to_html()?;
     if let Some(csv) = &arguments.csv {
         file::write(csv, page.to_csv()?)?;

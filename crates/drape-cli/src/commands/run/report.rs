@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
+use serde_json::Value;
 
 use crate::console::signal;
 use crate::failure::Failure;
@@ -24,7 +25,7 @@ pub(crate) fn describe(summary: &Summary) -> String {
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; \
          99 of 100 curvatures below {:.0} 1/m\n\
-         contact: smallest distance {smallest}, {} intersections or particles inside{}{}{}{}",
+         contact: smallest distance {smallest}, {} intersections or particles inside{}{}{}{}{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,
@@ -39,7 +40,30 @@ pub(crate) fn describe(summary: &Summary) -> String {
         pinched(contact),
         grown(contact),
         energy.as_ref().map_or(String::new(), balance),
+        girths(summary),
     )
+}
+
+/// Describes girth and ease of each garment, in mm.
+fn girths(summary: &Summary) -> String {
+    let garments = summary.measures.get("girths").and_then(Value::as_object);
+    let whole = |value: &Value| (1e3 * value.as_f64().unwrap_or_default()).round();
+    let place = |(name, row): (&String, &Value)| match row["not_measured"].as_str() {
+        Some(reason) => format!("{name} not measured ({reason})"),
+        // The ease is the difference of the girths that are shown.
+        None => {
+            let [garment, body] = [&row["garment"], &row["body"]].map(whole);
+            format!("{name} {} mm (garment {garment}, body {body})", garment - body)
+        }
+    };
+    let line = |(name, places): (&String, &Value)| {
+        let mut places: Vec<_> = places.as_object().into_iter().flatten().collect();
+        let height = |row: &Value| row["height"].as_f64().unwrap_or_default();
+        places.sort_by(|a, b| height(b.1).total_cmp(&height(a.1)));
+        let places: Vec<String> = places.into_iter().map(place).collect();
+        format!("\nease of \"{name}\": {}", places.join(", "))
+    };
+    garments.into_iter().flatten().map(line).collect()
 }
 
 /// Describes intersections of closing seams.

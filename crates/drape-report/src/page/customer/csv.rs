@@ -1,9 +1,10 @@
 //! All numbers of a report to a customer as one table of comma-separated values.
 //!
-//! A row is a line of the head, a value, a drape or a point of a loop, in the laboratory's units; columns
+//! A row is a line of the head, a value, a drape, a point of a loop or a girth of a garment, in the laboratory's units; columns
 //! that a row has no number for are empty. Numbers have a decimal point and at most ten digits.
 
 use super::drape::ReportedDrape;
+use super::garment::ReportedGarment;
 use super::report::{CustomerPage, ReportedLoop};
 use super::values::ReportedValue;
 use crate::error::Error;
@@ -142,7 +143,35 @@ pub(super) fn table(page: &CustomerPage, detail: Detail) -> String {
                 of(Row { part: "assumed", text: note.text.clone(), ..Row::default() })
             }));
     }
+    lines.extend(page.garments.iter().flat_map(garment_rows).map(|row| row.line()));
     lines.join("\r\n") + "\r\n"
+}
+
+/// Returns the rows of a garment: girths and ease at each place, in mm. They belong to no fabric.
+fn garment_rows(garment: &ReportedGarment) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for girth in &garment.girths {
+        let [ease, pattern_ease] = girth.ease();
+        let figures = [
+            ("height", Some(girth.height)),
+            ("body", Some(girth.body)),
+            ("garment", girth.garment),
+            ("ease", ease),
+            ("pattern", girth.pattern),
+            ("ease in the pattern", pattern_ease),
+        ];
+        rows.extend(figures.into_iter().filter(|(_, length)| length.is_some()).map(
+            |(name, length)| Row {
+                part: "garment",
+                item: format!("{}, {}: {name}", garment.name, girth.place),
+                unit: "mm".to_owned(),
+                law: length.map(|length| 1e3 * length),
+                text: girth.remark.clone(),
+                ..Row::default()
+            },
+        ));
+    }
+    rows
 }
 
 /// Returns the row of a value of a fabric, if the fabric has one.

@@ -28,6 +28,9 @@ const POINTS_MAX: usize = 1200;
 /// loops are left out of it.
 const TABLE_MAX: usize = 700_000;
 
+/// Labels of the figures of a girth, on narrow screens.
+const GIRTH_LABELS: [&str; 5] = ["body", "garment", "ease", "pattern", "ease in the pattern"];
+
 #[derive(Template)]
 #[template(path = "page/customer.html")]
 struct View<'a> {

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::drape::ReportedDrape;
+use super::garment::ReportedGarment;
 use super::values::ReportedValue;
 use crate::check;
 use crate::error::Error;
@@ -45,6 +46,8 @@ pub struct CustomerPage {
     pub values: Vec<ReportedValue>,
     /// Values that no law has.
     pub others: Vec<ReportedValue>,
+    /// Garments of the fabrics on bodies.
+    pub garments: Vec<ReportedGarment>,
     /// Assumptions in place of measurements, each once.
     pub assumed: Vec<ReportedNote>,
     /// Other notes for the reader, each once.
@@ -128,6 +131,7 @@ impl CustomerPage {
             }
             drape.iter().try_for_each(ReportedDrape::check)?;
         }
+        self.garments.iter().try_for_each(ReportedGarment::check)?;
         let notes = self.assumed.iter().chain(&self.notes);
         notes.map(|note| &note.text).try_for_each(|text| check::text("a note", text))?;
         self.values.iter().chain(&self.others).try_for_each(ReportedValue::check)

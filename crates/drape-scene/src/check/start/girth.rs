@@ -104,6 +104,18 @@ impl<'a> Girths<'a> {
         tight.max_by(|a, b| a.stretch().total_cmp(&b.stretch()))
     }
 
+    /// Returns the ring round a point that is nearest to a height, in m, if one is near.
+    pub(crate) fn around(&self, height: f64, point: [f64; 2]) -> Option<&Ring> {
+        let away = |ring: &Ring| (ring.plane.height() - height).abs();
+        let goes_round = |ring: &&Ring| {
+            let plane = SectionPlane::horizontal(height);
+            let outline = ring.points.iter().map(|&place| plane.flat(place)).collect();
+            away(ring) <= SLACK && encloses(&convex_hull(outline), point)
+        };
+        let near = self.rings.iter().filter(goes_round);
+        near.min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
+
     /// Returns whether the garment is worn at the waist, as skirts with two openings and trousers
     /// with three are; shirts have more.
     pub(crate) fn is_worn_at_waist(&self) -> bool {

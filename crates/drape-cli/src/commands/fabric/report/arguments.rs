@@ -30,6 +30,10 @@ pub(crate) struct ReportArguments {
     /// several times. With --drape the folder into which those that are missing are written.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) drapes: Vec<PathBuf>,
+    /// Folder of a run of a garment: girth and ease at bust, waist and hip are reported; may be given several
+    /// times.
+    #[arg(long = "garment", value_name = "RUN")]
+    pub(crate) garments: Vec<PathBuf>,
     /// Drapes the fabrics of which no drape is at hand; minutes to hours, the expected time is said first.
     #[arg(long)]
     pub(crate) drape: bool,
