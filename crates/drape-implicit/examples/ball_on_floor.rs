@@ -1,4 +1,5 @@
-//! A ball that falls on a floor as thin as nothing: a step filter keeps it above in every iteration.
+//! A ball that falls on a floor as thin as nothing: a step filter keeps it above in every
+//! iteration.
 //!
 //! The floor pushes by the barrier of incremental potential contact (Li et al. 2020), within a
 //! millimetre. Within a step of 10 ms the ball falls 60 mm, right through it if nothing limited the

@@ -1,7 +1,7 @@
 //! A chain that is let go between two nails and comes to rest as a catenary.
 //!
-//! Its links are springs so stiff that an explicit method would need steps below 0.1 ms; the steps here
-//! are 50 ms. Backward Euler damps the swing.
+//! Its links are springs so stiff that an explicit method would need steps below 0.1 ms; the steps
+//! here are 50 ms. Backward Euler damps the swing.
 
 use drape_implicit::{
     BlockMatrix, Error, Integrator, IntegratorState, Settings, Sparsity, Stepper, Stiffness, System,

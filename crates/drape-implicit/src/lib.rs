@@ -2,14 +2,18 @@
 //!
 //! # Tour
 //!
-//! A caller implements [`System`], with [`StepFilter`] on top where steps must not lead to
-//! intersections, and holds an [`IntegratorState`] and a [`Stepper`] with its [`Settings`]. Each
-//! call of [`Stepper::advance`] passes through three chapters: `integrator` divides the step into
-//! sub-steps and predicts, `nonlinear` solves the equations of each by Newton's and Broyden's
-//! methods, `linear` solves the linear systems in it, on the [`BlockMatrix`] that the system fills.
-//! A [`Report`] tells the work done, an [`Error`] why a step could not be made. [`check_system`] is
-//! for the tests of a new system, [`ErrorEstimate`] for steps of a length by their error,
-//! [`Explicit`] for cross-checks.
+//! A caller implements [`System`], and also [`StepFilter`] where steps must not lead to
+//! intersections. The caller holds an [`IntegratorState`] and a [`Stepper`] with [`Settings`]. Each
+//! call of [`Stepper::advance`] passes through three chapters:
+//!
+//! - `integrator` divides the step into sub-steps and predicts the end positions of each.
+//! - `nonlinear` solves the equations of a sub-step by Newton's and Broyden's methods.
+//! - `linear` solves the linear systems of these methods with the [`BlockMatrix`] that the system
+//!   fills.
+//!
+//! A [`Report`] counts the work done. An [`Error`] says why a step failed. [`check_system`] tests a
+//! new system. [`ErrorEstimate`] serves callers that choose the length of a step by its error.
+//! [`Explicit`] integrates by another method as a cross-check.
 
 // Interface of a system.
 mod step_filter;

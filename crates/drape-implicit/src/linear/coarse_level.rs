@@ -30,13 +30,13 @@ use crate::system::MaterialPoint;
 use interpolation::Interpolation;
 use projection::Projection;
 
-/// Fewest particles at the finest spacing with which the coarse level saves time: with 10 000 it saves
-/// as much as it takes on one thread, and more on two, where it is solved beside the incomplete factor.
-/// With 4 900 it takes a tenth more time than it saves.
+/// Fewest particles at the finest spacing with which the coarse level saves time: with 10 000 it
+/// saves as much as it takes on one thread, and more on two, where it is solved beside the
+/// incomplete factor. With 4 900 it takes a tenth more time than it saves.
 const MIN_PARTICLES: f64 = 8_000.0;
 
-/// Relative shift of the main diagonal of the coarse matrix, which may be singular to rounding where
-/// nodes share their only particles.
+/// Relative shift of the main diagonal of the coarse matrix, which may be singular to rounding
+/// where nodes share their only particles.
 const SHIFT: f64 = 1e-9;
 
 /// Coarse matrix with its factor, and the interpolation from its nodes.

@@ -74,9 +74,9 @@ impl ConjugateGradient {
     /// Solves `A x = b` from `x = 0` until a target is met, in at least one iteration. `x` holds
     /// `b ≠ 0` on entry.
     ///
-    /// The energy `½ xᵀA x − bᵀx` that an iteration gains is half the square of its step in the norm
-    /// of `A`, and the energy that is left to gain is half the square of the error \[HS52\]. As long
-    /// as gains fall fast, the last ones tell what is left.
+    /// The energy `½ xᵀA x − bᵀx` that an iteration gains is half the square of its step in the
+    /// norm of `A`, and the energy that is left to gain is half the square of the error \[HS52\].
+    /// As long as gains fall fast, the last ones tell what is left.
     ///
     /// At negative curvature the solution so far is kept if its residual is smaller than that of
     /// zero \[DS83\]. Beginning again with a definite matrix took a third more iterations on a

@@ -9,8 +9,8 @@
 //! S_{jk} \leftarrow S_{jk} - S_{ij}^T\, U_{ik}
 //! ```
 //!
-//! `$S$` begins as the matrix; in between it is the [Schur complement](schur_complement) of the rows
-//! eliminated. Updates outside the sparsity are [dropped](dropped_fill) and compensated on the
+//! `$S$` begins as the matrix; in between it is the [Schur complement](schur_complement) of the
+//! rows eliminated. Updates outside the sparsity are [dropped](dropped_fill) and compensated on the
 //! diagonal. Pivots may collapse all the same: the [elimination] is then tried again with a larger
 //! shift. A finished [factor] is applied by two [triangular solves](triangular_solve).
 
@@ -88,10 +88,10 @@ impl IncompleteCholesky {
 
     /// Factorises a packed matrix. Returns the number of attempts that failed.
     ///
-    /// Begins with the attempt that succeeded last or, if that succeeded at once, with the second; but
-    /// until [`forget`](Self::forget) the very first is not tried again after it has failed. Tried
-    /// each time, it failed for almost every matrix of a cloth that comes to rest, and for half of
-    /// those of a swing.
+    /// Begins with the attempt that succeeded last or, if that succeeded at once, with the second;
+    /// but until [`forget`](Self::forget) the very first is not tried again after it has failed.
+    /// Tried each time, it failed for almost every matrix of a cloth that comes to rest, and for
+    /// half of those of a swing.
     pub(crate) fn factorise(
         &mut self,
         arch: Arch,
@@ -271,7 +271,8 @@ mod tests {
         }
     }
 
-    /// Largest entries of the product `UᵀD U`, less those of the matrix, on and beside the sparsity.
+    /// Largest entries of the product `UᵀD U`, less those of the matrix, on and beside the
+    /// sparsity.
     fn differences(matrix: &BlockMatrix, parts: usize) -> [f64; 2] {
         let sparsity = matrix.sparsity();
         let schedule = schedule(sparsity, parts);

@@ -1,5 +1,5 @@
-//! Preconditioner of conjugate gradients: the incomplete factor and, for large systems on sheets, the
-//! coarse level added to it.
+//! Preconditioner of conjugate gradients: the incomplete factor and, for large systems on sheets,
+//! the coarse level added to it.
 
 use pulp::Arch;
 

@@ -40,10 +40,10 @@ pub(crate) struct SystemMatrix {
 impl SystemMatrix {
     /// Matrix of zeros on a sparsity, with the material points of the particles or none.
     ///
-    /// Steps that end when little energy is left to gain are preconditioned without a coarse level, in
-    /// one part: with it, cloth of 10 201 particles that comes to rest on a cube took half as many
-    /// matrices again, 51 s instead of 33, and a T-shirt of 21 137 only a twentieth less time. Parts
-    /// are for the stabilised factor, which goes with it.
+    /// Steps that end when little energy is left to gain are preconditioned without a coarse level,
+    /// in one part: with it, cloth of 10 201 particles that comes to rest on a cube took half as
+    /// many matrices again, 51 s instead of 33, and a T-shirt of 21 137 only a twentieth less time.
+    /// Parts are for the stabilised factor, which goes with it.
     pub(crate) fn new(
         sparsity: Sparsity,
         material_points: Vec<MaterialPoint>,
@@ -89,8 +89,8 @@ impl SystemMatrix {
         Ok(())
     }
 
-    /// Solves `A x = b` to a target (conjugate gradients) or to rounding (Cholesky). Returns whether
-    /// the target was met.
+    /// Solves `A x = b` to a target (conjugate gradients) or to rounding (Cholesky). Returns
+    /// whether the target was met.
     pub(crate) fn solve(
         &mut self,
         b: &[f64],

@@ -9,8 +9,8 @@ use crate::linear::block::{self, Block};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::sparsity::Sparsity;
 
-/// Weighted sums of blocks for each pair of corners of two cells: for each of nine entries, the four
-/// corners of the second cell with the first corner of the first cell, then with the next.
+/// Weighted sums of blocks for each pair of corners of two cells: for each of nine entries, the
+/// four corners of the second cell with the first corner of the first cell, then with the next.
 type CornerSums = [[f64; 16]; 9];
 
 /// Blocks of the matrix by the cells that their particles lie in, and their places in the coarse

@@ -139,8 +139,8 @@ impl Elimination {
 }
 
 impl Parts<'_> {
-    /// Eliminates the parts side by side; all of them, because it depends on the threads in which of
-    /// them a pivot collapses first.
+    /// Eliminates the parts side by side; all of them, because it depends on the threads in which
+    /// of them a pivot collapses first.
     fn eliminate(self, arch: Arch, input: Input<'_>) -> bool {
         let Self { parts, work, mut factor } = self;
         if let ([part], [work]) = (parts, &mut *work) {

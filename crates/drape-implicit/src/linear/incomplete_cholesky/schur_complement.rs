@@ -19,8 +19,8 @@ pub(crate) struct SchurComplement {
     numbers: Vec<f32>,
     /// Range of the layout's numbers that is stored first.
     own: Range<usize>,
-    /// Range of the layout's numbers that is stored after it: those of separators, from which the part
-    /// subtracts.
+    /// Range of the layout's numbers that is stored after it: those of separators, from which the
+    /// part subtracts.
     separators: Range<usize>,
 }
 

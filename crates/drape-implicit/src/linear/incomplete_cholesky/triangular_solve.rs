@@ -1,9 +1,10 @@
 //! Triangular solves with a finished factor, part by part.
 //!
-//! Parts are coupled by separators alone. So they are solved for side by side, down to the separators
-//! and up again:
+//! Parts are coupled by separators alone. So they are solved for side by side, down to the
+//! separators and up again:
 //!
-//! 1. each part by forward substitution, with what it takes off the separators in a vector of its own;
+//! 1. each part by forward substitution, with what it takes off the separators in a vector of its
+//!    own;
 //! 2. the separators, from these vectors in the order of the parts, forward and backward;
 //! 3. each part by backward substitution.
 
@@ -164,8 +165,9 @@ impl Solver<'_> {
         arch.dispatch(Sweep { layout, factor, direction, runs, own, separators });
     }
 
-    /// Takes a step of the solution for parts, side by side. `rows` begin at the first part or before
-    /// it and end before the next one, so that the separator after each part is among its rows.
+    /// Takes a step of the solution for parts, side by side. `rows` begin at the first part or
+    /// before it and end before the next one, so that the separator after each part is among its
+    /// rows.
     fn sweep_parts(
         self,
         direction: Direction,

@@ -1,7 +1,7 @@
 //! Chunks: consecutive runs, about equally many rows each, that threads work on side by side.
 //!
-//! What is computed for a chunk depends on the chunk alone, and sums over chunks run in their order,
-//! so the number of threads changes no bit.
+//! What is computed for a chunk depends on the chunk alone, and sums over chunks run in their
+//! order, so the number of threads changes no bit.
 
 use core::ops::Range;
 

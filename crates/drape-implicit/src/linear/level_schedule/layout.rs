@@ -247,7 +247,8 @@ impl BatchLayout {
         })
     }
 
-    /// Assigns each run its range of numbers of the Schur complement. Those of the parts come first.
+    /// Assigns each run its range of numbers of the Schur complement. Those of the parts come
+    /// first.
     fn find_numbers(&mut self, runs_of: &[Range<usize>]) {
         let parts = runs_of.iter().step_by(2).cloned().flatten();
         self.part_numbers = self.number_runs(parts, 0);

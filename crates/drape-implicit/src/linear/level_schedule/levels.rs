@@ -21,8 +21,8 @@ impl Levels {
         Self { neighbours: Grouped::new(count, pairs), level_of: vec![None; count] }
     }
 
-    /// Particles of each level of a group, ascending. The group is given in the order of elimination;
-    /// couplings to other groups do not count.
+    /// Particles of each level of a group, ascending. The group is given in the order of
+    /// elimination; couplings to other groups do not count.
     pub(super) fn of(&mut self, group: &[u32]) -> Vec<Vec<u32>> {
         let Self { neighbours, level_of } = self;
         let mut levels: Vec<Vec<u32>> = Vec::new();

@@ -4,7 +4,8 @@ use super::chunk::{Chunk, leading_to};
 use crate::linear::lanes::Double;
 use crate::linear::vector::add_scaled;
 
-/// Sum of what a chunk adds to the rows of its window: its own and those that its diagonals lead to.
+/// Sum of what a chunk adds to the rows of its window: its own and those that its diagonals lead
+/// to.
 #[derive(Clone, Debug)]
 pub(crate) struct PartialSum<const N: usize>(pub [Vec<f64>; N]);
 

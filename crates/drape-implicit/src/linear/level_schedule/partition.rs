@@ -13,12 +13,12 @@ const MAX_PARTS: usize = 16;
 ///
 /// Consecutive levels of the particles' own order make a part, about equally many particles each. A
 /// separator holds the particles of a part that are coupled to later parts. Without them no two
-/// parts are coupled: this is a dissection \[Geo73\] along one direction. Cuts along levels leave the
-/// diagonals of the runs whole: with cuts across a sheet curtain and swing of 40 000 particles took 1.6
-/// and 1.4 times as long in eight parts as in one, at as many iterations.
+/// parts are coupled: this is a dissection \[Geo73\] along one direction. Cuts along levels leave
+/// the diagonals of the runs whole: with cuts across a sheet curtain and swing of 40 000 particles
+/// took 1.6 and 1.4 times as long in eight parts as in one, at as many iterations.
 ///
-/// Parts are for stabilised factors with a coarse level: in 2, 4 and 8 parts these two took 0 to 10 %
-/// more iterations. With compensated factors those of 10 000 took a quarter more in two parts and
+/// Parts are for stabilised factors with a coarse level: in 2, 4 and 8 parts these two took 0 to 10
+/// % more iterations. With compensated factors those of 10 000 took a quarter more in two parts and
 /// twice as many in four.
 #[derive(Debug)]
 pub(crate) struct Partition {
@@ -51,8 +51,8 @@ impl Partition {
         for (particle, &part) in part_of.iter().enumerate() {
             groups[2 * part + usize::from(separates[particle])].push(particle as u32);
         }
-        // Backwards, so that the elimination of a part ends at a separator, and does not begin there:
-        // the factor is better.
+        // Backwards, so that the elimination of a part ends at a separator, and does not begin
+        // there: the factor is better.
         for part in 1..count {
             if part % 2 == 1 || part + 1 == count {
                 groups[2 * part].reverse();

@@ -26,8 +26,8 @@ impl RowOrder {
         let mut levels = Levels::new(sparsity);
         let groups = partition.groups.iter().map(|group| levels.of(group));
         let groups: Vec<Vec<Vec<u32>>> = groups.collect();
-        // The blocks of zeros of a batch may lead as far beyond its target as its run is long. Beside
-        // other groups they must not meet these.
+        // The blocks of zeros of a batch may lead as far beyond its target as its run is long.
+        // Beside other groups they must not meet these.
         let longest = groups.iter().flatten().map(Vec::len).max().unwrap_or(0);
         let margin = if groups.len() == 1 { 0 } else { longest.next_multiple_of(LANES) };
         let mut order = Self {
