@@ -60,10 +60,11 @@ impl Extrapolation {
 /// extrapolation are known multiples of one derivative (Milne's device). The difference between
 /// solution and extrapolation therefore gives the error:
 ///
-/// | formula | extrapolation | error of the extrapolation | error of the formula |
-/// |---|---|---|---|
-/// | first order | `x₀ + dt v₀` | `−dt² x″/2` | `dt² x″/2` |
-/// | second order, `ρ = dt/dt₋₁` | `x₀ + dt v₀ + dt² (v₀ − v₋₁)/(2 dt₋₁)` | `−dt³ x‴ (1/6 + 1/(4ρ))` | `dt³ x‴ (1 + ρ)²/(6ρ (1 + 2ρ))` |
+/// - First order: the extrapolation `x₀ + dt v₀` has the error `−dt² x″/2`, and the formula has the
+///   error `dt² x″/2`.
+/// - Second order, with `ρ = dt/dt₋₁`: the extrapolation `x₀ + dt v₀ + dt² (v₀ − v₋₁)/(2 dt₋₁)` has
+///   the error `−dt³ x‴ (1/6 + 1/(4ρ))`, and the formula has the error
+///   `dt³ x‴ (1 + ρ)²/(6ρ (1 + 2ρ))`.
 ///
 /// Oscillations faster than the step are not resolved. Their error counts with their amplitude.
 ///
