@@ -6,7 +6,7 @@
 //! step.
 
 use drape_implicit::{
-    BlockMatrix, Error, Integrator, IntegratorState, Settings, Sparsity, StepFilter, StepLimit,
+    AllowedStep, BlockMatrix, Error, Integrator, IntegratorState, Settings, Sparsity, StepFilter,
     Stepper, Stiffness, System, TrialStep,
 };
 
@@ -72,15 +72,15 @@ impl System for Ball {
 }
 
 impl StepFilter for Ball {
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         // A tenth of the height is kept, so that no step ends on the floor.
         let (fall, room) = (-step.displacements[1], 0.9 * step.start[1]);
         if fall <= room {
-            return StepLimit::Whole;
+            return AllowedStep::Whole;
         }
         let fraction = room / fall;
         step.displacements.iter_mut().for_each(|d| *d *= fraction);
-        StepLimit::Shortened { obstacle_advance: fraction * step.obstacle_advance }
+        AllowedStep::Shortened { obstacle_advance: fraction * step.obstacle_advance }
     }
 
     fn set_obstacle_time(&mut self, _time: f64) {

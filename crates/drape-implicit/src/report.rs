@@ -43,7 +43,7 @@ pub struct Report {
     /// the kinetic energy of the sub-step. 0 if the energy tolerance ended no sub-step.
     pub energy_left: f64,
     /// Energy balance, if [`Settings::energy_balance`](crate::Settings::energy_balance) is set.
-    pub energy: Option<Energy>,
+    pub energy: Option<StepEnergy>,
 }
 
 impl AddAssign<&Report> for Report {
@@ -75,7 +75,7 @@ impl AddAssign<&Report> for Report {
 /// `work = kinetic + potential + numerical_dissipation`, if the forces are the negative gradient of
 /// the potential.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy {
+pub struct StepEnergy {
     /// Increase of the kinetic energy, in J.
     pub kinetic: f64,
     /// Increase of the incremental potential, including work against friction, in J.
@@ -93,7 +93,7 @@ pub struct Energy {
     pub unproved: f64,
 }
 
-impl Energy {
+impl StepEnergy {
     /// Returns the difference of the two sides of the balance, in J: the error of the quadrature
     /// along the sub-steps, or of the forces.
     #[must_use]
@@ -102,7 +102,7 @@ impl Energy {
     }
 }
 
-impl AddAssign for Energy {
+impl AddAssign for StepEnergy {
     fn add_assign(&mut self, other: Self) {
         self.kinetic += other.kinetic;
         self.potential += other.potential;
@@ -171,13 +171,17 @@ mod tests {
             backtracks: 12 * k,
             residual,
             energy_left: 2.0 * residual,
-            energy: Some(Energy { work: residual, kinetic: 3.0 * residual, ..Energy::default() }),
+            energy: Some(StepEnergy {
+                work: residual,
+                kinetic: 3.0 * residual,
+                ..StepEnergy::default()
+            }),
         };
         let mut sum = Report::default();
         for (k, residual) in [(2, 0.5), (3, 0.25), (4, 0.125)] {
             sum += &of(k, residual);
         }
-        let energy = Energy { work: 0.875, kinetic: 2.625, ..Energy::default() };
+        let energy = StepEnergy { work: 0.875, kinetic: 2.625, ..StepEnergy::default() };
         assert_eq!(sum, Report { energy: Some(energy), ..of(9, 0.5) });
     }
 }

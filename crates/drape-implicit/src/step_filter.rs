@@ -23,7 +23,7 @@ pub struct TrialStep<'a> {
 /// Length of a step that a [`StepFilter`] allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub enum StepLimit {
+pub enum AllowedStep {
     /// The whole step is allowed. The displacements are unchanged.
     Whole,
     /// A part of the step is allowed. The displacements are shortened.
@@ -33,7 +33,7 @@ pub enum StepLimit {
     },
 }
 
-impl StepLimit {
+impl AllowedStep {
     /// Whether the whole step is allowed.
     #[must_use]
     pub fn is_whole(self) -> bool {
@@ -50,7 +50,7 @@ impl StepLimit {
 /// A filter for a particle above a floor at a height of 0:
 ///
 /// ```
-/// use drape_implicit::{StepFilter, StepLimit, System, TrialStep};
+/// use drape_implicit::{StepFilter, AllowedStep, System, TrialStep};
 /// # use drape_implicit::{BlockMatrix, Sparsity, Stiffness};
 /// # struct Ball;
 /// # impl System for Ball {
@@ -66,15 +66,15 @@ impl StepLimit {
 /// # }
 ///
 /// impl StepFilter for Ball {
-///     fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+///     fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
 ///         // A tenth of the height is kept.
 ///         let (fall, room) = (-step.displacements[1], 0.9 * step.start[1]);
 ///         if fall <= room {
-///             return StepLimit::Whole;
+///             return AllowedStep::Whole;
 ///         }
 ///         let fraction = room / fall;
 ///         step.displacements.iter_mut().for_each(|d| *d *= fraction);
-///         StepLimit::Shortened { obstacle_advance: fraction * step.obstacle_advance }
+///         AllowedStep::Shortened { obstacle_advance: fraction * step.obstacle_advance }
 ///     }
 ///
 ///     fn set_obstacle_time(&mut self, _time: f64) {}
@@ -92,7 +92,7 @@ impl StepLimit {
 ///     obstacle_advance: 1.0,
 /// };
 /// let limit = Ball.limit_step(step);
-/// assert_eq!(limit, StepLimit::Shortened { obstacle_advance: 0.225 });
+/// assert_eq!(limit, AllowedStep::Shortened { obstacle_advance: 0.225 });
 /// assert_eq!(displacements, [0.0, -0.9, 0.0]);
 /// ```
 pub trait StepFilter: System {
@@ -108,7 +108,7 @@ pub trait StepFilter: System {
     /// Each free particle may keep a fraction of its displacement. Held particles and obstacles all
     /// keep one common fraction, which the answer returns as the allowed advance of the obstacle
     /// time. Any shorter step along the shortened displacements must be free of intersections too.
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit;
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep;
 
     /// Moves obstacles to the fraction `time` of their motion in this (sub)step: 0 at the start, 1
     /// at the end.
@@ -154,9 +154,9 @@ impl SystemRef<'_> {
         }
     }
 
-    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         match self {
-            Self::Free(_) => StepLimit::Whole,
+            Self::Free(_) => AllowedStep::Whole,
             Self::Filtered(filter) => filter.limit_step(step),
         }
     }

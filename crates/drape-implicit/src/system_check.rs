@@ -19,7 +19,7 @@ const INCREMENTS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 /// Errors of a system's forces and stiffness at one configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Check {
+pub struct SystemCheck {
     /// Largest difference between the power of the forces along a direction and the decrease of the
     /// potential, relative to the sum of the magnitudes of the terms of this power.
     pub force_error: f64,
@@ -76,7 +76,7 @@ pub fn check_system(
     start: &[f64],
     trial: &[f64],
     dt: f64,
-) -> Result<Check, Error> {
+) -> Result<SystemCheck, Error> {
     let length = 3 * system.particles();
 
     for (name, found) in [("start", start.len()), ("trial", trial.len())] {
@@ -92,7 +92,7 @@ pub fn check_system(
     system.forces(trial, &mut forces);
     let extent = extent(trial);
 
-    let mut check = Check { force_error: 0.0, stiffness_error: 0.0, definite_shift: 0.0 };
+    let mut check = SystemCheck { force_error: 0.0, stiffness_error: 0.0, definite_shift: 0.0 };
     let mut product = vec![0.0; length];
     for seed in 0..DIRECTIONS as u64 {
         let direction = direction(length, seed);
@@ -181,7 +181,7 @@ fn assemble(
 }
 
 /// Returns the smallest shift of the diagonal with which `matrix` has a Cholesky factor; see
-/// [`Check::definite_shift`].
+/// [`SystemCheck::definite_shift`].
 fn definite_shift(matrix: BlockMatrix) -> Result<f64, Error> {
     if matrix.sparsity().particles() == 0 {
         return Ok(0.0);

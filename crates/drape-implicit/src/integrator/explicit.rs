@@ -5,7 +5,7 @@ use super::state::{IntegratorState, Span};
 use crate::error::{Error, Quantity};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::vector::first_not_finite;
-use crate::report::{Energy, Report};
+use crate::report::{Report, StepEnergy};
 use crate::step_filter::SystemRef;
 use crate::system::{Stiffness, System};
 
@@ -169,7 +169,7 @@ impl Explicit {
         state: &mut IntegratorState,
         span: Span,
         report: &mut Report,
-    ) -> Result<Energy, Error> {
+    ) -> Result<StepEnergy, Error> {
         let Span { start: time, end, dt } = span;
         let Self { positions, velocities, forces, path_work, .. } = self;
         positions.copy_from_slice(&state.positions);
@@ -189,7 +189,7 @@ impl Explicit {
         }
 
         // Velocities at the end, and the work of inertia and forces over the displacements.
-        let mut energy = Energy::default();
+        let mut energy = StepEnergy::default();
         let [mut inertia_work, mut end_work] = [0.0; 2];
         for (particle, (mass, held)) in system.masses().iter().zip(system.held()).enumerate() {
             let range = 3 * particle..3 * particle + 3;

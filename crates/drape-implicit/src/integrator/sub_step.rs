@@ -10,7 +10,7 @@ use crate::linear::vector::dot;
 use crate::nonlinear::equations::StepEquations;
 use crate::nonlinear::halt::Halt;
 use crate::nonlinear::solver::NonlinearSolver;
-use crate::report::{Energy, Report, Stop};
+use crate::report::{Report, StepEnergy, Stop};
 use crate::settings::Settings;
 use crate::step_filter::SystemRef;
 
@@ -248,7 +248,7 @@ impl SubStepper {
         state: &IntegratorState,
         opening: Opening,
         report: &mut Report,
-    ) -> Energy {
+    ) -> StepEnergy {
         let kinetic = self.kinetic(&self.velocities) - opening.kinetic;
         let ends = self.end_work(system, state, opening.formula, report);
         report.potential_evaluations += 1;
@@ -275,7 +275,7 @@ impl SubStepper {
             Work { forces, obstacles, unproved: 0.0 }
         };
 
-        Energy {
+        StepEnergy {
             kinetic,
             potential: -decrease,
             work: ends.held + work.obstacles,

@@ -9,7 +9,7 @@ use crate::linear::block::{triples, triples_mut};
 use crate::linear::system_matrix::SystemMatrix;
 use crate::linear::vector::{dot, norm};
 use crate::report::Report;
-use crate::step_filter::{StepLimit, SystemRef, TrialStep};
+use crate::step_filter::{AllowedStep, SystemRef, TrialStep};
 use crate::system::Stiffness;
 
 /// Iterate: deviations, with the positions, residual and energy at these deviations.
@@ -105,7 +105,7 @@ impl StepEquations<'_, '_> {
         iterate: &Iterate,
         displacements: &mut [f64],
         obstacle_advance: f64,
-    ) -> StepLimit {
+    ) -> AllowedStep {
         let (start, obstacle_time) = (&iterate.positions[..], iterate.obstacle_time);
         self.system.limit_step(TrialStep { start, displacements, obstacle_time, obstacle_advance })
     }

@@ -7,7 +7,7 @@ use super::search::Search;
 use crate::linear::block::{triples, triples_mut};
 use crate::linear::vector::dot;
 use crate::report::Stop;
-use crate::step_filter::StepLimit;
+use crate::step_filter::AllowedStep;
 
 /// Least advance of the obstacle time in one iteration. With a smaller advance the remaining
 /// iterations would not suffice, and a shorter step succeeds sooner.
@@ -155,8 +155,8 @@ fn take_step(search: &mut Search, equations: &mut StepEquations<'_, '_>, advance
     let limit = equations.limit_step(&search.current, &mut search.direction, advance.obstacles);
     // After a whole step the obstacle time is exact.
     let (length, obstacles) = match limit {
-        StepLimit::Whole => (1.0, advance.obstacles),
-        StepLimit::Shortened { obstacle_advance } => {
+        AllowedStep::Whole => (1.0, advance.obstacles),
+        AllowedStep::Shortened { obstacle_advance } => {
             (advance.fraction, advance.fraction * obstacle_advance)
         }
     };
