@@ -1,7 +1,7 @@
 //! A sheet that falls on a box and comes to rest: contact of surfaces in the implicit solver.
 use drape_collide::{Body, ContactDistances, Pose, Shape, Surface};
 use drape_collide::{SurfaceContact, SurfaceParts, SurfaceSettings, SurfaceStep};
-use drape_implicit::{BlockMatrix, IntegratorState, Settings, Sparsity, StepFilter, StepLimit};
+use drape_implicit::{AllowedStep, BlockMatrix, IntegratorState, Settings, Sparsity, StepFilter};
 use drape_implicit::{Stepper, Stiffness, System, TrialStep};
 
 /// Contact of a triangle of three particles of 1 g with a box, and the positions of the box.
@@ -26,12 +26,12 @@ impl System for Sheet {
 }
 #[rustfmt::skip]
 impl StepFilter for Sheet {
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         let TrialStep { start, displacements, obstacle_time, obstacle_advance: mut advance } = step;
         let obstacle_advance = &mut advance;
         let step = SurfaceStep { start, displacements, held: &[], obstacle_time, obstacle_advance };
-        if self.0.limit_step(step) { return StepLimit::Whole; }
-        StepLimit::Shortened { obstacle_advance: advance }
+        if self.0.limit_step(step) { return AllowedStep::Whole; }
+        AllowedStep::Shortened { obstacle_advance: advance }
     }
     fn set_obstacle_time(&mut self, time: f64) { self.0.set_obstacle_time(time); }
     fn is_intersection_free(&mut self, x: &[f64]) -> bool { self.0.intersections(x).is_ok_and(|i| i.is_empty()) }

@@ -1,5 +1,5 @@
-//! Work curves of Breen, House & Wozny, derived from the laws of a fabric. `drape-cloth`'s particles
-//! after Breen evaluate them.
+//! Work curves of Breen, House & Wozny, derived from the laws of a fabric. The particles after
+//! Breen in `drape-cloth` evaluate these curves.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -10,20 +10,23 @@ use crate::laws::piecewise::Piecewise;
 use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
 use crate::laws::varying::Varying;
 
-/// Shear angle at which the work has its pole, in rad: it keeps the shear below about 60°.
+/// Shear angle of the pole of the work, in rad. The pole keeps the shear below about 60°.
 const SHEAR_LIMIT: f64 = 1.05;
 
-/// Returns the curvature of three particles with mean spacing `$h$` and the inner angle `$\theta$`
-/// between their segments (`$\pi$`: straight), in 1/m \[BHW94, eq. 5.5\].
+/// Returns the curvature of three particles with the mean `spacing` `$h$`, in m, and the inner
+/// `angle` `$\theta$` between their segments, in rad (`$\pi$` if straight), in 1/m \[BHW94, eq.
+/// 5.5\].
 ///
 /// ```math
 /// K = \frac2h\cos\frac\theta2\;(\theta > \tfrac\pi4), \qquad
-/// K = \left(\frac\pi4\right)^2\frac{\beta}{\theta} + \alpha - \frac\pi4\beta\;(\theta \le \tfrac\pi4)
+/// K = \left(\frac\pi4\right)^2\frac{\beta}{\theta} + \alpha - \frac\pi4\beta
+/// \;(\theta \le \tfrac\pi4)
 /// ```
 ///
-/// with `$\alpha = \frac2h\cos\frac\pi8$` and `$\beta = \frac1h\sin\frac\pi8$`. The signs printed in
-/// the paper for small angles let the curvature fall to `$-\infty$` and break the slope at `$\pi/4$`;
-/// with these it rises to `$+\infty$`, and value and slope are continuous.
+/// with `$\alpha = \frac2h\cos\frac\pi8$` and `$\beta = \frac1h\sin\frac\pi8$`. With the signs
+/// printed in the paper the curvature would fall to `$-\infty$` at small angles, with a jump of the
+/// slope at `$\pi/4$`. With the signs of this formula the curvature rises to `$+\infty$`, and value
+/// and slope are continuous.
 #[must_use]
 pub fn breen_curvature(spacing: f64, angle: f64) -> f64 {
     if angle > FRAC_PI_4 {
@@ -36,9 +39,9 @@ pub fn breen_curvature(spacing: f64, angle: f64) -> f64 {
 
 /// Work of bending and shearing per area, from a quadratic and a line for each \[BHW94, §5\].
 ///
-/// Eq. 5.4 of the paper has the work of a bent beam, `$MK/2$`, which is right for a moment proportional
-/// to the curvature only: cloth of that work would not return the measured moment. Here it is
-/// `$\int M\,\mathrm{d}K$`, as in the paper for shearing.
+/// Eq. 5.4 of the paper has the work of a bent beam, `$MK/2$`. This work is right only for a moment
+/// proportional to the curvature: cloth with this work would not reproduce the measured moment. The
+/// work in this struct is `$\int M\,\mathrm{d}K$`, like the work of shearing in the paper.
 ///
 /// ```
 /// use drape_fabric::{
@@ -69,7 +72,8 @@ pub struct BreenWork {
     pub bending: Piecewise,
     /// Force per length against the sine of the shear angle, from the first branch of a shear test.
     pub shear: Piecewise,
-    /// Shear angle where the test ends and the continuation with a pole begins, in rad; below 1.05.
+    /// Shear angle at which the test ends and the continuation with a pole begins, in rad, below
+    /// 1.05.
     pub shear_end: f64,
 }
 
@@ -85,13 +89,13 @@ pub struct Work {
 }
 
 impl BreenWork {
-    /// Returns the work of the first branches of two laws: of their loads on a fabric that was never
-    /// deformed.
+    /// Returns the work curves of the first branches of `bending` and `shear`, the loads of a
+    /// fabric that was never deformed.
     ///
-    /// The line is the law's backbone plus the plateau of its friction. The knot is chosen so that the
-    /// work beyond it equals the law's. Where the friction overshoots its plateau no quadratic has that
-    /// work; the knot is then that of the fast element alone. The curves are even: a rest curvature is
-    /// ignored.
+    /// The line of a curve is the backbone plus the plateau of the friction. The knot is chosen so
+    /// that the work beyond the knot equals the work of the law. If the friction overshoots its
+    /// plateau, no quadratic has this work, and the knot follows from the fast element alone. The
+    /// curves are even: a rest curvature is ignored.
     #[must_use]
     pub fn from_laws(bending: &BendingLaw, shear: &ShearLaw) -> Self {
         let backbone = match bending.backbone {
@@ -113,17 +117,18 @@ impl BreenWork {
         }
     }
 
-    /// Returns the work of bending segments of a spacing to an inner angle,
-    /// `$\int_0^K M\,\mathrm{d}K$`, in J/m².
+    /// Returns the work of bending segments with the given `spacing`, in m, to an inner `angle`, in
+    /// rad: `$\int_0^K M\,\mathrm{d}K$`, in J/m².
     #[must_use]
     pub fn bending(&self, spacing: f64, angle: f64) -> f64 {
         self.bending.energy(breen_curvature(spacing, angle))
     }
 
-    /// Returns the work of shearing to an angle, in J/m².
+    /// Returns the work of shearing to `angle`, in rad, in J/m².
     ///
-    /// It is `$\int_0^\varphi F\cos\varphi\,\mathrm{d}\varphi$` up to the end of the test \[BHW94, eq. 5.7\]
-    /// and `$a/(1.05-\varphi)+b$` beyond, with the same value and slope; infinite from 1.05 rad on.
+    /// Up to the end of the test the work is `$\int_0^\varphi F\cos\varphi\,\mathrm{d}\varphi$`
+    /// \[BHW94, eq. 5.7\]. Beyond the end it is `$a/(1.05-\varphi)+b$`, with continuous value and
+    /// slope. From 1.05 rad it is infinite.
     #[must_use]
     pub fn shearing(&self, angle: f64) -> f64 {
         let (angle, end) = (angle.abs(), self.shear_end);
@@ -133,14 +138,17 @@ impl BreenWork {
         if angle >= SHEAR_LIMIT {
             return f64::INFINITY;
         }
-        let left = SHEAR_LIMIT - end;
-        let pole = self.shear.load(end.sin()) * end.cos() * left * left;
-        self.shear.energy(end.sin()) + pole * (1.0 / (SHEAR_LIMIT - angle) - 1.0 / left)
+        let span = SHEAR_LIMIT - end;
+        let pole = self.shear.load(end.sin()) * end.cos() * span * span;
+        self.shear.energy(end.sin()) + pole * (1.0 / (SHEAR_LIMIT - angle) - 1.0 / span)
     }
 
-    /// Returns the work of bending as a function of the chord: the length of the difference of the unit
-    /// directions of two segments, `$2\cos\frac\theta2$` for the inner angle `$\theta$`, 0 for a straight
-    /// yarn, 2 for a folded one.
+    /// Returns the work of bending segments with the given `spacing`, in m, as a function of
+    /// `chord`.
+    ///
+    /// The chord is the length of the difference of the unit directions of two segments,
+    /// `$2\cos\frac\theta2$` for the inner angle `$\theta$`: 0 for a straight yarn, 2 for a folded
+    /// yarn.
     #[must_use]
     pub fn of_chord(&self, spacing: f64, chord: f64) -> Work {
         let [curvature, first, second] = curvature_of_chord(spacing, chord);
@@ -152,7 +160,7 @@ impl BreenWork {
         }
     }
 
-    /// Returns the work of shearing as a function of the sine of the angle; it is even.
+    /// Returns the work of shearing as a function of the `sine` of the angle. The work is even.
     #[must_use]
     pub fn of_sine(&self, sine: f64) -> Work {
         let (size, end) = (sine.abs(), self.shear_end);
@@ -161,9 +169,9 @@ impl BreenWork {
             (self.shear.load(size), self.shear.tangent(size))
         } else if size < limit {
             let angle = size.asin();
-            let (cosine, left) = (angle.cos(), SHEAR_LIMIT - angle);
+            let (cosine, remaining) = (angle.cos(), SHEAR_LIMIT - angle);
             let pole = self.shear.load(onset) * end.cos() * (SHEAR_LIMIT - end).powi(2);
-            let [first, second] = [pole / left.powi(2), 2.0 * pole / left.powi(3)];
+            let [first, second] = [pole / remaining.powi(2), 2.0 * pole / remaining.powi(3)];
             (first / cosine, (second + first * size / cosine) / cosine.powi(2))
         } else {
             (f64::INFINITY, f64::INFINITY)
@@ -173,7 +181,7 @@ impl BreenWork {
     }
 }
 
-/// Returns the curvature at a chord and its first two derivatives \[BHW94, eq. 5.5\].
+/// Returns the curvature at `chord` and its first two derivatives \[BHW94, eq. 5.5\].
 fn curvature_of_chord(spacing: f64, chord: f64) -> [f64; 3] {
     let half = 0.5 * chord;
     // cos(θ/2) at θ = π/4.
@@ -188,7 +196,7 @@ fn curvature_of_chord(spacing: f64, chord: f64) -> [f64; 3] {
     [breen_curvature(spacing, angle), first, second]
 }
 
-/// Line to which a curve tends, and the work by which the curve is below it.
+/// Line to which a curve tends, and the work of the line less the work of the curve.
 #[derive(Debug, Clone, Copy)]
 struct Asymptote {
     slope: f64,
@@ -197,20 +205,21 @@ struct Asymptote {
 }
 
 impl Asymptote {
-    /// Returns the asymptote of a line through the origin: itself.
+    /// Returns the asymptote of a line through the origin with `slope`: the line itself.
     fn line(slope: f64) -> Self {
         Self { slope, intercept: 0.0, deficit: 0.0 }
     }
 
+    /// Returns the asymptote of a quadratic and a line: the line.
     fn piecewise(curve: &Piecewise) -> Self {
         let Piecewise { slope, intercept, knot } = *curve;
         Self { slope, intercept, deficit: intercept * knot / 3.0 }
     }
 
-    /// Returns the asymptote of a stiffness that changes: the line of its final stiffness.
+    /// Returns the asymptote of a `curve` with varying stiffness: a line with the final stiffness.
     ///
-    /// The load is below it by `$(k_0 - k_\infty)(q_t - q/\sqrt{1 + (q/q_t)^2})$`, whose integral over
-    /// all deformations is `$(k_0 - k_\infty)\,q_t^2$`.
+    /// The line exceeds the load by `$(k_0 - k_\infty)(q_t - q/\sqrt{1 + (q/q_t)^2})$`. The
+    /// integral of this difference over all deformations is `$(k_0 - k_\infty)\,q_t^2$`.
     fn varying(curve: &Varying) -> Self {
         let Varying { initial_stiffness, final_stiffness, transition } = *curve;
         let intercept = (initial_stiffness - final_stiffness) * transition;
@@ -218,10 +227,11 @@ impl Asymptote {
     }
 }
 
-/// Returns the first branch of a backbone with friction whose plateau grows.
+/// Returns the first branch of a law with the given `backbone`, `friction`, and `growth` of the
+/// plateau.
 ///
-/// Along it an element of plateau `$F$`, length `$\ell$` and growth `$\gamma$` has the load
-/// `$F(1 + \gamma(s - \ell)) - F(1 - \gamma\ell)e^{-s/\ell}$`.
+/// Along this branch an element of plateau `$F$`, length `$\ell$` and growth `$\gamma$` has the
+/// load `$F(1 + \gamma(s - \ell)) - F(1 - \gamma\ell)e^{-s/\ell}$`.
 fn branch(backbone: Asymptote, friction: &BlimanSorine, growth: f64) -> Piecewise {
     let Asymptote { mut slope, mut intercept, mut deficit } = backbone;
     for element in &friction.elements {

@@ -1,5 +1,5 @@
-//! Check of a fabric: the admissible range of each number, with a remedy. The reader of files and the
-//! fit call it.
+//! Check of a fabric: the admissible range of each number, with a remedy. The reader of files and
+//! the fit call the check.
 
 use std::ops::RangeInclusive;
 
@@ -22,25 +22,27 @@ use crate::laws::varying::Varying;
 pub struct Problem {
     /// Key path of the number, such as `warp.bending.rigidity`.
     pub key: String,
-    /// The number and the range it should have.
+    /// Statement of the number and its admissible range.
     pub message: String,
     /// Remedy.
     pub help: String,
-    /// Number with its unit that was probably meant, if one is likely.
+    /// Number with the unit that the writer probably meant, if a unit is likely.
     pub meant: Option<String>,
 }
 
-/// Returns the number with `unit`, the thousandth of the SI unit, where the number in that unit is within
-/// `range`; `None` where it is not.
+/// Returns `value` with `unit`, a thousandth of the SI unit, if the value in this unit is within
+/// `range`.
 fn meant(value: f64, range: &RangeInclusive<f64>, unit: &str) -> Option<String> {
     range.contains(&(1e-3 * value)).then(|| format!("{} {unit}", figure(value)))
 }
 
 impl Fabric {
-    /// Returns every number outside its admissible range: none for a usable fabric.
+    /// Returns a [`Problem`] for every number outside its admissible range, none for a usable
+    /// fabric.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
-        let mut check = Check(Vec::new());
+        let mut check = Checker(Vec::new());
+
         let (range, help) =
             (0.005..=5.0, "mass per area in kg/m²: 0.12, or \"120 g/m2\" with its unit");
         let meant_density = meant(self.density, &range, "g/m2");
@@ -48,6 +50,7 @@ impl Fabric {
         let (range, help) = (1e-6..=0.02, "in m: 0.0003, or \"0.3 mm\" with its unit");
         let meant_thickness = meant(self.thickness, &range, "mm");
         check.within_or("thickness", self.thickness, (range, help), meant_thickness);
+
         if let Some(pressed) = self.pressed_thickness {
             let help = "in m, under 4.9 kPa: no more than the thickness";
             check.within("pressed_thickness", pressed, 1e-6..=self.thickness, help);
@@ -57,6 +60,7 @@ impl Fabric {
             check.within("compression_linearity", linearity, 0.02..=1.0, help);
         }
         check.within("surface_friction", self.surface_friction, 0.0..=5.0, "a ratio such as 0.2");
+
         for (name, direction) in [("warp", &self.warp), ("weft", &self.weft)] {
             check.traction(&format!("{name}.traction"), &direction.traction);
             check.bending(&format!("{name}.bending"), &direction.bending);
@@ -66,14 +70,16 @@ impl Fabric {
     }
 }
 
-struct Check(Vec<Problem>);
+/// Collector of the problems of a fabric.
+struct Checker(Vec<Problem>);
 
-impl Check {
+impl Checker {
+    /// Adds the problem of the number at `key`.
     fn fail(&mut self, key: &str, message: String, help: &str) {
         self.0.push(Problem { key: key.into(), message, help: help.into(), meant: None });
     }
 
-    /// Fails a number outside a range, and asks for another unit where one is likely.
+    /// Adds a problem if `value` is outside its range. With `meant` the remedy is this number.
     fn within_or(
         &mut self,
         key: &str,
@@ -81,13 +87,13 @@ impl Check {
         (range, help): (RangeInclusive<f64>, &str),
         meant: Option<String>,
     ) {
-        let asked = meant.as_ref().map(|meant| format!("did you mean \"{meant}\"?"));
+        let question = meant.as_ref().map(|meant| format!("did you mean \"{meant}\"?"));
         let before = self.0.len();
-        self.within(key, value, range, asked.as_deref().unwrap_or(help));
+        self.within(key, value, range, question.as_deref().unwrap_or(help));
         self.0[before..].iter_mut().for_each(|problem| problem.meant.clone_from(&meant));
     }
 
-    /// Fails a number outside a range, and NaN.
+    /// Adds a problem if `value` is outside `range` or NaN.
     fn within(&mut self, key: &str, value: f64, range: RangeInclusive<f64>, help: &str) {
         let (low, high) = (range.start(), range.end());
         if !(value >= *low && value <= *high) {
@@ -99,12 +105,14 @@ impl Check {
         }
     }
 
+    /// Adds a problem unless `value` is finite and greater than 0.
     fn positive(&mut self, key: &str, value: f64, help: &str) {
         if !(value > 0.0 && value.is_finite()) {
             self.fail(key, format!("{} is not greater than 0", figure(value)), help);
         }
     }
 
+    /// Checks the numbers of a law of traction with the key `key`.
     fn traction(&mut self, key: &str, law: &TractionLaw) {
         match &law.backbone {
             TractionBackbone::Primed(primed) => {
@@ -144,6 +152,7 @@ impl Check {
                 self.within(&format!("{key}.quartic"), polynomial.quartic, 0.0..=1e15, help);
             }
         }
+
         let buckling = &law.buckling;
         self.within(&format!("{key}.buckling.strain"), buckling.strain, 1e-5..=0.5, "a ratio");
         let help = "in N/m, not negative";
@@ -151,6 +160,7 @@ impl Check {
         self.traction_friction(key, law);
     }
 
+    /// Checks the numbers of an exponential toe with the key `key`.
     fn exponential(&mut self, key: &str, toe: &ExponentialToe) {
         let ExponentialToe { base_stiffness, stiffness, steepness, toe_strain, toe_strain_after } =
             *toe;
@@ -167,11 +177,13 @@ impl Check {
         self.within(&format!("{key}.toe_strain_after"), toe_strain_after, range, help);
     }
 
+    /// Checks the friction of a law of traction with the key `key`, and that it suits the backbone.
     fn traction_friction(&mut self, key: &str, law: &TractionLaw) {
         match (&law.backbone, &law.friction) {
             (TractionBackbone::Exponential(toe), TractionFriction::Proportional(friction)) => {
                 self.proportional(key, toe, friction, &law.buckling);
             }
+
             (TractionBackbone::Exponential(_), TractionFriction::Plateau(friction)) => {
                 self.friction(&format!("{key}.friction"), friction);
                 if friction.elements[1].plateau != 0.0 {
@@ -193,6 +205,7 @@ impl Check {
         }
     }
 
+    /// Checks a proportional friction of the law of traction with the key `key`.
     fn proportional(
         &mut self,
         key: &str,
@@ -213,6 +226,8 @@ impl Check {
         self.within(&format!("{friction_key}.plateau"), friction.plateau, 0.0..=1e5, help);
         let help = "a strain, greater than 0";
         self.positive(&format!("{friction_key}.length"), friction.length, help);
+
+        // The load must rise with the strain in compression too.
         let least = friction.plateau / toe.rest_stiffness();
         if buckling.strain < least * (1.0 - 1e-9) {
             let message = format!("{} is less than {}", figure(buckling.strain), figure(least));
@@ -222,36 +237,37 @@ impl Check {
         }
     }
 
+    /// Checks a bending rigidity.
+    fn rigidity(&mut self, key: &str, value: f64) {
+        let help = "in N·m: 1.2e-5, or KES B with its unit, \"0.12 gf.cm2/cm\"";
+        self.within(key, value, 1e-7..=1e-3, help);
+    }
+
+    /// Checks the numbers of a law of bending with the key `key`.
     fn bending(&mut self, key: &str, law: &BendingLaw) {
-        let rigidity = |check: &mut Self, key: &str, value: f64| {
-            check.within(
-                key,
-                value,
-                1e-7..=1e-3,
-                "in N·m: 1.2e-5, or KES B with its unit, \"0.12 gf.cm2/cm\"",
-            );
-        };
         match &law.backbone {
-            BendingBackbone::Linear { rigidity: value } => {
-                rigidity(self, &format!("{key}.rigidity"), *value);
+            BendingBackbone::Linear { rigidity } => {
+                self.rigidity(&format!("{key}.rigidity"), *rigidity);
             }
             BendingBackbone::Varying(varying) => {
                 let key = format!("{key}.varying");
-                rigidity(self, &format!("{key}.initial_stiffness"), varying.initial_stiffness);
-                rigidity(self, &format!("{key}.final_stiffness"), varying.final_stiffness);
+                self.rigidity(&format!("{key}.initial_stiffness"), varying.initial_stiffness);
+                self.rigidity(&format!("{key}.final_stiffness"), varying.final_stiffness);
                 let help = "a curvature in 1/m, greater than 0";
                 self.positive(&format!("{key}.transition"), varying.transition, help);
             }
             BendingBackbone::Piecewise(piecewise) => {
-                rigidity(self, &format!("{key}.piecewise.slope"), piecewise.slope);
+                self.rigidity(&format!("{key}.piecewise.slope"), piecewise.slope);
                 self.piecewise(&format!("{key}.piecewise"), piecewise);
             }
         }
+
         let help = "a curvature in 1/m";
         self.within(&format!("{key}.rest_curvature"), law.rest_curvature, -1e4..=1e4, help);
         self.friction(&format!("{key}.friction"), &law.friction);
     }
 
+    /// Checks the numbers of the law of shear.
     fn shear(&mut self, law: &ShearLaw) {
         match &law.backbone {
             ShearBackbone::Linear { stiffness } => {
@@ -272,6 +288,7 @@ impl Check {
                 self.piecewise("shear.piecewise", piecewise);
             }
         }
+
         self.within("shear.growth", law.growth, 0.0..=1e3, "per unit of the sine, not negative");
         if let Some(Locking { onset, limit }) = law.locking {
             self.within("shear.locking.onset", onset, 0.01..=0.99, "a sine; 8° is 0.139");
@@ -281,6 +298,7 @@ impl Check {
         self.friction("shear.friction", &law.friction);
     }
 
+    /// Checks the numbers of a backbone of two pieces with the key `key`.
     fn piecewise(&mut self, key: &str, piecewise: &Piecewise) {
         self.positive(&format!("{key}.slope"), piecewise.slope, "the curve must rise");
         self.positive(&format!("{key}.knot"), piecewise.knot, "in the unit of the deformation");
@@ -289,6 +307,7 @@ impl Check {
         self.within(&format!("{key}.intercept"), piecewise.intercept, rising..=1e9, help);
     }
 
+    /// Checks the elements of a friction with the key `key`.
     fn friction(&mut self, key: &str, friction: &BlimanSorine) {
         let [first, second] = friction.elements;
         for (index, element) in [first, second].iter().enumerate() {
@@ -297,6 +316,8 @@ impl Check {
                 self.positive(&key, element.length, "in the unit of the deformation");
             }
         }
+
+        // A negative second element makes the model one of second order.
         let help = "not negative; the first element is the fast one of a second-order model";
         self.within(&format!("{key}[0].plateau"), first.plateau, 0.0..=1e9, help);
         if !(second.plateau >= -first.plateau) {

@@ -1,4 +1,5 @@
-//! The fabric: mass, thickness and laws. A fit or a file makes it; a cloth is made of it.
+//! The fabric: mass, thickness and laws. A fabric comes from a fit or from a file, and is the
+//! material of a cloth.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +33,7 @@ pub const SURFACE_FRICTION: f64 = 0.2;
 /// "#;
 /// let fabric = Fabric::from_document(&Document::new("plain.toml", text))?;
 /// assert!(fabric.problems().is_empty());
-/// // Written and read again it is the same to the bit.
+/// // A fabric that is written and read again has equal bits.
 /// let again = Fabric::from_document(&Document::new("again.toml", fabric.to_toml()))?;
 /// assert_eq!(again, fabric);
 /// # Ok::<(), drape_input::Diagnostics>(())
@@ -49,8 +50,9 @@ pub struct Fabric {
     pub thickness: f64,
     /// Thickness under 4.9 kPa (50 gf/cm²), in m, if it was measured (KES-FB3).
     pub pressed_thickness: Option<f64>,
-    /// Work of compression to 4.9 kPa over that of a straight line there, a ratio, if it was measured
-    /// (LC of KES-FB3). The less it is, the later and the harder the fabric resists pressure.
+    /// Ratio of the work of compression to 4.9 kPa to the work of a straight line to the same
+    /// point, if it was measured (LC of KES-FB3). With a small ratio the fabric resists pressure
+    /// late and then steeply.
     pub compression_linearity: Option<f64>,
     /// Coefficient of friction of the surface, a ratio.
     pub surface_friction: f64,
@@ -110,7 +112,7 @@ impl Fabric {
     /// Pressure of [`Fabric::thickness_under_pressure`], in Pa: 50 gf/cm².
     pub const PRESSURE: f64 = 4903.325;
 
-    /// Returns the fabric without friction in any of its laws.
+    /// Returns a copy of `self` without friction in any law.
     #[must_use]
     pub fn without_friction(&self) -> Self {
         let mut fabric = self.clone();
@@ -122,8 +124,8 @@ impl Fabric {
         fabric
     }
 
-    /// Thickness under [`Fabric::PRESSURE`], in m. Where it was not measured, 0.7 of the thickness;
-    /// apparel weaves have 0.6 to 0.8.
+    /// Returns the thickness under [`Fabric::PRESSURE`], in m: `pressed_thickness`, or 0.7 of
+    /// `thickness` if it was not measured. Apparel weaves have 0.6 to 0.8.
     #[must_use]
     pub fn thickness_under_pressure(&self) -> f64 {
         self.pressed_thickness.unwrap_or(0.7 * self.thickness)

@@ -1,6 +1,6 @@
-//! The TOML form of a fabric: its mirror, and the conversions in both directions. Only this chapter
-//! knows the keys of the file: `traction`, `bending` and `shear` those of the laws, `friction`,
-//! `piecewise` and `varying` those of the tables that laws share.
+//! The TOML form of a fabric: structs with the keys of the file, and conversions in both
+//! directions. Only this chapter knows the keys: `traction`, `bending` and `shear` have the keys of
+//! the laws, `friction`, `piecewise` and `varying` the keys of tables that several laws use.
 
 mod bending;
 mod friction;
@@ -12,7 +12,7 @@ mod varying;
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, Document, Given, Length, MassPerArea, toml_string};
+use drape_input::{Diagnostics, Document, Given, Length, MassPerArea, toml_string};
 use serde::{Deserialize, Serialize};
 
 use crate::assumed;
@@ -62,6 +62,7 @@ struct FabricFile {
     provenance: Option<Provenance>,
 }
 
+/// Returns the default of `surface_friction`.
 fn surface_friction() -> f64 {
     SURFACE_FRICTION
 }
@@ -86,7 +87,7 @@ pub fn fabric_schema() -> serde_json::Value {
 }
 
 impl Fabric {
-    /// Reads a `fabric.toml`.
+    /// Reads the `fabric.toml` at `path`.
     ///
     /// # Errors
     /// Every mistake of the file, each with its line and a remedy.
@@ -94,7 +95,7 @@ impl Fabric {
         Self::from_document(&Document::read(path)?)
     }
 
-    /// Returns the fabric that a TOML document describes.
+    /// Returns the fabric that the TOML `document` describes.
     ///
     /// # Errors
     /// Every mistake of the document, each with its line and a remedy.
@@ -106,14 +107,14 @@ impl Fabric {
                 mistakes.push(document.at(key, message).help(help));
             }
         });
+
+        // Numbers out of range get the line of their key, and an edit if another unit is likely.
         let problems = fabric.problems();
-        let problems = problems.iter().filter(|problem| !faults.cover(&problem.key));
-        let located = |p: &Problem| {
-            let edit = |meant: &String| document.edit(&p.key, Some(&toml_string(meant)));
-            let mistake = document.at(&p.key, p.message.clone()).help(&p.help);
-            mistake.with_edits(p.meant.as_ref().and_then(edit))
-        };
-        mistakes.extend(problems.map(located).collect::<Vec<Diagnostic>>());
+        for problem in problems.iter().filter(|problem| !faults.cover(&problem.key)) {
+            let Problem { key, message, help, meant } = problem;
+            let edit = meant.as_ref().and_then(|m| document.edit(key, Some(&toml_string(m))));
+            mistakes.push(document.at(key, message.clone()).help(help).with_edits(edit));
+        }
         mistakes.extend(faults.into_mistakes());
         Diagnostics::check(mistakes)?;
         Ok(fabric)
@@ -121,17 +122,18 @@ impl Fabric {
 
     /// Returns the fabric as TOML, which [`Fabric::read`] reads back exactly.
     ///
-    /// What its provenance says to be assumed is a comment above the number or the law.
+    /// Assumptions of the `provenance` are comments above their number or law.
     #[must_use]
     pub fn to_toml(&self) -> String {
         let text = toml::to_string_pretty(&FabricFile::from(self))
             .expect("numbers, strings and tables always have a TOML form");
         let assumed = self.provenance.as_ref().map_or(&[][..], |provenance| &provenance.assumed);
-        assumed::marked(&text, assumed)
+        assumed::annotated(&text, assumed)
     }
 }
 
 impl FabricFile {
+    /// Returns the fabric with the numbers of this file. Mistakes in keys go to `report`.
     fn fabric(self, report: &mut Report<'_>) -> Fabric {
         let warp = self.warp.laws("warp", report);
         let weft = self.weft.laws("weft", report);
@@ -153,9 +155,9 @@ impl FabricFile {
 }
 
 impl YarnFile {
+    /// Returns the laws of the direction with the key `key`. Mistakes in keys go to `report`.
     fn laws(self, key: &str, report: &mut Report<'_>) -> YarnLaws {
         let traction = self.traction.law(&format!("{key}.traction"), report);
-
         let bending = self.bending.law(&format!("{key}.bending"), report);
         YarnLaws { traction, bending }
     }

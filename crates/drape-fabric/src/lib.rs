@@ -2,17 +2,17 @@
 //!
 //! # Modules
 //!
-//! Measured curves become a [`Fabric`] (`drape-fit`) or a file does; a cloth (`drape-cloth`) evaluates
-//! its laws at thousands of connectors.
+//! A [`Fabric`] comes from measured curves (`drape-fit`) or from a file. A cloth (`drape-cloth`)
+//! evaluates the laws of the fabric at thousands of connectors.
 //!
-//! * `laws`: the one-dimensional laws of traction, bending and shear, one connector at a time. They are
-//!   the definition; everything else is held to them by test.
-//! * `batch`: the same laws for many connectors side by side, in loops that are vectorised.
-//! * `fabric`, `check`, `file`, `assumed`: the fabric, the range of each of its numbers, its TOML, and the
-//!   comments in it.
+//! * `laws`: the one-dimensional laws of traction, bending and shear, for one connector. These laws
+//!   are the definition. Tests compare all other forms with them.
+//! * `batch`: the laws for many connectors side by side, in vectorised loops.
+//! * `fabric`, `check`, `file`, `assumed`: the fabric, the admissible range of each number, the
+//!   TOML file, and the comments in the file.
 //! * `breen`: the work curves of Breen, House & Wozny, derived from the laws.
 
-// The laws: for one connector, and for many side by side.
+// The laws for one connector, and for many side by side.
 mod batch;
 mod laws;
 
@@ -22,7 +22,7 @@ mod check;
 mod fabric;
 mod file;
 
-// Another model of the same fabric.
+// Work curves for another model of cloth.
 mod breen;
 
 pub use batch::batch_law::{BatchLaw, Responses};

@@ -1,11 +1,12 @@
-//! A ball that falls on a floor as thin as nothing: a step filter keeps it above in every iteration.
+//! A ball that falls on a floor without thickness. A step filter keeps the ball above the floor in
+//! every iteration.
 //!
-//! The floor pushes by the barrier of incremental potential contact (Li et al. 2020), within a
-//! millimetre. Within a step of 10 ms the ball falls 60 mm, right through it if nothing limited the
-//! step.
+//! The floor pushes by the barrier of incremental potential contact (Li et al. 2020), up to a
+//! height of a millimetre. In a step of 10 ms the ball falls 60 mm. Without a filter it would pass
+//! the floor.
 
 use drape_implicit::{
-    BlockMatrix, Error, Integrator, IntegratorState, Settings, Sparsity, StepFilter, StepLimit,
+    AllowedStep, BlockMatrix, Error, Integrator, IntegratorState, Settings, Sparsity, StepFilter,
     Stepper, Stiffness, System, TrialStep,
 };
 
@@ -25,7 +26,7 @@ fn barrier(height: f64) -> [f64; 3] {
         return [0.0; 3];
     }
     let depth = height - ACTIVATION_DISTANCE;
-    // NaN below the floor: such a place is never accepted.
+    // Below the floor the barrier is NaN, and the solver never accepts such a position.
     let logarithm = (height / ACTIVATION_DISTANCE).ln();
     let ratio = depth / height;
     [
@@ -59,7 +60,7 @@ impl System for Ball {
     }
 
     fn stiffness(&mut self, x: &[f64], _kind: Stiffness, matrix: &mut BlockMatrix) {
-        // Positive for every height: exact and definite are the same.
+        // The stiffness is positive at every height, so the exact one is definite.
         matrix.add(0, 0, &[0.0, 0.0, 0.0, 0.0, barrier(x[1])[2], 0.0, 0.0, 0.0, 0.0]);
     }
 
@@ -71,15 +72,15 @@ impl System for Ball {
 }
 
 impl StepFilter for Ball {
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
-        // A tenth of the height is kept, so that no step ends on the floor.
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
+        // A step leaves at least a tenth of the height, so that no step ends on the floor.
         let (fall, room) = (-step.displacements[1], 0.9 * step.start[1]);
         if fall <= room {
-            return StepLimit::Whole;
+            return AllowedStep::Whole;
         }
         let fraction = room / fall;
         step.displacements.iter_mut().for_each(|d| *d *= fraction);
-        StepLimit::Shortened { obstacle_advance: fraction * step.obstacle_advance }
+        AllowedStep::Shortened { obstacle_advance: fraction * step.obstacle_advance }
     }
 
     fn set_obstacle_time(&mut self, _time: f64) {

@@ -1,7 +1,7 @@
-//! A chain that is let go between two nails and comes to rest as a catenary.
+//! A chain that is released between two nails and comes to rest as a catenary.
 //!
-//! Its links are springs so stiff that an explicit method would need steps below 0.1 ms; the steps here
-//! are 50 ms. Backward Euler damps the swing.
+//! The links are springs so stiff that an explicit method would need steps below 0.1 ms. The steps
+//! of this example are 50 ms. Backward Euler damps the swing.
 
 use drape_implicit::{
     BlockMatrix, Error, Integrator, IntegratorState, Settings, Sparsity, Stepper, Stiffness, System,
@@ -15,7 +15,7 @@ const SPAN: f64 = 1.0;
 const MASS: f64 = 0.01;
 /// Stiffness of a link, in N/m.
 const STIFFNESS: f64 = 1e6;
-/// In m/s².
+/// Acceleration of gravity, in m/s².
 const GRAVITY: f64 = 9.81;
 
 struct Chain {

@@ -4,7 +4,7 @@ use crate::report::Stop;
 
 /// Error of a step or of its input, one variant per remedy.
 ///
-/// Whatever the error, the state and the system's memory are those of the last accepted sub-step.
+/// After any error the state and the system's memory are at the end of the last accepted sub-step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -17,13 +17,13 @@ pub enum Error {
     NotConverged {
         /// Time at which the failing sub-step starts, in s.
         time: f64,
-        /// Its length, the shortest allowed, in s.
+        /// Length of the failing sub-step, the shortest allowed, in s.
         dt: f64,
-        /// Residual reached, relative as the tolerance is.
+        /// Residual reached, in the relative unit of `tolerance`.
         residual: f64,
-        /// Tolerance asked for.
+        /// Tolerance of the settings.
         tolerance: f64,
-        /// Iterations made in this attempt.
+        /// Iterations of the failing attempt.
         iterations: usize,
         /// Reason why the attempt ended.
         stop: Stop,
@@ -33,35 +33,35 @@ pub enum Error {
     NotFinite {
         /// Quantity that is not finite.
         quantity: Quantity,
-        /// First particle concerned.
+        /// First particle with such a quantity.
         particle: usize,
         /// Time at which the failing (sub)step starts, in s.
         time: f64,
-        /// Its length, in s.
+        /// Length of the failing (sub)step, in s.
         dt: f64,
     },
-    /// Two lengths that must agree do not.
+    /// A list has another length than the number of particles requires.
     #[error("{name}: {found} given for a system that needs {expected}")]
     Dimension {
         /// Name of the list.
         name: &'static str,
-        /// Length that the number of particles asks for.
+        /// Length that the number of particles requires.
         expected: usize,
-        /// Length found.
+        /// Length of the list.
         found: usize,
     },
     /// A mass is not a positive number.
     #[error("particle {particle} has a mass of {mass} kg; masses must be positive and finite")]
     Mass {
-        /// First such particle.
+        /// First particle with such a mass.
         particle: usize,
-        /// Its mass, in kg.
+        /// Mass of the particle, in kg.
         mass: f64,
     },
     /// The length of a step is not a positive number.
     #[error("a step of {dt} s: its length must be positive and finite")]
     StepLength {
-        /// Length, in s.
+        /// Length of the step, in s.
         dt: f64,
     },
     /// A setting is out of range.
@@ -69,40 +69,41 @@ pub enum Error {
     Setting {
         /// Name of the field of [`Settings`](crate::Settings).
         name: &'static str,
-        /// Its value.
+        /// Value of the field.
         value: f64,
-        /// Range that it must lie in, in words.
+        /// Admissible range, in words.
         range: &'static str,
     },
     /// A sparsity is malformed.
     #[error("row {row} of the sparsity: {fault}")]
     Sparsity {
-        /// Row concerned.
+        /// First malformed row.
         row: usize,
-        /// Fault, in words.
+        /// Fault of the row, in words.
         fault: &'static str,
     },
-    /// The system's stiffness couples two particles that its sparsity does not.
+    /// The system's stiffness couples two particles that the system's sparsity does not couple.
     #[error("the stiffness couples particles {row} and {column}, which the sparsity does not")]
     OutsideSparsity {
-        /// One particle.
+        /// Particle of the block's row.
         row: usize,
-        /// The other.
+        /// Particle of the block's column.
         column: usize,
     },
-    /// The method has no place for a step filter.
+    /// The method does not support a step filter.
     #[error(
         "textbook Broyden and explicit steps cannot be limited by a step filter; \
          use Broyden's or Newton's method"
     )]
     UnfilteredMethod,
-    /// The system asked for the end of the step: take it back, or go on from the last sub-step.
+    /// The system cancelled the step. The caller discards the step or continues from the last
+    /// accepted sub-step.
     #[error("the step was given up as asked")]
     Cancelled,
     /// The sparse factorisation does not fit into memory; conjugate gradients need far less.
     #[error("no memory to factorise a matrix of {blocks} blocks; use conjugate gradients")]
     TooLarge {
-        /// Blocks of the sparsity.
+        /// Number of blocks of the sparsity.
         blocks: usize,
     },
 }
@@ -117,7 +118,7 @@ pub enum Quantity {
     Velocity,
     /// Prescribed end positions of held particles.
     Target,
-    /// Forces, both at the predicted positions and at those of the start.
+    /// Forces, at the predicted positions as well as at the start of the step.
     Force,
     /// Stiffness at an iterate.
     Stiffness,

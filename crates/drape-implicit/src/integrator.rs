@@ -8,12 +8,12 @@
 //! ```
 //!
 //! with coefficients by \[NB04\] eq. 6 (backward Euler) and \[HNW93\] III.5 (BDF2 with variable
-//! step). The [`Stepper`](stepper::Stepper) is what a caller holds. It divides a step into
-//! sub-steps ([`step_control`]), halving those that fail, and attempts each ([`sub_step`]):
-//! predict, solve by the [nonlinear](crate::nonlinear) chapter, set velocities, accept. An
-//! [`ErrorEstimate`](error_estimate::ErrorEstimate) tells the error of a step, and
-//! [`Explicit`](explicit::Explicit) steps are a cross-check. Only this chapter writes an
-//! [`IntegratorState`](state::IntegratorState).
+//! step). A caller holds a [`Stepper`](stepper::Stepper). The stepper divides a step into sub-steps
+//! ([`step_control`]) and halves a sub-step that fails. An attempt at a sub-step ([`sub_step`])
+//! predicts the end positions, solves by the [nonlinear](crate::nonlinear) chapter, computes the
+//! velocities, and accepts the result. [`ErrorEstimate`](error_estimate::ErrorEstimate) estimates
+//! the error of a step. [`Explicit`](explicit::Explicit) steps are a cross-check. Only this chapter
+//! writes an [`IntegratorState`](state::IntegratorState).
 
 pub(crate) mod error_estimate;
 pub(crate) mod explicit;

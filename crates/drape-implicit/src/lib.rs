@@ -2,14 +2,18 @@
 //!
 //! # Tour
 //!
-//! A caller implements [`System`], with [`StepFilter`] on top where steps must not lead to
-//! intersections, and holds an [`IntegratorState`] and a [`Stepper`] with its [`Settings`]. Each
-//! call of [`Stepper::advance`] passes through three chapters: `integrator` divides the step into
-//! sub-steps and predicts, `nonlinear` solves the equations of each by Newton's and Broyden's
-//! methods, `linear` solves the linear systems in it, on the [`BlockMatrix`] that the system fills.
-//! A [`Report`] tells the work done, an [`Error`] why a step could not be made. [`check_system`] is
-//! for the tests of a new system, [`ErrorEstimate`] for steps of a length by their error,
-//! [`Explicit`] for cross-checks.
+//! A caller implements [`System`], and also [`StepFilter`] where steps must not lead to
+//! intersections. The caller holds an [`IntegratorState`] and a [`Stepper`] with [`Settings`]. Each
+//! call of [`Stepper::advance`] passes through three chapters:
+//!
+//! - `integrator` divides the step into sub-steps and predicts the end positions of each.
+//! - `nonlinear` solves the equations of a sub-step by Newton's and Broyden's methods.
+//! - `linear` solves the linear systems of these methods with the [`BlockMatrix`] that the system
+//!   fills.
+//!
+//! A [`Report`] counts the work done. An [`Error`] says why a step failed. [`check_system`] tests a
+//! new system. [`ErrorEstimate`] serves callers that choose the length of a step by its error.
+//! [`Explicit`] integrates by another method as a cross-check.
 
 // Interface of a system.
 mod step_filter;
@@ -33,8 +37,8 @@ pub use integrator::state::{IntegratorState, PreviousState};
 pub use integrator::stepper::Stepper;
 pub use linear::block_matrix::{BlockMatrix, Coupling};
 pub use linear::sparsity::Sparsity;
-pub use report::{Energy, Report, Stop};
+pub use report::{Report, StepEnergy, Stop};
 pub use settings::{InitialMatrix, Integrator, LinearSolver, Method, Settings};
-pub use step_filter::{StepFilter, StepLimit, TrialStep};
+pub use step_filter::{AllowedStep, StepFilter, TrialStep};
 pub use system::{MaterialPoint, Stiffness, System};
-pub use system_check::{Check, check_system};
+pub use system_check::{SystemCheck, check_system};

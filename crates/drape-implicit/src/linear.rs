@@ -2,23 +2,25 @@
 //!
 //! Each Newton step of the [nonlinear solver](crate::nonlinear) solves `$A\,p = -\varphi$` with the
 //! *system matrix* `$A = M/(\beta\,\mathrm{dt})^2 + K$`, mass over the squared step plus stiffness.
-//! [`SystemMatrix`](system_matrix::SystemMatrix) is the entry. It solves by conjugate gradients,
-//! preconditioned with an incomplete Cholesky factor `$U^T D\,U \approx A$` \[Saad03\] and, for
-//! large sheets, a [coarse level](coarse_level), or by faer's sparse Cholesky factorisation. Rows are
-//! eliminated eight at a time in the order of a [level schedule](level_schedule), which gives the
-//! factor of the particles' own order.
+//! [`SystemMatrix`](system_matrix::SystemMatrix) is the entry point. One solver is conjugate
+//! gradients, preconditioned with an incomplete Cholesky factor `$U^T D\,U \approx A$` \[Saad03\]
+//! and, for large sheets, a [coarse level](coarse_level). The other solver is faer's sparse
+//! Cholesky factorisation. Rows are eliminated eight at a time in the order of a [level
+//! schedule](level_schedule). The resulting factor equals the factor in the order of the particles'
+//! numbers.
 //!
-//! Threads share the packing of the matrix, its products and the updates of vectors, in
-//! [chunks](level_schedule::chunk) of rows that the layout fixes. The incomplete factor and its
-//! triangular solves run on one, the coarse level beside them on another.
+//! Threads share the packing of the matrix, matrix-vector products and vector updates, in
+//! [chunks](level_schedule::chunk) of rows that the layout fixes. The incomplete factorisation and
+//! the triangular solves of the [parts](level_schedule::part) run side by side, and the coarse
+//! level runs beside them.
 //!
-//! The chapter knows matrices and vectors only: nothing of forces, steps or time.
+//! The chapter deals only with matrices and vectors: it uses no forces, steps or times.
 //!
 //! SIMD idiom: arrays of eight numbers with plain loops ([`lanes`]), which the compiler turns into
-//! vector instructions, dispatched once for each chunk to the widest ones of the machine by
-//! `pulp::Arch`. The number of lanes is fixed and no operation is fused, so every machine computes
-//! the same bits. Explicit vector types (`wide`) would fix one instruction set at compile time;
-//! `pulp`'s own vector types have as many lanes as the machine, so that sums would depend on it.
+//! vector instructions. `pulp::Arch` dispatches each chunk to the widest instructions of the
+//! machine. The number of lanes is fixed and no operation is fused, so every machine computes the
+//! same bits. Explicit vector types (`wide`) would fix one instruction set at compile time. The
+//! vector types of `pulp` have the machine's number of lanes, so sums would depend on the machine.
 
 pub(crate) mod block;
 pub(crate) mod block_matrix;

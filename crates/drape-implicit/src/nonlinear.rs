@@ -9,11 +9,12 @@
 //! ```
 //!
 //! A sub-step of the [integrator](crate::integrator) calls
-//! [`NonlinearSolver`](solver::NonlinearSolver). It chooses a [start point](start_point), then
-//! alternates [Newton](newton) steps with a [line search](line_search) and [Broyden](broyden) steps
-//! on the same matrix until `$\|\varphi\|$` is below its limit; or it runs [textbook] Broyden. A
-//! step filter limits every step before it is taken. Linear systems go to the
-//! [linear](crate::linear) chapter. Nothing here outlives a sub-step.
+//! [`NonlinearSolver`](solver::NonlinearSolver). The solver chooses a [start point](start_point).
+//! It then alternates [Newton](newton) steps with a [line search](line_search) and
+//! [Broyden](broyden) steps on the Newton step's matrix, until `$\|\varphi\|$` is below its limit.
+//! The alternative is [textbook] Broyden. A step filter limits every step before it is taken. The
+//! [linear](crate::linear) chapter solves the linear systems. No result of this chapter depends on
+//! an earlier sub-step.
 
 pub(crate) mod broyden;
 pub(crate) mod equations;

@@ -1,4 +1,5 @@
-//! Report of a step: the work it took, its energy balance, and why an attempt stopped.
+//! Report of a step: counters of its work, its energy balance, and the reason why an attempt
+//! stopped.
 
 use core::ops::AddAssign;
 
@@ -7,7 +8,7 @@ use core::ops::AddAssign;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
-    /// Accepted sub-steps: 1 unless the step was halved.
+    /// Accepted sub-steps: 1 unless the step was divided.
     pub sub_steps: usize,
     /// Rejected attempts, each followed by a halving.
     pub rejected: usize,
@@ -21,32 +22,32 @@ pub struct Report {
     pub stiffness_assemblies: usize,
     /// Linear systems solved.
     pub linear_solves: usize,
-    /// Conjugate-gradient iterations in them.
+    /// Iterations of conjugate gradients in all linear systems.
     pub linear_iterations: usize,
-    /// Linear systems left unfinished, at the iteration limit or at a direction of negative
-    /// curvature.
+    /// Linear systems that stopped before their target, at the iteration limit or at a direction of
+    /// negative curvature.
     pub linear_truncations: usize,
-    /// Factorisations of the preconditioner begun again, with a larger shift, after a collapsed
-    /// pivot.
+    /// Factorisations of the preconditioner that a collapsed pivot ended. Each was repeated with a
+    /// larger shift.
     pub pivot_shifts: usize,
-    /// Exact stiffnesses given up for definite ones, because the first direction of the linear
-    /// solve was one of negative curvature.
+    /// Exact stiffnesses that a definite stiffness replaced, because the linear solve met negative
+    /// curvature before any progress.
     pub negative_curvatures: usize,
     /// Backtracks of line searches.
     pub backtracks: usize,
-    /// Largest final residual of the accepted sub-steps, relative as
-    /// [`Settings::tolerance`](crate::Settings::tolerance) is.
+    /// Largest final residual of the accepted sub-steps, in the relative unit of
+    /// [`Settings::tolerance`](crate::Settings::tolerance).
     pub residual: f64,
-    /// Largest energy left to gain in a sub-step that ended for it, as a fraction of its kinetic
-    /// energy; see [`Settings::energy_tolerance`](crate::Settings::energy_tolerance). 0 if none
-    /// did.
+    /// Largest predicted decrease of the energy that remained in a sub-step which
+    /// [`Settings::energy_tolerance`](crate::Settings::energy_tolerance) ended, as a fraction of
+    /// the kinetic energy of the sub-step. 0 if the energy tolerance ended no sub-step.
     pub energy_left: f64,
-    /// Energy balance, if asked for.
-    pub energy: Option<Energy>,
+    /// Energy balance, if [`Settings::energy_balance`](crate::Settings::energy_balance) is set.
+    pub energy: Option<StepEnergy>,
 }
 
 impl AddAssign<&Report> for Report {
-    /// Adds the work of another step; residual and energy left are the larger of both.
+    /// Adds the counters of `other`. `residual` and `energy_left` become the larger of both.
     fn add_assign(&mut self, other: &Report) {
         self.sub_steps += other.sub_steps;
         self.rejected += other.rejected;
@@ -68,35 +69,40 @@ impl AddAssign<&Report> for Report {
     }
 }
 
-/// Energy balance over accepted sub-steps. In sampled sub-steps every entry is computed on its own; they
-/// close, `work = kinetic + potential + numerical_dissipation`, if the forces are those of the potential.
+/// Energy balance over accepted sub-steps.
+///
+/// In sampled sub-steps every entry is computed independently. The balance closes,
+/// `work = kinetic + potential + numerical_dissipation`, if the forces are the negative gradient of
+/// the potential.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy {
-    /// Growth of the kinetic energy, in J.
+pub struct StepEnergy {
+    /// Increase of the kinetic energy, in J.
     pub kinetic: f64,
-    /// Growth of the incremental potential, work against friction included, in J.
+    /// Increase of the incremental potential, including work against friction, in J.
     pub potential: f64,
-    /// Work of the forces that move the held particles, by their values at the end of each
-    /// sub-step, and of obstacles, along each sub-step, in J.
+    /// Work of the forces that move the held particles, plus work of the obstacles, in J. The
+    /// forces on held particles are taken at the end of each sub-step, the obstacles' along each
+    /// sub-step.
     pub work: f64,
-    /// Energy that the formula of the step lost, and the residual that the solver left, in J: by
-    /// differences of velocities, and by the work of the forces along each sub-step.
+    /// Energy that the formula of the step and the residual of the solver dissipated, in J.
+    /// Computed from differences of velocities and from the work of the forces along each sub-step.
     pub numerical_dissipation: f64,
-    /// Energy exchanged in sub-steps whose straight path leads through an obstacle, in J: there
-    /// forces have no work along it, and the loss is what the other entries leave.
+    /// Energy exchanged in sub-steps whose straight path leads through an obstacle, in J. The
+    /// forces have no finite work along such a path, so the numerical dissipation is the difference
+    /// of the other entries and proves nothing.
     pub unproved: f64,
 }
 
-impl Energy {
-    /// Energy that the entries leave open, in J: the error of the quadrature along the sub-steps,
-    /// or of the forces.
+impl StepEnergy {
+    /// Returns the difference of the two sides of the balance, in J: the error of the quadrature
+    /// along the sub-steps, or of the forces.
     #[must_use]
     pub fn open(&self) -> f64 {
         self.work - self.kinetic - self.potential - self.numerical_dissipation
     }
 }
 
-impl AddAssign for Energy {
+impl AddAssign for StepEnergy {
     fn add_assign(&mut self, other: Self) {
         self.kinetic += other.kinetic;
         self.potential += other.potential;
@@ -106,24 +112,24 @@ impl AddAssign for Energy {
     }
 }
 
-/// Reason why an attempt at a step was given up.
+/// Reason why an attempt at a step stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stop {
     /// The iteration limit was reached.
     Iterations,
-    /// No step along the last direction found made progress.
+    /// No step along the last direction made progress.
     LineSearch,
-    /// The stiffness given as definite is not.
+    /// The stiffness that the system gave as definite is not definite.
     Indefinite,
-    /// The step filter did not let the prescribed motions go on.
+    /// The step filter stopped the prescribed motions.
     Blocked,
     /// The step filter found intersections in the solution.
     Intersection,
 }
 
 impl Stop {
-    /// Remedy, for the end of a message.
+    /// Returns the remedy for `self`, as the last part of a message.
     pub(crate) fn remedy(self) -> &'static str {
         match self {
             Self::Blocked => "slow what moves by prescription, or leave room where it moves to",
@@ -165,13 +171,17 @@ mod tests {
             backtracks: 12 * k,
             residual,
             energy_left: 2.0 * residual,
-            energy: Some(Energy { work: residual, kinetic: 3.0 * residual, ..Energy::default() }),
+            energy: Some(StepEnergy {
+                work: residual,
+                kinetic: 3.0 * residual,
+                ..StepEnergy::default()
+            }),
         };
         let mut sum = Report::default();
         for (k, residual) in [(2, 0.5), (3, 0.25), (4, 0.125)] {
             sum += &of(k, residual);
         }
-        let energy = Energy { work: 0.875, kinetic: 2.625, ..Energy::default() };
+        let energy = StepEnergy { work: 0.875, kinetic: 2.625, ..StepEnergy::default() };
         assert_eq!(sum, Report { energy: Some(energy), ..of(9, 0.5) });
     }
 }

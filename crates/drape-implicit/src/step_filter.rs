@@ -1,18 +1,20 @@
 //! Step filter: continuous collision detection as a protocol on top of [`System`] \[Li20\].
 //!
-//! The solver asks the filter before every straight step of the particles, and whether a solution is
-//! free of intersections. The answers decide how far an iteration moves, never in which direction.
+//! The solver asks the filter for a limit before every straight step of the particles, and asks
+//! whether a solution is free of intersections. The answers decide how far an iteration moves,
+//! never in which direction.
 
 use crate::system::System;
 
-/// Straight step that the solver is about to take, of all particles and obstacles.
+/// Straight step of all particles and obstacles that the solver is about to take.
 #[derive(Debug)]
 pub struct TrialStep<'a> {
-    /// Positions at the start of the step, in m. They are free of intersections.
+    /// Positions at the start of the step, in m, free of intersections.
     pub start: &'a [f64],
     /// Displacements of the particles, in m. The filter shortens them in place.
     pub displacements: &'a mut [f64],
-    /// Fraction of the prescribed motions of this (sub)step that is done at the start, 0 to 1.
+    /// Obstacle time at the start: fraction of the (sub)step's prescribed motions already
+    /// completed, 0 to 1.
     pub obstacle_time: f64,
     /// Increase of the obstacle time over the step.
     pub obstacle_advance: f64,
@@ -21,17 +23,17 @@ pub struct TrialStep<'a> {
 /// Length of a step that a [`StepFilter`] allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub enum StepLimit {
-    /// The whole step is allowed; its displacements are unchanged.
+pub enum AllowedStep {
+    /// The whole step is allowed. The displacements are unchanged.
     Whole,
-    /// A part of the step is allowed; its displacements are shortened.
+    /// A part of the step is allowed. The displacements are shortened.
     Shortened {
-        /// Increase of the obstacle time that is allowed with them.
+        /// Allowed increase of the obstacle time.
         obstacle_advance: f64,
     },
 }
 
-impl StepLimit {
+impl AllowedStep {
     /// Whether the whole step is allowed.
     #[must_use]
     pub fn is_whole(self) -> bool {
@@ -39,16 +41,16 @@ impl StepLimit {
     }
 }
 
-/// System that limits steps so that nothing intersects on them, and tests solutions.
+/// System that limits steps so that nothing intersects along them, and tests solutions.
 ///
-/// [`Stepper::advance_filtered`](crate::Stepper::advance_filtered) starts each (sub)step from the
-/// positions at its start, moves the particles only as far as [`limit_step`](Self::limit_step)
-/// allows, and moves held particles and obstacles along with them.
+/// [`Stepper::advance_filtered`](crate::Stepper::advance_filtered) moves the particles from the
+/// start positions of each (sub)step only as far as [`limit_step`](Self::limit_step) allows, and
+/// moves held particles and obstacles together with the free particles.
 ///
 /// A filter for a particle above a floor at a height of 0:
 ///
 /// ```
-/// use drape_implicit::{StepFilter, StepLimit, System, TrialStep};
+/// use drape_implicit::{StepFilter, AllowedStep, System, TrialStep};
 /// # use drape_implicit::{BlockMatrix, Sparsity, Stiffness};
 /// # struct Ball;
 /// # impl System for Ball {
@@ -64,15 +66,15 @@ impl StepLimit {
 /// # }
 ///
 /// impl StepFilter for Ball {
-///     fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+///     fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
 ///         // A tenth of the height is kept.
 ///         let (fall, room) = (-step.displacements[1], 0.9 * step.start[1]);
 ///         if fall <= room {
-///             return StepLimit::Whole;
+///             return AllowedStep::Whole;
 ///         }
 ///         let fraction = room / fall;
 ///         step.displacements.iter_mut().for_each(|d| *d *= fraction);
-///         StepLimit::Shortened { obstacle_advance: fraction * step.obstacle_advance }
+///         AllowedStep::Shortened { obstacle_advance: fraction * step.obstacle_advance }
 ///     }
 ///
 ///     fn set_obstacle_time(&mut self, _time: f64) {}
@@ -90,43 +92,44 @@ impl StepLimit {
 ///     obstacle_advance: 1.0,
 /// };
 /// let limit = Ball.limit_step(step);
-/// assert_eq!(limit, StepLimit::Shortened { obstacle_advance: 0.225 });
+/// assert_eq!(limit, AllowedStep::Shortened { obstacle_advance: 0.225 });
 /// assert_eq!(displacements, [0.0, -0.9, 0.0]);
 /// ```
 pub trait StepFilter: System {
-    /// Whether a (sub)step from one time to another, in s, resolves the motion of everything that
-    /// moves by prescription: nothing moves far, and all of it nearly straight. A (sub)step that
-    /// does not is halved before it is tried.
+    /// Returns whether a (sub)step from the time `_start` to `_end`, in s, resolves all prescribed
+    /// motions: each is short and nearly straight. Otherwise the solver halves the (sub)step before
+    /// the first attempt.
     fn resolves_motion(&self, _start: f64, _end: f64) -> bool {
         true
     }
 
     /// Limits a straight step to a part on which nothing intersects.
     ///
-    /// Each free particle may keep any fraction of its displacement. Held particles, and whatever
-    /// else moves by prescription, all keep the same fraction; the answer tells it as the advance
-    /// of the obstacle time. Any shorter step along the displacements that are left is allowed too.
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit;
+    /// Each free particle may keep a fraction of its displacement. Held particles and obstacles all
+    /// keep one common fraction, which the answer returns as the allowed advance of the obstacle
+    /// time. Any shorter step along the shortened displacements must be free of intersections too.
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep;
 
-    /// Moves obstacles to a fraction of their motion in this (sub)step: 0 is its start, 1 its end.
+    /// Moves obstacles to the fraction `time` of their motion in this (sub)step: 0 at the start, 1
+    /// at the end.
     ///
-    /// Forces, potential and stiffness are those of that place from then on. After
-    /// [`begin`](System::begin) it is 1.
+    /// Forces, potential and stiffness then refer to the moved obstacles. [`begin`](System::begin)
+    /// sets the obstacle time to 1.
     fn set_obstacle_time(&mut self, time: f64);
 
-    /// Work of the obstacles over their whole motion in this (sub)step, with their forces at some
-    /// positions and at the present obstacle time, in J: what the potential gains by their motion
-    /// alone. Asked for with the energy balance only.
+    /// Returns the work of the obstacles over their whole motion in this (sub)step, in J, with the
+    /// forces at `_positions` and at the current obstacle time. This work is the increase of the
+    /// potential by the motion of the obstacles alone. Only the energy balance calls this method.
     fn obstacle_work(&mut self, _positions: &[f64]) -> f64 {
         0.0
     }
 
-    /// Whether positions, in m, are free of intersections. A solution that is not is rejected, and
-    /// its (sub)step tried again in halves.
+    /// Returns whether `positions`, in m, are free of intersections. The solver rejects a solution
+    /// with intersections and halves the (sub)step.
     fn is_intersection_free(&mut self, positions: &[f64]) -> bool;
 }
 
-/// System with or without a filter, as the solver sees it.
+/// Reference to a system with or without a step filter, for the solver.
 pub(crate) enum SystemRef<'a> {
     Free(&'a mut dyn System),
     Filtered(&'a mut dyn StepFilter),
@@ -151,9 +154,9 @@ impl SystemRef<'_> {
         }
     }
 
-    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         match self {
-            Self::Free(_) => StepLimit::Whole,
+            Self::Free(_) => AllowedStep::Whole,
             Self::Filtered(filter) => filter.limit_step(step),
         }
     }

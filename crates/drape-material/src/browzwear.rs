@@ -8,38 +8,34 @@ use crate::number::{number, one_line};
 /// Bending rigidity of 1 N·m in dyn·cm.
 const DYN_CENTIMETRES: f64 = 1e7;
 
-/// Stiffness with which a strip on the bias stretches, over the shear stiffness: the yarns of a strip
-/// that lengthens by `$\varepsilon$` shear by `$2\varepsilon$`, and the force per width is twice the
-/// shear force.
+/// Ratio of the tensile stiffness of a strip on the bias to the shear stiffness. The yarns of a
+/// strip that lengthens by `$\varepsilon$` shear by `$2\varepsilon$`, and the force per width is
+/// twice the shear force.
 const BIAS: f64 = 4.0;
 
 impl Material {
-    /// Returns a table (CSV) of what is typed into the physics dialog of Browzwear's VStitcher and
-    /// Lotta, in its units, with the definition of each number and what is lost \[BW25\].
+    /// Returns a table (CSV) of the numbers for the physics dialog of Browzwear's VStitcher and
+    /// Lotta, in the units of the dialog, with the definition of each number and the `losses`
+    /// \[BW25\].
     ///
-    /// Length is warp, width is weft. The shear is left empty: the public description does not say
-    /// whether it is that of the yarns' angle or of a strip on the bias, and both are given in words.
+    /// Length is warp, width is weft. The value of the shear is empty, because the public
+    /// description does not say whether the shear of the yarns' angle or of a strip on the bias is
+    /// meant. The text gives both.
     #[must_use]
     pub fn to_browzwear(&self) -> String {
         let load = number(self.stretch[0].load);
-        let mut rows: Vec<[String; 5]> = Vec::new();
-        let mut row =
-            |property: &str, direction: &str, value: String, unit: &str, meaning: String| {
-                rows.push([property.into(), direction.into(), value, unit.into(), meaning]);
-            };
-        row("Mass", "", number(1e3 * self.density), "g/m²", "mass per area".into());
-        row(
-            "Friction",
-            "",
-            number(self.surface_friction),
-            "",
-            "coefficient of friction of the surface".into(),
-        );
-        row("Thickness", "", number(1e3 * self.thickness), "mm", "under 49 Pa (0.5 gf/cm²)".into());
+        let friction = "coefficient of friction of the surface".into();
+        let pressure = "under 49 Pa (0.5 gf/cm²)".into();
+        let mut rows = vec![
+            row("Mass", "", number(1e3 * self.density), "g/m²", "mass per area".into()),
+            row("Friction", "", number(self.surface_friction), "", friction),
+            row("Thickness", "", number(1e3 * self.thickness), "mm", pressure),
+        ];
+
         for (index, direction) in ["length", "width"].into_iter().enumerate() {
             let rigidity = number(DYN_CENTIMETRES * self.bending[index]);
             let meaning = "KES B of the law: moment per width over curvature, from 0.5 to 1.5 1/cm";
-            row("Bend", direction, rigidity, "dyn·cm", meaning.into());
+            rows.push(row("Bend", direction, rigidity, "dyn·cm", meaning.into()));
         }
         for (index, direction) in ["length", "width"].into_iter().enumerate() {
             let stretch = self.stretch[index];
@@ -48,9 +44,10 @@ impl Material {
                  first stretching",
                 number(100.0 * stretch.strain)
             );
-            row("Stretch", direction, number(stretch.stiffness), "N/m", meaning);
+            rows.push(row("Stretch", direction, number(stretch.stiffness), "N/m", meaning));
         }
-        row(
+
+        rows.push(row(
             "Shear",
             "",
             String::new(),
@@ -61,28 +58,34 @@ impl Material {
                 number(self.shear),
                 number(BIAS * self.shear)
             ),
-        );
+        ));
+
         for loss in &self.losses {
-            row("lost", "", String::new(), "", one_line(loss));
+            rows.push(row("lost", "", String::new(), "", one_line(loss)));
         }
         let source = format!(
             "{}, by drape {}; length is warp, width is weft",
             one_line(&self.name),
             env!("CARGO_PKG_VERSION")
         );
-        row("fabric", "", String::new(), "", source);
+        rows.push(row("fabric", "", String::new(), "", source));
         table(&rows)
     }
 }
 
-/// Returns rows as CSV.
+/// Returns a row of the table: property, direction, value, unit and meaning.
+fn row(property: &str, direction: &str, value: String, unit: &str, meaning: String) -> [String; 5] {
+    [property.into(), direction.into(), value, unit.into(), meaning]
+}
+
+/// Returns `rows` as CSV, below a heading.
 fn table(rows: &[[String; 5]]) -> String {
     let mut writer = Writer::from_writer(Vec::new());
     let head = ["property", "direction", "value", "unit", "meaning"];
-    let written = writer
+    let result = writer
         .write_record(head)
         .and_then(|()| rows.iter().try_for_each(|row| writer.write_record(row)));
-    written.expect("writing to memory does not fail");
+    result.expect("writing to memory does not fail");
     let bytes = writer.into_inner().expect("writing to memory does not fail");
     String::from_utf8(bytes).expect("the cells are texts")
 }

@@ -6,7 +6,7 @@ use drape_input::figure;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Load at which no secant can be read: choose one from 0.1 to 10 000 N/m.
+    /// Load outside the admissible range: choose a load from 0.1 to 10 000 N/m.
     #[error(
         "a stiffness cannot be read at a load of {} N/m; choose one from 0.1 to 10000 N/m, such as 20",
         figure(*load)
@@ -15,7 +15,7 @@ pub enum Error {
         /// Load, in N/m.
         load: f64,
     },
-    /// Load that the fabric never carries: choose a smaller one.
+    /// Load that the fabric does not carry at any strain: choose a smaller load.
     #[error(
         "the {direction} does not carry {} N/m, however far it is stretched; read the stiffness at a \
          smaller load",
@@ -27,7 +27,7 @@ pub enum Error {
         /// Load, in N/m.
         load: f64,
     },
-    /// Value that the laws do not give: check the fabric.
+    /// Value that the simulated tests do not find: check the fabric.
     #[error("the laws of the {direction} give no {value}; check the fabric with `drape check`")]
     Missing {
         /// Direction, in words.

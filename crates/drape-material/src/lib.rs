@@ -2,18 +2,18 @@
 //!
 //! # Tour
 //!
-//! [`Material::of`] reads the numbers off the laws of a [`Fabric`](drape_fabric::Fabric) by virtual
-//! tests, and says what such numbers lose. A function of each format writes it:
-//! [`Material::to_blender`], [`Material::to_ppf`], [`Material::to_browzwear`],
+//! [`Material::from_fabric`] reads the numbers off the laws of a [`Fabric`](drape_fabric::Fabric)
+//! by virtual tests, and lists the properties that such numbers lose. One method per format writes
+//! a file: [`Material::to_blender`], [`Material::to_ppf`], [`Material::to_browzwear`],
 //! [`Material::to_u3m`] and [`Material::to_u3ma`].
 //!
-//! Layers, lowest first: `error`, `number`; `stretch`, a virtual test; `loss`, what the numbers lose;
-//! `material` with all numbers; the formats.
+//! Layers, lowest first: `error` and `number`; `stretch`, a virtual test; `loss`, the properties
+//! that the numbers lose; `material` with all numbers; the formats.
 
 mod error;
 mod number;
 
-// The numbers, and what they lose.
+// The numbers, and the properties that they lose.
 mod loss;
 mod material;
 mod stretch;

@@ -1,4 +1,4 @@
-//! Losses: what of a fabric its numbers for other programs do not say.
+//! Losses: properties of a fabric that its numbers for other programs do not describe.
 
 use drape_fabric::Fabric;
 use drape_kes::Values;
@@ -6,16 +6,18 @@ use drape_kes::Values;
 use crate::number::{brief, mean, one_line};
 use crate::stretch::Stretch;
 
-/// Share by which warp and weft may differ without a word.
+/// Relative difference up to which warp and weft count as equal.
 const ALIKE: f64 = 0.01;
 
-/// Width of a loop, in its SI unit, below which it is rounding.
+/// Width of a loop, in SI units, below which the width is a rounding error.
 const ROUNDING: f64 = 1e-12;
 
-/// Returns what the numbers of a fabric lose, whatever the format: friction, nonlinearity, what was
-/// assumed and how well it is known.
-pub(crate) fn of(fabric: &Fabric, values: &[Values; 2], stretch: [Stretch; 2]) -> Vec<String> {
+/// Returns the losses of every format: friction, nonlinearity, assumptions and standard errors of
+/// `fabric`. `values` are the results of simulated KES tests, and `stretch` the secants of warp and
+/// weft.
+pub(crate) fn losses(fabric: &Fabric, values: &[Values; 2], stretch: [Stretch; 2]) -> Vec<String> {
     let mut losses = vec![friction(values), nonlinearity(fabric, stretch)];
+
     let rest = [fabric.warp.bending.rest_curvature, fabric.weft.bending.rest_curvature];
     if rest != [0.0; 2] {
         losses.push(format!(
@@ -29,6 +31,7 @@ pub(crate) fn of(fabric: &Fabric, values: &[Values; 2], stretch: [Stretch; 2]) -
             "Locking: the yarns jam at a large shear angle; the numbers go on as a line.".into(),
         );
     }
+
     if let Some(provenance) = &fabric.provenance {
         let assumed = provenance.assumed.iter();
         losses.extend(assumed.map(|text| format!("Assumed: {}.", one_line(text))));
@@ -39,36 +42,38 @@ pub(crate) fn of(fabric: &Fabric, values: &[Values; 2], stretch: [Stretch; 2]) -
     losses
 }
 
-/// Describes the friction within the fabric, which the numbers leave out.
+/// Returns a description of the internal friction in the tests `values`, which the numbers leave
+/// out.
 fn friction(values: &[Values; 2]) -> String {
-    let width = |width: Option<f64>| {
-        width.map_or("–".into(), |width| brief(if width < ROUNDING { 0.0 } else { width }))
-    };
-    let [warp, weft] = values.each_ref().map(|values| width(values.bending_loop_width()));
+    let [warp, weft] = values.each_ref().map(|values| measure(values.bending_loop_width()));
     let [narrow, wide] =
-        [values[0].shear_loop_width(), values[0].shear_loop_width_at_five_degrees()].map(width);
-    let [resilience, other] = values.each_ref().map(|values| width(values.rt));
+        [values[0].shear_loop_width(), values[0].shear_loop_width_at_five_degrees()].map(measure);
+    let [warp_resilience, weft_resilience] = values.each_ref().map(|values| measure(values.rt));
     format!(
         "Friction and hysteresis: the loops are {warp} and {weft} N wide in bending (2HB, warp and weft), {narrow} \
-         and {wide} N/m in shear (2HG, 2HG5), and {resilience} and {other} % of the tensile work come back (RT, \
+         and {wide} N/m in shear (2HG, 2HG5), and {warp_resilience} and {weft_resilience} % of the tensile work come back (RT, \
          warp and weft). Cloth of these numbers gives back all of it."
     )
 }
 
-/// Describes how the tensile stiffness changes with the load at which it is read.
+/// Returns `value` with three digits, zero for a rounding error, and a dash for no value.
+fn measure(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| brief(if value < ROUNDING { 0.0 } else { value }))
+}
+
+/// Returns a description of the change of the tensile stiffness of `fabric` with the load.
+/// `stretch` are the secants of warp and weft.
 fn nonlinearity(fabric: &Fabric, stretch: [Stretch; 2]) -> String {
     let laws = [("warp", &fabric.warp.traction), ("weft", &fabric.weft.traction)];
-    let rows = laws.iter().zip(stretch).map(|((direction, law), at)| {
-        let other = |load: f64| {
-            let stretch = Stretch::of(law, direction, load);
+    let rows = laws.iter().zip(stretch).map(|((direction, law), secant)| {
+        let [half, twice] = [0.5, 2.0].map(|factor| {
+            let stretch = Stretch::new(law, direction, factor * secant.load);
             stretch.map_or("–".into(), |stretch| brief(stretch.stiffness))
-        };
+        });
         format!(
-            "{direction} {} N/m at {} % ({} at half the load, {} at twice)",
-            brief(at.stiffness),
-            brief(100.0 * at.strain),
-            other(0.5 * at.load),
-            other(2.0 * at.load),
+            "{direction} {} N/m at {} % ({half} at half the load, {twice} at twice)",
+            brief(secant.stiffness),
+            brief(100.0 * secant.strain),
         )
     });
     format!(
@@ -79,21 +84,22 @@ fn nonlinearity(fabric: &Fabric, stretch: [Stretch; 2]) -> String {
     )
 }
 
-/// Describes what a program loses that has one number for warp and weft, by stretch (N/m) and bending
-/// rigidity (N·m) of both.
+/// Returns a description of the loss of a `program` with one number for warp and weft. `stretch`
+/// are the stiffnesses of both, in N/m, and `bending` the rigidities, in N·m.
 pub(crate) fn direction(program: &str, stretch: [f64; 2], bending: [f64; 2]) -> String {
-    let apart = |pair: [f64; 2]| (pair[0] - pair[1]).abs() > ALIKE * mean(pair);
-    let both = |name: &str, pair: [f64; 2], unit: &str| {
-        let [warp, weft] = pair.map(brief);
-        apart(pair).then(|| format!("{name} {warp} (warp) and {weft} {unit} (weft)"))
-    };
-    let named = [both("stretch", stretch, "N/m"), both("bending", bending, "N·m")];
-    let named: Vec<String> = named.into_iter().flatten().collect();
-    if named.is_empty() {
+    let mut differences = Vec::new();
+    for (name, pair, unit) in [("stretch", stretch, "N/m"), ("bending", bending, "N·m")] {
+        if (pair[0] - pair[1]).abs() > ALIKE * mean(pair) {
+            let [warp, weft] = pair.map(brief);
+            differences.push(format!("{name} {warp} (warp) and {weft} {unit} (weft)"));
+        }
+    }
+
+    if differences.is_empty() {
         return format!(
             "Direction: {program} has one number for warp and weft, which are alike here."
         );
     }
-    let named = named.join(", and of ");
-    format!("Direction: {program} has one number for warp and weft, the mean of {named}.")
+    let differences = differences.join(", and of ");
+    format!("Direction: {program} has one number for warp and weft, the mean of {differences}.")
 }

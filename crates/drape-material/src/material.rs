@@ -1,4 +1,4 @@
-//! Material: the numbers of a fabric that other programs ask for, by virtual tests of its laws.
+//! Material: the numbers of a fabric for other programs, by virtual tests of its laws.
 
 use drape_fabric::Fabric;
 use drape_fit::fabric_values;
@@ -8,13 +8,14 @@ use crate::error::Error;
 use crate::loss;
 use crate::stretch::{Stretch, compression};
 
-/// Loads at which a secant can be read, in N/m: from the weight of a hem to a load that tears.
+/// Admissible loads of a secant, in N/m: from the weight of a hem to a load that tears the fabric.
 const LOADS: std::ops::RangeInclusive<f64> = 0.1..=1e4;
 
 /// Directions, in the order of pairs: warp, weft.
 const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 
-/// Numbers of a fabric that other programs ask for, in SI. Pairs are of warp and weft.
+/// Numbers of a fabric for other programs, in SI. The first number of a pair belongs to the warp,
+/// the second to the weft.
 ///
 /// ```
 /// use drape_fabric::Fabric;
@@ -34,7 +35,7 @@ const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 ///     bending.rigidity = 0.8e-5
 /// "#;
 /// let fabric = Fabric::from_document(&Document::new("plain.toml", text))?;
-/// let material = Material::of(&fabric, Material::LOAD)?;
+/// let material = Material::from_fabric(&fabric, Material::LOAD)?;
 /// // 20 N/m stretch it by sqrt(20 / 84000) = 1.54 %.
 /// assert!((material.stretch[0].strain - 0.015_430).abs() < 1e-6);
 /// assert!((material.stretch[0].stiffness - 1296.1).abs() < 0.1);
@@ -52,7 +53,7 @@ pub struct Material {
     pub thickness: f64,
     /// Coefficient of friction of the surface, a ratio.
     pub surface_friction: f64,
-    /// Stretch by the load, of warp and weft.
+    /// Stretch under the load, of warp and weft.
     pub stretch: [Stretch; 2],
     /// Stiffness against compression of 1 % from rest, in N/m.
     pub compression: [f64; 2],
@@ -60,46 +61,46 @@ pub struct Material {
     pub bending: [f64; 2],
     /// Shear stiffness, KES G, in N/m per rad.
     pub shear: f64,
-    /// What these numbers lose of the fabric, a sentence or two each.
+    /// Properties of the fabric that these numbers lose, each in a sentence or two.
     pub losses: Vec<String>,
     /// The fabric itself, as TOML.
     pub toml: String,
 }
 
 impl Material {
-    /// Usual load at which the stretch is read, in N/m. The weight of a garment pulls with some
-    /// newtons per metre, and a movement of its wearer with more. FAST reads its E20 at 19.6 N/m.
+    /// Usual load of the stretch, in N/m. The weight of a garment pulls with a few newtons per
+    /// metre, and a movement of the wearer with more. FAST reads its E20 at 19.6 N/m.
     pub const LOAD: f64 = 20.0;
 
-    /// Reads the numbers off the laws of a fabric; the stretch at a load, in N/m.
+    /// Returns the numbers of `fabric`, with the stretch under `load`, in N/m.
     ///
     /// Stretch and compression are secants of the traction laws of a virgin fabric. Bending and
     /// shear are KES B and G of simulated KES tests ([`fabric_values`]).
     ///
     /// # Errors
-    /// [`Error::Load`] for a load beyond 0.1 to 10 000 N/m, [`Error::NoStretch`] for one that the
-    /// fabric never carries, [`Error::Missing`] for laws that give no B or G.
-    pub fn of(fabric: &Fabric, load: f64) -> Result<Self, Error> {
+    /// [`Error::Load`] for a load outside 0.1 to 10 000 N/m, [`Error::NoStretch`] for a load that
+    /// the fabric does not carry, and [`Error::Missing`] for laws without a B or G.
+    pub fn from_fabric(fabric: &Fabric, load: f64) -> Result<Self, Error> {
         if !LOADS.contains(&load) {
             return Err(Error::Load { load });
         }
+
         let points = EvaluationPoints {
             maximum_tension: Sheet::default().maximum_tension(),
             bending: BendingPoints::default(),
             shear: ShearPoints::default(),
         };
         let values = DIRECTIONS.map(|direction| fabric_values(fabric, direction, &points));
+
         let [warp, weft] = [&fabric.warp, &fabric.weft].map(|laws| &laws.traction);
-        let stretch = [Stretch::of(warp, "warp", load)?, Stretch::of(weft, "weft", load)?];
-        let missing = |direction: Direction, value: &'static str| Error::Missing {
-            direction: direction.name(),
-            value,
-        };
-        let rigidity = |index: usize| {
-            let rigidity = values[index].bending_rigidity();
-            rigidity.ok_or_else(|| missing(DIRECTIONS[index], "bending rigidity B"))
-        };
+        let stretch = [Stretch::new(warp, "warp", load)?, Stretch::new(weft, "weft", load)?];
+        let mut bending = [0.0; 2];
+        for ((rigidity, values), direction) in bending.iter_mut().zip(&values).zip(DIRECTIONS) {
+            let value = values.bending_rigidity();
+            *rigidity = value.ok_or(missing(direction, "bending rigidity B"))?;
+        }
         let shear = values[0].shear_stiffness();
+
         Ok(Self {
             name: fabric.name.clone(),
             density: fabric.density,
@@ -107,24 +108,29 @@ impl Material {
             surface_friction: fabric.surface_friction,
             stretch,
             compression: [compression(warp), compression(weft)],
-            bending: [rigidity(0)?, rigidity(1)?],
-            shear: shear.ok_or_else(|| missing(Direction::Warp, "shear stiffness G"))?,
-            losses: loss::of(fabric, &values, stretch),
+            bending,
+            shear: shear.ok_or(missing(Direction::Warp, "shear stiffness G"))?,
+            losses: loss::losses(fabric, &values, stretch),
             toml: fabric.to_toml(),
         })
     }
 
-    /// Stiffnesses of the stretch, in N/m.
+    /// Returns the secant stiffnesses of `stretch`, in N/m.
     pub(crate) fn stiffnesses(&self) -> [f64; 2] {
         self.stretch.map(|stretch| stretch.stiffness)
     }
 
-    /// Returns the losses of a format that has one number for warp and weft, and no friction.
+    /// Returns the losses of the format of a `program` with one number for warp and weft.
     pub(crate) fn losses_without_direction(&self, program: &str) -> Vec<String> {
         let mut losses = self.losses.clone();
         losses.push(loss::direction(program, self.stiffnesses(), self.bending));
         losses
     }
+}
+
+/// Returns the error for a missing `value` of a `direction`.
+fn missing(direction: Direction, value: &'static str) -> Error {
+    Error::Missing { direction: direction.name(), value }
 }
 
 #[cfg(test)]
@@ -150,6 +156,6 @@ pub(crate) mod tests {
     pub(crate) fn linear() -> Material {
         let fabric =
             Fabric::from_document(&Document::new("linear.toml", LINEAR)).expect("a fabric");
-        Material::of(&fabric, Material::LOAD).expect("numbers")
+        Material::from_fabric(&fabric, Material::LOAD).expect("numbers")
     }
 }

@@ -1,36 +1,40 @@
-//! Numbers and texts as the files show them.
+//! Format of numbers and texts in files.
 
 use drape_input::figure;
 
-/// Returns a number of a file: six digits, which is more than a fabric is known to.
+/// Returns `value` with six digits, for a file. No fabric is measured more accurately.
 pub(crate) fn number(value: f64) -> String {
     figure(rounded(value))
 }
 
-/// Returns a number rounded to six digits.
+/// Returns `value` rounded to six digits.
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Returns a number of a sentence: three digits.
+/// Returns `value` with three digits, for a sentence.
 pub(crate) fn brief(value: f64) -> String {
     figure(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
-/// Returns the mean over warp and weft of a number that another program has once.
+/// Returns the mean of `pair`, a number of warp and weft, for a program with one number for both.
 pub(crate) fn mean(pair: [f64; 2]) -> f64 {
     0.5 * (pair[0] + pair[1])
 }
 
-/// Returns a text as one line: comments and tables have no place for more.
+/// Returns `text` as one line, for comments and cells of tables.
 pub(crate) fn one_line(text: &str) -> String {
-    let spaced =
-        |c: char| if c.is_control() || c == '\u{2028}' || c == '\u{2029}' { ' ' } else { c };
-    let text: String = text.chars().map(spaced).collect();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let words = text.split(is_separator).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join(" ")
 }
 
-/// Returns a text broken into lines of at most a number of letters; a longer word has a line of its own.
+/// Returns whether `letter` separates words: white space, a control character or a line separator.
+fn is_separator(letter: char) -> bool {
+    letter.is_whitespace() || letter.is_control()
+}
+
+/// Returns the lines of `text`, each of at most `letters` letters. A longer word is a line by
+/// itself.
 pub(crate) fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -10,32 +10,33 @@ use crate::number::{brief, mean, number, one_line, wrapped};
 /// Factor from the solver's `bend` to a bending rigidity over mass per area, in m⁴/s².
 const BEND_SCALE: f64 = 1.28e-5;
 
-/// Letters of a line of comments.
+/// Largest number of letters of a line of comments.
 const LETTERS: usize = 96;
 
 /// Parameters of a shell of ppf-contact-solver \[PPF26\].
 ///
 /// The Baraff–Witkin model has the energy per mass
 /// `$\tfrac12\mu((|F_u|-1)^2 + (|F_v|-1)^2) + \tfrac12\lambda(F_u\cdot F_v)^2$`, with the Lamé
-/// parameters of a solid. So stretch and shear stiffness are `$K = \rho\mu$` and `$G = \rho\lambda$`:
+/// parameters of a solid. Stretch and shear stiffness therefore are `$K = \rho\mu$` and
+/// `$G = \rho\lambda$`:
 ///
 /// ```math
 /// \nu = \frac{G/K}{2(1 + G/K)},\qquad E = 2(1 + \nu)\,K/\rho
 /// ```
 ///
-/// A hinge turns with `$1.28\cdot10^{-5}\,b\,\rho\,|e|^2/(A_1 + A_2)$`, which is the rigidity
-/// `$B = 1.28\cdot10^{-5}\,b\,\rho$` of a sheet of right or equilateral triangles.
+/// A hinge has the stiffness `$1.28\cdot10^{-5}\,b\,\rho\,|e|^2/(A_1 + A_2)$`. In a sheet of right
+/// or equilateral triangles this is the rigidity `$B = 1.28\cdot10^{-5}\,b\,\rho$`.
 pub(crate) struct Shell {
-    /// Modulus over density, in Pa per kg/m³ of a shell of unit thickness.
+    /// Ratio of modulus to density, in Pa per kg/m³, of a shell of unit thickness.
     pub(crate) young_modulus: f64,
     pub(crate) poisson_ratio: f64,
-    /// `bend` of warp and weft.
+    /// Parameter `bend` of warp and weft.
     pub(crate) bend: [f64; 2],
 }
 
 impl Shell {
-    /// Returns the parameters of a material.
-    pub(crate) fn of(material: &Material) -> Self {
+    /// Returns the parameters of `material`.
+    pub(crate) fn new(material: &Material) -> Self {
         let stretch = mean(material.stiffnesses());
         let ratio = material.shear / stretch;
         let poisson_ratio = ratio / (2.0 * (1.0 + ratio));
@@ -48,7 +49,7 @@ impl Shell {
     }
 }
 
-/// Profile with its numbers as they stand in it.
+/// Profile with its numbers as texts.
 #[derive(Template)]
 #[template(path = "ppf.toml", escape = "none")]
 struct Profile {
@@ -71,12 +72,13 @@ struct Profile {
 }
 
 impl Material {
-    /// Returns a material profile of the Blender add-on of ppf-contact-solver, as TOML. What each
-    /// number comes from, and what is lost, stands in comments.
+    /// Returns a material profile of the Blender add-on of ppf-contact-solver, as TOML. Comments
+    /// state the origin of each number and the `losses`.
     #[must_use]
     pub fn to_ppf(&self) -> String {
-        let Shell { young_modulus, poisson_ratio, bend } = Shell::of(self);
+        let Shell { young_modulus, poisson_ratio, bend } = Shell::new(self);
         let least = bend[0].min(bend[1]);
+
         let heading = format!(
             "Fabric \"{}\" for ppf-contact-solver (github.com/st-tech/ppf-contact-solver), written by drape {}.",
             one_line(&self.name),
@@ -103,7 +105,8 @@ impl Material {
         profile.render().expect("writing to a string does not fail")
     }
 
-    /// Returns what is lost: a shell of the solver is alike in warp and weft, and does not buckle.
+    /// Returns the `losses` of this format: a shell of the solver has one stiffness for warp and
+    /// weft, and does not buckle.
     fn ppf_losses(&self) -> Vec<String> {
         let mut losses = self.losses_without_direction("the profile");
         losses.push(format!(
@@ -119,7 +122,7 @@ impl Material {
     }
 }
 
-/// Returns a name as a key of TOML, in quotes.
+/// Returns `name` as a key of TOML, in quotes.
 fn key(name: &str) -> String {
     let name = one_line(name);
     Value::String(if name.is_empty() { "fabric".into() } else { name }).to_string()
@@ -134,7 +137,7 @@ mod tests {
     #[test]
     fn the_energies_of_the_solver_are_those_of_a_linear_fabric() {
         let material = linear();
-        let Shell { young_modulus, poisson_ratio, bend } = Shell::of(&material);
+        let Shell { young_modulus, poisson_ratio, bend } = Shell::new(&material);
         // The Lamé parameters that the solver makes of them, by its own formulas.
         let mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
         let lambda =

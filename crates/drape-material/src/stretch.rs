@@ -6,11 +6,11 @@ use crate::error::Error;
 
 /// Strain at which the stiffness against compression is read, a ratio.
 ///
-/// Yarns buckle beyond a hundredth or so. A smaller strain gives the stiffness of a fabric that lies
-/// flat, a larger one that of a fabric that has folded.
+/// Yarns buckle beyond about a hundredth. At a smaller strain the stiffness describes a flat
+/// fabric, at a larger strain a folded fabric.
 const COMPRESSION_STRAIN: f64 = -0.01;
 
-/// Strain of a fabric that a load stretches for the first time, against the friction of the fabric.
+/// Strain of a fabric under a load on the first stretching, against the friction of the fabric.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
     /// Load per width, in N/m.
@@ -22,14 +22,18 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Returns the stretch of a law by a load, in N/m.
-    pub(crate) fn of(law: &TractionLaw, direction: &'static str, load: f64) -> Result<Self, Error> {
+    /// Returns the stretch of `law` under `load`, in N/m. `direction` names the yarns in an error.
+    pub(crate) fn new(
+        law: &TractionLaw,
+        direction: &'static str,
+        load: f64,
+    ) -> Result<Self, Error> {
         let strain = law.strain_at(load).ok_or(Error::NoStretch { direction, load })?;
         Ok(Self { load, strain, stiffness: load / strain })
     }
 }
 
-/// Returns the secant stiffness of a law from rest to a compression of 1 %, in N/m.
+/// Returns the secant stiffness of `law` from rest to a compression of 1 %, in N/m.
 pub(crate) fn compression(law: &TractionLaw) -> f64 {
     law.respond(&law.virgin(), COMPRESSION_STRAIN).load / COMPRESSION_STRAIN
 }

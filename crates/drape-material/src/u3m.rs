@@ -1,4 +1,5 @@
-//! U3M: a material without a look, its physics and the fabric itself, as JSON or as an archive.
+//! U3M: physical properties of a material without its appearance, as JSON or as an archive with the
+//! fabric.
 
 mod archive;
 
@@ -17,17 +18,19 @@ const MATERIAL: &str = "material.u3m";
 const FABRIC: &str = "fabric.toml";
 
 impl Material {
-    /// Returns the material as U3M 1.1 \[Viz22\], JSON. `modified` is the time at which the fabric was.
+    /// Returns the material as U3M 1.1 \[Viz22\], JSON. `modified` is the time of the last change
+    /// of the fabric.
     ///
-    /// Thickness and weight stand in `physics`; U3M has no other number of its own, but a file of
-    /// Browzwear's instrument FAB, which this is none of. The numbers, their definitions and what
-    /// they lose stand in `custom.drape`.
+    /// Thickness and weight are in `physics`. U3M defines no other physical numbers, except a file
+    /// of Browzwear's instrument FAB, which does not exist for this fabric. All numbers, their
+    /// definitions and the `losses` are in `custom.drape`.
     #[must_use]
     pub fn to_u3m(&self, modified: SystemTime) -> String {
         self.u3m(modified, None)
     }
 
-    /// Returns the material as U3M archive (`.u3ma`), which has the whole fabric beside the material.
+    /// Returns the material as U3M archive (`.u3ma`), which contains the fabric beside the
+    /// material. `modified` is the time of the last change of the fabric.
     #[must_use]
     pub fn to_u3ma(&self, modified: SystemTime) -> Vec<u8> {
         let material = self.u3m(modified, Some(FABRIC));
@@ -37,7 +40,7 @@ impl Material {
         )
     }
 
-    /// Returns the JSON, with the name of the file that has the fabric, if there is one.
+    /// Returns the material as JSON. `fabric` is the name of the fabric's file in an archive.
     fn u3m(&self, modified: SystemTime, fabric: Option<&str>) -> String {
         let program = concat!("drape ", env!("CARGO_PKG_VERSION"));
         let name = one_line(&self.name);
@@ -46,6 +49,7 @@ impl Material {
             "Numbers of a fabric by {program}: thickness and weight. Stretch, bending and shear, their definitions \
              and what such numbers lose are in custom.drape. The fabric was not measured on a FAB, and has no look."
         );
+
         let document = json!({
             "schema": "1.1",
             "custom": { "drape": {
@@ -79,19 +83,9 @@ impl Material {
         text + "\n"
     }
 
-    /// Returns the numbers with units and definitions.
+    /// Returns the numbers as JSON objects with units and definitions.
     fn u3m_values(&self) -> Vec<Value> {
         let load = rounded(self.stretch[0].load);
-        let row =
-            |name: &str, direction: Option<&str>, value: f64, unit: &str, definition: &str| {
-                json!({
-                    "name": name,
-                    "direction": direction,
-                    "value": rounded(value),
-                    "unit": unit,
-                    "definition": definition,
-                })
-            };
         let mut rows = vec![
             row("mass per area", None, self.density, "kg/m²", ""),
             row("thickness", None, self.thickness, "m", "under 49 Pa (0.5 gf/cm²)"),
@@ -104,6 +98,7 @@ impl Material {
                 "KES G of the law: shear force per width over angle, 0.5° to 2.5°",
             ),
         ];
+
         for (index, direction) in ["warp", "weft"].into_iter().enumerate() {
             let Self { stretch, compression, bending, .. } = self;
             let secant = format!(
@@ -138,7 +133,7 @@ impl Material {
         rows
     }
 
-    /// Returns a random-looking identifier that is the same for the same fabric (UUID, version 4).
+    /// Returns an identifier in the form of a random UUID (version 4), a function of `toml`.
     fn id(&self) -> String {
         let hash = blake3::hash(self.toml.as_bytes());
         let mut bytes: [u8; 16] = hash.as_bytes()[..16].try_into().expect("a hash has 32 bytes");
@@ -147,6 +142,17 @@ impl Material {
         let text: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
         [&text[..8], &text[8..12], &text[12..16], &text[16..20], &text[20..]].join("-")
     }
+}
+
+/// Returns a number with its name, direction, unit and definition.
+fn row(name: &str, direction: Option<&str>, value: f64, unit: &str, definition: &str) -> Value {
+    json!({
+        "name": name,
+        "direction": direction,
+        "value": rounded(value),
+        "unit": unit,
+        "definition": definition,
+    })
 }
 
 #[cfg(test)]

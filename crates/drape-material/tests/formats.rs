@@ -30,7 +30,7 @@ fn fabric(text: &str) -> Fabric {
 }
 
 fn straight() -> Material {
-    Material::of(&fabric(STRAIGHT), 20.0).expect("numbers")
+    Material::from_fabric(&fabric(STRAIGHT), 20.0).expect("numbers")
 }
 
 fn is_near(value: f64, expected: f64) {
@@ -46,8 +46,8 @@ fn numbers_of_straight_laws_are_their_coefficients() {
         is_near(material.stretch[index].strain, 20.0 / stretch);
         is_near(material.bending[index], bending);
     }
-    // KES G is a chord of the shear force, which follows the sine of the angle; a degree apart in shape
-    // makes a few parts in ten thousand.
+    // KES G is a chord of the shear force, which follows the sine of the angle; a degree apart in
+    // shape makes a few parts in ten thousand.
     assert!((material.shear / 40.0 - 1.0).abs() < 2e-3, "{}", material.shear);
     // Load of a buckled yarn: k0 εb (exp(ε/εb) − 1) − kp ε²/2.
     let compression = |stiffness: f64, strain: f64, beyond: f64| {
@@ -65,13 +65,13 @@ fn a_stretch_is_read_at_the_load_that_is_asked_for() {
         "traction.polynomial = { quadratic = 8.4e4, quartic = 0.0 }",
     );
     for load in [0.1, 5.0, 20.0, 490.0] {
-        let material = Material::of(&fabric(&curved), load).expect("numbers");
+        let material = Material::from_fabric(&fabric(&curved), load).expect("numbers");
         is_near(material.stretch[0].strain, (load / 8.4e4_f64).sqrt());
         is_near(material.stretch[0].stiffness, (load * 8.4e4_f64).sqrt());
         is_near(material.stretch[1].stiffness, 2000.0);
     }
     for load in [0.0, -1.0, 0.05, 2e4, f64::NAN, f64::INFINITY] {
-        let refused = Material::of(&fabric(&curved), load);
+        let refused = Material::from_fabric(&fabric(&curved), load);
         assert!(matches!(refused, Err(Error::Load { .. })), "{load}: {refused:?}");
     }
 }
@@ -82,7 +82,7 @@ fn a_load_that_is_never_carried_is_refused() {
         "traction.primed = { stiffness = 2000.0, toe_ratio = 1.0, toe_strain = 0.01, toe_strain_after = 0.01 }",
         "traction.polynomial = { quadratic = 0.0, quartic = 0.0 }",
     );
-    let error = Material::of(&fabric(&weak), 20.0).expect_err("no stretch");
+    let error = Material::from_fabric(&fabric(&weak), 20.0).expect_err("no stretch");
     assert!(error.to_string().starts_with("the weft does not carry 20 N/m"), "{error}");
 }
 
@@ -91,7 +91,7 @@ fn what_is_lost_is_said_in_every_format() {
     let rubbing = STRAIGHT.to_owned()
         + "bending.rest_curvature = 3.0\n"
         + "[[weft.bending.friction]]\nplateau = 2e-4\nlength = 20.0\n";
-    let material = Material::of(&fabric(&rubbing), 20.0).expect("numbers");
+    let material = Material::from_fabric(&fabric(&rubbing), 20.0).expect("numbers");
     let all = material.losses.join("\n");
     for word in [
         "Friction and hysteresis",

@@ -257,7 +257,8 @@ impl Fabric {
         load: f64,
         modified: f64,
     ) -> PyResult<(Vec<u8>, Vec<String>)> {
-        let material = Material::of(&self.0, load).map_err(|error| failure(Kind::Usage, error))?;
+        let material =
+            Material::from_fabric(&self.0, load).map_err(|error| failure(Kind::Usage, error))?;
         let since = Duration::try_from_secs_f64(modified).unwrap_or_default();
         let modified = SystemTime::UNIX_EPOCH + since.min(LATEST);
         let bytes = match program {

@@ -1,7 +1,7 @@
 //! Sewn world as the solver sees it: a system of its independent particles.
 
 use drape_implicit::{
-    BlockMatrix, Coupling, MaterialPoint, Sparsity, StepFilter, StepLimit, Stiffness, System,
+    AllowedStep, BlockMatrix, Coupling, MaterialPoint, Sparsity, StepFilter, Stiffness, System,
     TrialStep,
 };
 
@@ -150,7 +150,7 @@ impl StepFilter for ReducedSystem<'_> {
         self.world.resolves_motion(start, end)
     }
 
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         let mut all = std::mem::take(&mut self.reduction.values);
         self.reduction.prolong(step.displacements, &mut all);
         let limit = self.at(step.start, |world, positions| {

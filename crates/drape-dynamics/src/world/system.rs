@@ -4,7 +4,7 @@
 use std::sync::atomic::Ordering;
 
 use drape_implicit::{
-    BlockMatrix, MaterialPoint, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep,
+    AllowedStep, BlockMatrix, MaterialPoint, Sparsity, StepFilter, Stiffness, System, TrialStep,
 };
 
 use super::World;
@@ -142,10 +142,10 @@ impl StepFilter for World {
         })
     }
 
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         match self.contact.surfaces_mut() {
             Some(surfaces) => surfaces.limit_step(step),
-            None => StepLimit::Whole,
+            None => AllowedStep::Whole,
         }
     }
 

@@ -5,11 +5,11 @@ use drape_hysteresis::Response;
 use crate::batch::lanes::{LANES, Lanes};
 use crate::batch::memories::{Memories, MemoriesMut, MemoryBatch};
 
-/// Law prepared for many connectors side by side; its results are those of [`Law`](crate::Law) up to
+/// Law prepared for many connectors side by side. Results agree with [`Law`](crate::Law) up to
 /// rounding.
 ///
-/// Every method is inlined into the caller, so that it is compiled for the vector instructions that the
-/// caller has selected.
+/// Every method is inlined into the caller, so that the compiler builds it for the vector
+/// instructions that the caller has selected.
 ///
 /// ```
 /// use drape_fabric::{
@@ -37,14 +37,14 @@ pub trait BatchLaw {
         memories
     }
 
-    /// Appends memories of connectors that were never deformed.
+    /// Appends the memories of `count` connectors that were never deformed to `memories`.
     fn append_memories(&self, memories: &mut Memories, count: usize);
 
-    /// Writes the [`LANES`] memories from `start` on as those of connectors that have the given
-    /// deformations and no friction.
+    /// Writes [`LANES`] memories from the index `start` on, of connectors with the given
+    /// `deformations` and without friction loads.
     fn start(&self, memories: &mut Memories, start: usize, deformations: &Lanes);
 
-    /// Adds loads, and tangents if `TANGENT`, at trial deformations.
+    /// Adds loads, and tangents if `TANGENT`, at the `trial` deformations to `responses`.
     fn respond<const TANGENT: bool>(
         &self,
         memory: &MemoryBatch<'_>,
@@ -52,7 +52,7 @@ pub trait BatchLaw {
         responses: &mut Responses,
     );
 
-    /// Adds the loads of the friction, and their tangents if `TANGENT`.
+    /// Adds the loads of the friction, and their tangents if `TANGENT`, to `responses`.
     fn add_friction<const TANGENT: bool>(
         &self,
         memory: &MemoryBatch<'_>,
@@ -60,21 +60,23 @@ pub trait BatchLaw {
         responses: &mut Responses,
     );
 
-    /// Adds the work of the friction per area from the memory to the trial, in J/m².
+    /// Adds the work of the friction per area from `memory` to `trial` to `works`, in J/m².
     fn add_friction_work(&self, memory: &MemoryBatch<'_>, trial: &Lanes, works: &mut Lanes);
 
-    /// Adds the potential within a step per area, in J/m²: the elastic energy at the trial and the
-    /// work of the friction from the memory to the trial. Its constant depends on the memory.
+    /// Adds the potential within a step per area to `works`, in J/m²: the elastic energy at
+    /// `trial`, and the work of the friction from `memory` to `trial`. The additive constant
+    /// depends on `memory`.
     fn add_work(&self, memory: &MemoryBatch<'_>, trial: &Lanes, works: &mut Lanes);
 
-    /// Advances the memories from `start` on; returns the energies per area that the friction has
-    /// dissipated, in J/m².
+    /// Advances the memories from the index `start` on to `trial`. Returns the energies per area
+    /// that the friction has dissipated, in J/m².
     fn commit(&self, memories: &mut MemoriesMut<'_>, start: usize, trial: &Lanes) -> Lanes;
 
-    /// Adds the energies per area that can be returned from the memories, in J/m².
+    /// Adds the energies per area that the fabric can return from `memory` to `energies`, in J/m².
     fn add_stored(&self, memory: &MemoryBatch<'_>, energies: &mut Lanes);
 
-    /// Adds the energies per area that the friction elements can return, in J/m².
+    /// Adds the energies per area that the friction can return from `memory` to `energies`, in
+    /// J/m².
     fn add_friction_stored(&self, memory: &MemoryBatch<'_>, energies: &mut Lanes);
 }
 
@@ -88,7 +90,7 @@ pub struct Responses {
 }
 
 impl Responses {
-    /// Returns load and tangent of one lane.
+    /// Returns load and tangent of `lane`.
     #[inline(always)]
     #[must_use]
     pub fn lane(&self, lane: usize) -> Response {

@@ -1,4 +1,4 @@
-//! The law of bending for a batch. Its friction has no varying weight, hence no knots.
+//! The law of bending for a batch. The weight of its friction is constant and has no knots.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use crate::batch::batch_law::Responses;
@@ -16,14 +16,14 @@ pub struct BendingBatch {
 }
 
 impl BendingBatch {
-    /// Prepares a law.
+    /// Prepares `law` for a batch.
     #[must_use]
     pub fn new(law: BendingLaw) -> Self {
         let friction = PreparedFriction::new(&law.friction);
         Self { law, friction }
     }
 
-    /// The law that was prepared.
+    /// Returns the law before its preparation.
     #[must_use]
     pub fn law(&self) -> &BendingLaw {
         &self.law

@@ -1,21 +1,22 @@
-//! The number of connectors in a batch, and helpers for one number per lane.
+//! The number of connectors in a batch, and operations on one number per lane.
 
 /// Number of connectors that are evaluated side by side.
 ///
-/// It affects speed alone: eight vectors of four numbers are enough to hide the latency of the
-/// exponentials, and few enough that a rare case (a knot passed in one lane) costs few neighbours.
+/// The number affects only the speed. Eight vectors of four numbers are enough to hide the latency
+/// of the exponentials. They are few enough that a rare case (a knot passed in one lane) concerns
+/// few neighbours.
 pub const LANES: usize = 32;
 
 /// One number for each connector of a batch.
 pub type Lanes = [f64; LANES];
 
-/// Returns whether the condition holds in any lane: a sum of bits, without a branch per lane.
+/// Returns whether `condition` holds in any lane, by a sum of bits without a branch per lane.
 #[inline(always)]
 pub(crate) fn any(condition: impl Fn(usize) -> bool) -> bool {
     (0..LANES).fold(0_u64, |bits, lane| bits | u64::from(condition(lane))) != 0
 }
 
-/// Returns `$\max(x, 0)$`, and NaN of NaN.
+/// Returns `$\max(x, 0)$`, and NaN for a NaN `x`.
 #[inline(always)]
 pub(crate) fn positive(x: f64) -> f64 {
     if x < 0.0 { 0.0 } else { x }

@@ -16,14 +16,14 @@ pub struct ShearBatch {
 }
 
 impl ShearBatch {
-    /// Prepares a law.
+    /// Prepares `law` for a batch.
     #[must_use]
     pub fn new(law: ShearLaw) -> Self {
         let friction = PreparedFriction::new(&law.friction);
         Self { law, friction }
     }
 
-    /// Returns the locking, if the shear of some lane is beyond its onset.
+    /// Returns the locking, if the shear of any lane of `trial` is beyond its onset.
     #[inline(always)]
     fn locked(&self, trial: &Lanes) -> Option<Locking> {
         self.law.locking.filter(|locking| any(|lane| trial[lane].abs() > locking.onset))
@@ -100,6 +100,8 @@ impl WeightedLaw for ShearBatch {
                 }
             }
         }
+
+        // In lanes beyond the onset, the load of locking replaces the load of the backbone.
         if let Some(locking) = self.locked(trial) {
             let at_onset = self.law.backbone.respond(locking.onset);
             for lane in 0..LANES {
@@ -107,11 +109,11 @@ impl WeightedLaw for ShearBatch {
                 let beyond = size > locking.onset;
                 let Elastic { response, .. } = locking.respond(at_onset, size);
                 let free = self.law.backbone.respond(trial[lane]);
-                let more = response.load.copysign(trial[lane]) - free.load;
-                load[lane] += if beyond { more } else { 0.0 };
+                let load_change = response.load.copysign(trial[lane]) - free.load;
+                load[lane] += if beyond { load_change } else { 0.0 };
                 if TANGENT {
-                    let more = response.tangent - free.tangent;
-                    tangent[lane] += if beyond { more } else { 0.0 };
+                    let tangent_change = response.tangent - free.tangent;
+                    tangent[lane] += if beyond { tangent_change } else { 0.0 };
                 }
             }
         }

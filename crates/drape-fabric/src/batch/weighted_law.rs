@@ -1,7 +1,7 @@
 //! A law whose friction has a plateau with a weight that is linear between knots, for a batch.
 //!
-//! Bending, shear and the traction laws of the papers are such laws. Where a scalar law cuts the path
-//! into pieces, these add contributions of the knots that the path passes.
+//! Such laws are bending, shear, and traction without an exponential toe. A scalar law cuts the
+//! path into pieces. A batch adds contributions of the knots that the path passes instead.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_hysteresis::{PassedKnot, Stroke};
@@ -13,37 +13,36 @@ use crate::batch::memories::{CommittedBatch, LaneMemory, Memories, MemoriesMut, 
 
 /// Law whose friction has a plateau with a weight that is linear between knots.
 ///
-/// Such a law supplies functions of one lane, without branches. The trait [`BatchLaw`] applies these
-/// functions to a batch.
+/// Such a law supplies functions of one lane, without branches. The trait [`BatchLaw`] applies
+/// these functions to a batch.
 pub(crate) trait WeightedLaw {
-    /// Number of knots: deformations where the weight of the friction changes its slope.
+    /// Number of knots: deformations at which the weight of the friction changes its slope.
     const KNOTS: usize;
 
     /// Whether the elastic load depends on the largest deformation.
     const DEPENDS_ON_PEAK: bool;
 
-    /// Elements of the friction.
+    /// Returns the elements of the friction.
     fn friction(&self) -> &PreparedFriction;
 
-    /// Returns the priming zone after a largest deformation.
+    /// Returns the priming zone after the largest deformation `peak`.
     fn toe(&self, peak: f64) -> Toe;
 
-    /// Returns the largest deformation after a trial has been accepted, in the unit of the
-    /// deformation.
+    /// Returns the largest deformation after the acceptance of `trial`, in the unit of the
+    /// deformation. `peak` is the largest deformation before.
     fn peak(&self, peak: f64, trial: f64) -> f64;
 
-    /// Returns the weight of the friction at a deformation.
+    /// Returns the weight of the friction at `deformation`.
     fn weight(&self, lane: LaneMemory, deformation: f64) -> f64;
 
-    /// Returns the derivative of the weight at the remembered deformation, on the side of rising or
-    /// of falling deformation.
+    /// Returns the derivative of the weight at the deformation of the memory `lane`, from above if
+    /// the deformation is `rising`, otherwise from below.
     fn weight_slope(&self, lane: LaneMemory, rising: bool) -> f64;
 
-    /// Returns one of the knots of the weight.
+    /// Returns the knot of the weight with the index `knot`.
     fn knot(&self, knot: usize, lane: LaneMemory) -> Knot;
 
-    /// Adds elastic loads, and their tangents if `TANGENT`, in the units of
-    /// [`Response`].
+    /// Adds elastic loads, and their tangents if `TANGENT`, at `trial` to `responses`.
     fn add_elastic<const TANGENT: bool>(
         &self,
         memory: &MemoryBatch<'_>,
@@ -51,10 +50,10 @@ pub(crate) trait WeightedLaw {
         responses: &mut Responses,
     );
 
-    /// Adds elastic energies per area, in J/m².
+    /// Adds elastic energies per area at `trial` to `energies`, in J/m².
     fn add_elastic_energy(&self, memory: &MemoryBatch<'_>, trial: &Lanes, energies: &mut Lanes);
 
-    /// Returns the path from the memory to a trial.
+    /// Returns the path from the memory `lane` to `trial`.
     #[inline(always)]
     fn stroke(&self, lane: LaneMemory, trial: f64) -> Stroke {
         let rising = trial >= lane.position;
@@ -67,24 +66,25 @@ pub(crate) trait WeightedLaw {
         }
     }
 
-    /// Returns what remains of the path beyond a knot: nothing where it does not pass the knot.
+    /// Returns the part of the path beyond `knot`, with the length 0 if the path does not pass the
+    /// knot.
     #[inline(always)]
     fn passed(&self, knot: usize, lane: LaneMemory, trial: f64) -> PassedKnot {
         let Knot { position, slope_change } = self.knot(knot, lane);
         let beyond = trial - position;
-        // The path passes the knot if its ends lie on two sides of it.
+        // The path passes the knot if its ends lie on different sides of the knot.
         let passes = (lane.position - position) * beyond < 0.0;
         let length = if passes { beyond.abs() } else { 0.0 };
         PassedKnot { slope_change, length }
     }
 
-    /// Returns whether some lane passes the knot.
+    /// Returns whether the path of any lane passes `knot`.
     #[inline(always)]
     fn passes(&self, knot: usize, memory: &MemoryBatch<'_>, trial: &Lanes) -> bool {
         any(|lane| self.passed(knot, memory.lane(lane), trial[lane]).length > 0.0)
     }
 
-    /// Returns whether some lane passes some knot.
+    /// Returns whether the path of any lane of `trial` passes any knot.
     #[inline(always)]
     fn passes_any(&self, memory: &MemoryBatch<'_>, trial: &Lanes) -> bool {
         any(|lane| {
@@ -140,6 +140,8 @@ impl<L: WeightedLaw> BatchLaw for L {
                 }
             }
         }
+
+        // Paths rarely pass a knot, so the contributions of the knots are skipped if none does.
         if !self.passes_any(memory, trial) {
             return;
         }
@@ -171,6 +173,7 @@ impl<L: WeightedLaw> BatchLaw for L {
                 works[lane] += element.work(before[lane], stroke);
             }
         }
+
         if !self.passes_any(memory, trial) {
             return;
         }
@@ -199,6 +202,8 @@ impl<L: WeightedLaw> BatchLaw for L {
         let mut ends = [[0.0; LANES]; 2];
         let memory = memories.batch(start);
         self.add_friction_work(&memory, trial, &mut lost);
+
+        // The friction dissipates its work less the change of its stored energy.
         for (index, element) in self.friction().0.into_iter().enumerate() {
             let Some(element) = element else { continue };
             let (before, end) = (memory.friction(index), &mut ends[index]);
@@ -219,15 +224,19 @@ impl<L: WeightedLaw> BatchLaw for L {
                 lost[lane] += element.stored(before[lane]) - element.stored(end[lane]);
             }
         }
+
         let mut peaks = [0.0; LANES];
         for lane in 0..LANES {
             peaks[lane] = self.peak(memory.lane(lane).peak, trial[lane]);
         }
+
+        // A moving toe changes the elastic energy at a constant strain, which is dissipated too.
         let toes_move = Self::DEPENDS_ON_PEAK && any(|lane| peaks[lane] > memory.lane(lane).peak);
         let mut energies = [[0.0; LANES]; 2];
         if toes_move {
             self.add_elastic_energy(&memory, trial, &mut energies[0]);
         }
+
         let [first, second] = self.friction().0;
         let friction = [first.map(|_| &ends[0]), second.map(|_| &ends[1])];
         memories.write(start, CommittedBatch { positions: trial, peaks: &peaks, friction });
@@ -258,11 +267,11 @@ impl<L: WeightedLaw> BatchLaw for L {
     }
 }
 
-/// Deformation where the weight of the friction changes its slope.
+/// Deformation at which the weight of the friction changes its slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Knot {
-    /// The deformation, in the unit of the deformation.
+    /// Position of the knot, in the unit of the deformation.
     pub(crate) position: f64,
-    /// Change of the weight's derivative there, for rising deformation.
+    /// Change of the weight's derivative at the knot, for rising deformation.
     pub(crate) slope_change: f64,
 }

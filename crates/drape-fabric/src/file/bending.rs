@@ -36,7 +36,7 @@ pub(super) struct BendingFile {
 }
 
 impl BendingFile {
-    /// Returns the law at the key `key`.
+    /// Returns the law with the key `key`. Mistakes go to `report`.
     pub(super) fn law(self, key: &str, report: &mut Report<'_>) -> BendingLaw {
         let backbone = match (self.rigidity, self.varying, self.piecewise) {
             (Some(rigidity), None, None) => BendingBackbone::Linear { rigidity: rigidity.value() },

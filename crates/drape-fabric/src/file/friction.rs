@@ -18,7 +18,8 @@ pub(super) struct ElementFile<L: Dimension, D: Dimension> {
     length: Given<D>,
 }
 
-/// Returns the friction of one or two `elements` at the key of a law.
+/// Returns the friction of one or two `elements` of the law with the key `key`. More than two
+/// elements are a mistake, which goes to `report`.
 pub(super) fn friction<L: Dimension, D: Dimension>(
     elements: &[ElementFile<L, D>],
     key: &str,
@@ -31,14 +32,14 @@ pub(super) fn friction<L: Dimension, D: Dimension>(
             "the model has one (first order) or two (second order, or nested loops)",
         );
     }
-    let element = |index: usize| {
+    let [first, second] = [0, 1].map(|index| {
         let element = elements.get(index);
         element.map_or(Dahl::NONE, |e| Dahl::new(e.plateau.value(), e.length.value()))
-    };
-    BlimanSorine::parallel(element(0), element(1))
+    });
+    BlimanSorine::parallel(first, second)
 }
 
-/// Returns the elements of a friction that are there.
+/// Returns the elements of `friction` with a plateau.
 pub(super) fn elements<L: Dimension, D: Dimension>(
     friction: &BlimanSorine,
 ) -> Vec<ElementFile<L, D>> {

@@ -1,4 +1,4 @@
-//! Where mistakes in the keys of a fabric go.
+//! Receiver of mistakes in the keys of a fabric.
 
-/// Takes the key, the message and the remedy of a mistake.
+/// Function that receives the key, the message and the remedy of a mistake.
 pub(crate) type Report<'a> = dyn FnMut(&str, &str, &str) + 'a;

@@ -52,7 +52,7 @@ struct LockingFile {
 }
 
 impl ShearFile {
-    /// Returns the law of the table `shear`.
+    /// Returns the law of the table `shear`. Mistakes go to `report`.
     pub(super) fn law(self, report: &mut Report<'_>) -> ShearLaw {
         let backbone = match (self.stiffness, self.varying, self.piecewise) {
             (Some(stiffness), None, None) => ShearBackbone::Linear { stiffness: stiffness.value() },

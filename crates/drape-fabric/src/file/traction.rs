@@ -92,7 +92,7 @@ struct PrimedFile {
     /// Slope of the line, in N/m.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1.0, 1e7)))]
     stiffness: Given<ForcePerWidth>,
-    /// Load at the end of the priming zone over that of the line.
+    /// Ratio of the load at the end of the priming zone to the load of the line there.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(TOE_RATIO_MIN, 1.0)))]
     toe_ratio: f64,
     /// Strain at the end of the priming zone, of virgin fabric.
@@ -130,7 +130,7 @@ struct BucklingFile {
 }
 
 impl TractionFile {
-    /// Returns the law at the key `key`.
+    /// Returns the law with the key `key`. Mistakes go to `report`.
     pub(super) fn law(self, key: &str, report: &mut Report<'_>) -> TractionLaw {
         let backbone = match (self.exponential, self.primed, self.polynomial) {
             (Some(e), None, None) => TractionBackbone::Exponential(ExponentialToe {
@@ -159,10 +159,12 @@ impl TractionFile {
                 TractionBackbone::Polynomial(Polynomial { quadratic: 1.0, quartic: 0.0 })
             }
         };
+
         let buckling = self.buckling.map_or(Buckling::default(), |b| Buckling {
             strain: b.strain.value(),
             stiffness: b.stiffness.value(),
         });
+
         if self.proportional_friction.is_some() && !self.friction.is_empty() {
             report(
                 &format!("{key}.friction"),
@@ -210,6 +212,7 @@ impl From<&TractionLaw> for TractionFile {
                 });
             }
         }
+
         let (friction, proportional_friction) = match &law.friction {
             TractionFriction::Plateau(friction) => (elements(friction), None),
             TractionFriction::Proportional(friction) => {
@@ -218,6 +221,7 @@ impl From<&TractionLaw> for TractionFile {
                 (Vec::new(), Some(ProportionalFile { ratio, plateau, length }))
             }
         };
+
         let Buckling { strain, stiffness } = law.buckling;
         let (strain, stiffness) = (Given::bare(strain), Given::bare(stiffness));
         let buckling = Some(BucklingFile { strain, stiffness });

@@ -12,9 +12,9 @@ use crate::laws::varying::Varying;
 /// M = M_e(\kappa - \kappa_0) + M_{fr}
 /// ```
 ///
-/// The curvature is signed: a fabric that is bent through zero to the other side continues along its
-/// loop and does not reverse. The unit that the paper prints for the rigidity, N·m², does not fix
-/// the width; here it is per width, in N·m, so that the moment is in N.
+/// The curvature is signed: a fabric that is bent through zero to the other side continues along
+/// its loop and does not reverse. The paper prints the rigidity in N·m², without a width. In this
+/// law the rigidity is per width, in N·m, and the moment per width is in N.
 ///
 /// ```
 /// use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law};
@@ -30,9 +30,9 @@ use crate::laws::varying::Varying;
 pub struct BendingLaw {
     /// Elastic moment per width.
     pub backbone: BendingBackbone,
-    /// Curvature `$\kappa_0$` at rest, as of a crease or a fold, in 1/m.
+    /// Curvature `$\kappa_0$` at rest, for example of a crease, in 1/m.
     pub rest_curvature: f64,
-    /// Friction moment of first or second order; its plateau is in N, its length in 1/m.
+    /// Friction moment of first or second order, with a plateau in N and a length in 1/m.
     pub friction: BlimanSorine,
 }
 
@@ -44,14 +44,14 @@ pub enum BendingBackbone {
         /// Bending rigidity per width, in N·m.
         rigidity: f64,
     },
-    /// Rigidity that changes with the curvature; stiffnesses are in N·m, the transition in 1/m.
+    /// Rigidity that changes with the curvature: stiffnesses in N·m, transition in 1/m.
     Varying(Varying),
-    /// Quadratic and line; the slope is in N·m, the intercept in N, the knot in 1/m.
+    /// Quadratic and line: slope in N·m, intercept in N, knot in 1/m.
     Piecewise(Piecewise),
 }
 
 impl BendingBackbone {
-    /// Returns the moment per width and its derivative at a curvature, in N and N·m.
+    /// Returns the moment per width and its derivative at `curvature`, in N and N·m.
     #[must_use]
     pub fn respond(&self, curvature: f64) -> Response {
         match self {
@@ -65,7 +65,7 @@ impl BendingBackbone {
         }
     }
 
-    /// Returns the energy per area at a curvature, in J/m².
+    /// Returns the energy per area at `curvature`, in J/m².
     #[must_use]
     pub fn energy(&self, curvature: f64) -> f64 {
         match self {
@@ -77,6 +77,7 @@ impl BendingBackbone {
 }
 
 impl BendingLaw {
+    /// Returns the slip of the friction from `memory` to `curvature`.
     fn slip(&self, memory: &Memory, curvature: f64) -> Slip {
         Slip::from(curvature - memory.position)
     }

@@ -1,11 +1,11 @@
-//! The interface of every law, the memory of a connector, and a law driven along a path.
+//! The interface of all laws, the memory of a connector, and the response of a law to a history.
 
 use drape_hysteresis::{Loads, Response};
 use serde::{Deserialize, Serialize};
 
-/// Memory of a connector: what a law needs to know of the deformation path so far.
+/// Memory of a connector: the state after the past deformation path, on which a law depends.
 ///
-/// The unit of the deformation is the law's (a ratio for traction and shear, 1/m for bending).
+/// The unit of the deformation is a ratio for traction and shear, and 1/m for bending.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Memory {
     /// Deformation at the last commit, in the unit of the deformation.
@@ -18,9 +18,9 @@ pub struct Memory {
 
 /// One-dimensional law of load against deformation with memory, as a KES instrument measures it.
 ///
-/// A trial deformation never changes the memory; only [`Law::commit`] makes a new one. Between two
-/// commits the load is a single-valued function of the trial deformation, so it has a potential,
-/// [`Law::work`], in spite of the friction.
+/// A trial deformation never changes the memory. Only [`Law::commit`] returns a new memory. Between
+/// two commits the load is a single-valued function of the trial deformation, so the load has a
+/// potential, [`Law::work`], in spite of the friction.
 pub trait Law {
     /// Returns the memory of a fabric that was never deformed.
     #[must_use]
@@ -28,25 +28,26 @@ pub trait Law {
         Memory::default()
     }
 
-    /// Returns load and tangent at a trial deformation.
+    /// Returns load and tangent at a trial `deformation`.
     #[must_use]
     fn respond(&self, memory: &Memory, deformation: f64) -> Response;
 
-    /// Returns the work per area from the committed to a trial deformation, in J/m².
+    /// Returns the work per area from the deformation of `memory` to a trial `deformation`, in
+    /// J/m².
     #[must_use]
     fn work(&self, memory: &Memory, deformation: f64) -> f64;
 
-    /// Returns the memory after the deformation has been reached along a straight path.
+    /// Returns the memory after a straight path from the deformation of `memory` to `deformation`.
     #[must_use]
     fn commit(&self, memory: &Memory, deformation: f64) -> Memory;
 
-    /// Returns the energy per area that the fabric can return from the remembered state, in J/m².
+    /// Returns the energy per area that the fabric can return from the state `memory`, in J/m².
     #[must_use]
     fn stored(&self, memory: &Memory) -> f64;
 }
 
-/// Drives a law from a memory along a deformation history; returns the load at every point, in the
-/// unit of the load. Each point is reached along a straight path.
+/// Returns the load of `law` at every point of the deformation `history`, in the unit of the load.
+/// The history begins at `memory`, and leads to each point along a straight path.
 #[must_use]
 pub fn drive(law: &impl Law, memory: Memory, history: &[f64]) -> Vec<f64> {
     let mut memory = memory;

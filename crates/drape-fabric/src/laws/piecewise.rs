@@ -2,9 +2,9 @@
 
 /// Quadratic through the origin that continues as a straight line, odd about the origin.
 ///
-/// It approximates the first branch of a KES bending or shear curve \[BHW94, §5.1\]: the line is fitted
-/// to the outer, stable part, and the quadratic continues it to the origin with the same value and
-/// slope at the knot:
+/// The curve approximates the first branch of a KES bending or shear curve \[BHW94, §5.1\]. The
+/// line is fitted to the outer, stable part. The quadratic continues the line to the origin, with
+/// equal value and slope at the knot:
 ///
 /// ```math
 /// L(d) = \begin{cases} p\,d + q\,d^2, & 0 \le d \le d_k\\ c + s\,d, & d > d_k \end{cases}
@@ -16,12 +16,12 @@ pub struct Piecewise {
     pub slope: f64,
     /// Intercept `$c$` of the line, in the unit of the load.
     pub intercept: f64,
-    /// Deformation `$d_k$` where quadratic and line meet, greater than 0.
+    /// Deformation `$d_k$` at which quadratic and line meet, greater than 0.
     pub knot: f64,
 }
 
 impl Piecewise {
-    /// Returns the load at a deformation, in the unit of the load.
+    /// Returns the load at `deformation`, in the unit of the load.
     #[must_use]
     pub fn load(&self, deformation: f64) -> f64 {
         let d = deformation.abs();
@@ -34,8 +34,8 @@ impl Piecewise {
         load.copysign(load * deformation)
     }
 
-    /// Returns load over deformation at a deformation of at least 0, in load per deformation; at 0 the
-    /// limit.
+    /// Returns the ratio of load to `deformation`, which is at least 0, in load per deformation. At
+    /// 0 it is the limit.
     #[must_use]
     #[inline]
     pub fn secant(&self, deformation: f64) -> f64 {
@@ -45,14 +45,14 @@ impl Piecewise {
         if deformation <= self.knot { within } else { beyond }
     }
 
-    /// Returns the derivative of the load, in load per deformation.
+    /// Returns the derivative of the load at `deformation`, in load per deformation.
     #[must_use]
     pub fn tangent(&self, deformation: f64) -> f64 {
         let t = (deformation.abs() / self.knot).min(1.0);
         self.slope + 2.0 * self.intercept / self.knot * (1.0 - t)
     }
 
-    /// Returns the integral of the load from 0, in load times deformation.
+    /// Returns the integral of the load from 0 to `deformation`, in load times deformation.
     #[must_use]
     pub fn energy(&self, deformation: f64) -> f64 {
         let d = deformation.abs();

@@ -7,26 +7,27 @@ use crate::laws::path::Path;
 use crate::laws::piecewise::Piecewise;
 use crate::laws::varying::Varying;
 
-/// Fraction of the interval from the onset of locking to its limit beyond which the load is a line.
+/// Fraction of the interval from the onset of locking to its limit, beyond which the load is a
+/// line.
 ///
-/// The load of [`Locking`] has a pole that a solver's trial may overshoot. Beyond this fraction it is
-/// a line with the slope reached there, 400 times the slope at the onset, so that every trial has a
-/// finite load.
+/// The load of [`Locking`] has a pole that a solver's trial may overshoot. Beyond this fraction the
+/// load continues as its tangent, which is 400 times as steep as at the onset. Every trial thus has
+/// a finite load.
 const LINE_FROM: f64 = 0.95;
 
 /// Shear force per length against the sine of the shear angle.
 ///
-/// The deformation is `$s = \sin\varphi$` with the KES shear angle `$\varphi$`: the work of the KES
-/// force is `$F\cos\varphi\,\mathrm{d}\varphi = F\,\mathrm{d}s$` \[BHW94, eq. 5.7\], so the measured
-/// force is the load of this law without a factor. Up to 8°, the end of the KES test, the sine differs
-/// from the angle by 0.3 %.
+/// The deformation is `$s = \sin\varphi$` with the KES shear angle `$\varphi$`. The work of the KES
+/// force is `$F\cos\varphi\,\mathrm{d}\varphi = F\,\mathrm{d}s$` \[BHW94, eq. 5.7\], so the
+/// measured force equals the load of this law without a factor. Up to 8°, the end of the KES test,
+/// the sine differs from the angle by 0.3 %.
 ///
 /// ```math
 /// F = F_e(s) + F_{fr},\qquad F_c(s) = F_c\,(1 + \gamma|s|)
 /// ```
 ///
-/// The plateau of the friction grows with the deformation because KES loops widen with the angle
-/// (2HG5 > 2HG), which the constant plateau of \[NB04, eq. 5\] cannot give.
+/// The plateau of the friction grows with the deformation, because KES loops widen with the angle
+/// (2HG5 > 2HG). The constant plateau of \[NB04, eq. 5\] cannot represent this.
 ///
 /// ```
 /// use drape_fabric::{BlimanSorine, Law, ShearBackbone, ShearLaw};
@@ -44,7 +45,7 @@ const LINE_FROM: f64 = 0.95;
 pub struct ShearLaw {
     /// Elastic load, per length.
     pub backbone: ShearBackbone,
-    /// Friction of first or second order; its plateau is in N/m, its length is a sine.
+    /// Friction of first or second order, with a plateau in N/m and a length that is a sine.
     pub friction: BlimanSorine,
     /// Growth `$\gamma$` of the plateau per unit of the sine, at least 0.
     pub growth: f64,
@@ -60,32 +61,33 @@ pub enum ShearBackbone {
         /// Shear stiffness `$k_s$`, in N/m per unit of the sine.
         stiffness: f64,
     },
-    /// Stiffness that changes with the shear; stiffnesses are in N/m, the transition is a sine.
+    /// Stiffness that changes with the shear: stiffnesses in N/m, transition a sine.
     Varying(Varying),
-    /// Quadratic and line; slope and intercept are in N/m, the knot is a sine.
+    /// Quadratic and line: slope and intercept in N/m, knot a sine.
     Piecewise(Piecewise),
 }
 
 /// Locking of the yarns: beyond the onset the load follows `$a/(s_l - s) + b$`.
 ///
-/// Value and slope are continuous at the onset. The pole at 1.05 rad \[BHW94, §5.3\] (there of the
-/// energy) keeps the shear below about 60°.
+/// Value and slope are continuous at the onset. The pole at 1.05 rad keeps the shear below about
+/// 60°. In \[BHW94, §5.3\] the energy has this pole instead of the load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Locking {
-    /// Sine of the angle where locking begins: the end of the measurement.
+    /// Sine of the angle at which locking begins: the end of the measurement.
     pub onset: f64,
-    /// Sine of the angle that cannot be passed.
+    /// Sine of the largest possible angle.
     pub limit: f64,
 }
 
 impl Default for Locking {
-    /// Returns locking from 8°, where the KES test ends, with the limit 1.05 rad.
+    /// Returns locking from 8°, the end of the KES test, with the limit 1.05 rad.
     fn default() -> Self {
         Self { onset: 8_f64.to_radians().sin(), limit: 1.05_f64.sin() }
     }
 }
 
 impl ShearBackbone {
+    /// Returns load and tangent at `shear`, a sine.
     pub(crate) fn respond(&self, shear: f64) -> Response {
         match self {
             Self::Linear { stiffness } => Response { load: stiffness * shear, tangent: *stiffness },
@@ -94,6 +96,7 @@ impl ShearBackbone {
         }
     }
 
+    /// Returns the energy per area at `shear`, a sine, in J/m².
     pub(crate) fn energy(&self, shear: f64) -> f64 {
         match self {
             Self::Linear { stiffness } => 0.5 * stiffness * shear * shear,
@@ -111,17 +114,19 @@ pub(crate) struct Elastic {
 }
 
 impl Locking {
-    /// Returns the response at a shear of at least the onset, with the energy from the onset on.
+    /// Returns the response at a `shear` of at least the onset, with the energy from the onset to
+    /// `shear`. `at_onset` is the response at the onset.
     pub(crate) fn respond(&self, at_onset: Response, shear: f64) -> Elastic {
         let span = self.limit - self.onset;
         let pole = at_onset.tangent * span * span;
         let end = self.onset + LINE_FROM * span;
         let on_curve = shear.min(end);
-        let left = self.limit - on_curve;
-        let load = at_onset.load + pole * (1.0 / left - 1.0 / span);
-        let tangent = pole / (left * left);
-        let past = on_curve - self.onset;
-        let energy = at_onset.load * past + pole * ((span / left).ln() - past / span);
+        let remaining = self.limit - on_curve;
+        let load = at_onset.load + pole * (1.0 / remaining - 1.0 / span);
+        let tangent = pole / (remaining * remaining);
+        let beyond_onset = on_curve - self.onset;
+        let energy =
+            at_onset.load * beyond_onset + pole * ((span / remaining).ln() - beyond_onset / span);
         let line = shear - on_curve;
         Elastic {
             response: Response { load: load + tangent * line, tangent },
@@ -131,7 +136,7 @@ impl Locking {
 }
 
 impl ShearLaw {
-    /// Returns elastic load, tangent and energy at a shear.
+    /// Returns elastic load, tangent and energy at `shear`, a sine.
     pub(crate) fn elastic(&self, shear: f64) -> Elastic {
         let size = shear.abs();
         match self.locking {
@@ -148,6 +153,7 @@ impl ShearLaw {
         }
     }
 
+    /// Returns the path of the friction from `memory` to `shear`.
     fn path(&self, memory: &Memory, shear: f64) -> Path {
         Path::new(memory.position, shear, &[0.0], |s: f64| 1.0 + self.growth * s.abs())
     }

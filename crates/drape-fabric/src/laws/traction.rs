@@ -1,7 +1,8 @@
 //! Law of traction: tension per width against strain along one yarn system.
 //!
-//! `primed`, `polynomial` and `exponential` are the elastic loads, `toe` the end of a toe that moves,
-//! `buckling` the load in compression, `proportional` the friction that grows with the tension.
+//! `primed`, `polynomial` and `exponential` are the elastic loads. `toe` is the end of a toe that
+//! depends on the largest elongation. `buckling` is the load in compression. `proportional` is the
+//! friction that grows with the tension.
 
 pub(crate) mod buckling;
 pub(crate) mod exponential;
@@ -18,9 +19,7 @@ use crate::laws::traction::buckling::Buckling;
 use crate::laws::traction::exponential::ExponentialToe;
 use crate::laws::traction::polynomial::Polynomial;
 use crate::laws::traction::primed::Primed;
-use crate::laws::traction::proportional::{
-    ProportionalFriction, Weight, WeightPiece, WeightedStep,
-};
+use crate::laws::traction::proportional::{ProportionalFriction, Weight, WeightedStep};
 
 /// Tension per width of a woven fabric along one of its yarn systems, against strain.
 ///
@@ -34,7 +33,12 @@ use crate::laws::traction::proportional::{
 /// ```
 /// use drape_fabric::{BlimanSorine, Buckling, Law, Primed, TractionBackbone, TractionLaw};
 ///
-/// let toe = Primed { stiffness: 4000.0, toe_ratio: 0.7, toe_strain: 0.01, toe_strain_after: 0.01 };
+/// let toe = Primed {
+///     stiffness: 4000.0,
+///     toe_ratio: 0.7,
+///     toe_strain: 0.01,
+///     toe_strain_after: 0.01,
+/// };
 /// let law = TractionLaw {
 ///     backbone: TractionBackbone::Primed(toe),
 ///     friction: BlimanSorine::none().into(),
@@ -66,37 +70,44 @@ pub enum TractionBackbone {
 /// Internal friction of a fabric in tension, per width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TractionFriction {
-    /// Bliman–Sorine friction with a plateau in N/m and a length that is a strain, for the laws of
-    /// the papers. An exponential toe takes the first element alone, at a weight of one in tension. In the priming zone its plateau carries the weight
+    /// Bliman–Sorine friction with a plateau in N/m and a length that is a strain. All backbones
+    /// may have it. With an exponential toe only the first element acts, with a weight of one in
+    /// tension. In the priming zone the plateau has the weight
     ///
     /// ```math
     /// g(\varepsilon) = \frac{(1-r)\,\varepsilon/\varepsilon_c + 2r-1}{r}\;
     /// (0 \le \varepsilon \le \varepsilon_c), \qquad g = 1\;(\varepsilon > \varepsilon_c)
     /// ```
     ///
-    /// because there only part of the yarns bear load. Below zero strain the yarns buckle and the
+    /// because only some of the yarns bear load there. Below zero strain the yarns buckle and the
     /// weight falls linearly to zero at `$-\varepsilon_b$`. The factor printed in \[NB04, eq. 3\],
-    /// `$a\varepsilon + b$`, has the unit of a strain and jumps at `$\varepsilon_c$`; `$g$` is that
-    /// factor times `$k_t/F_1$`.
+    /// `$a\varepsilon + b$`, has the unit of a strain and jumps at `$\varepsilon_c$`. The weight
+    /// `$g$` is the printed factor times `$k_t/F_1$`.
     Plateau(BlimanSorine),
-    /// Friction in proportion to the elastic load, for [`TractionBackbone::Exponential`]. Other
-    /// backbones have no friction with it.
+    /// Friction in proportion to the elastic load, for [`TractionBackbone::Exponential`]. With any
+    /// other backbone the law has no friction.
     Proportional(ProportionalFriction),
 }
 
-/// Largest strain at which a law may carry a load, a ratio.
+/// Upper end of the search for the strain at a load, a ratio.
 const LARGEST_STRAIN: f64 = 10.0;
-/// Bisections for the strain at a load: the bits of a double.
+
+/// Number of bisections in the search for the strain at a load: enough for all bits of a number.
 const BISECTIONS: usize = 60;
 
 impl TractionLaw {
-    /// Returns the strain at which a virgin fabric carries a `load`, in N/m, with its friction; `None`
-    /// where the fabric does not carry the load at any strain up to ten.
+    /// Returns the strain at which a virgin fabric carries `load`, in N/m, including its friction.
+    /// Returns `None` if the fabric does not carry the load at any strain up to ten.
     ///
     /// ```
     /// use drape_fabric::{BlimanSorine, Buckling, Primed, TractionBackbone, TractionLaw};
     ///
-    /// let toe = Primed { stiffness: 4000.0, toe_ratio: 0.7, toe_strain: 0.01, toe_strain_after: 0.01 };
+    /// let toe = Primed {
+    ///     stiffness: 4000.0,
+    ///     toe_ratio: 0.7,
+    ///     toe_strain: 0.01,
+    ///     toe_strain_after: 0.01,
+    /// };
     /// let law = TractionLaw {
     ///     backbone: TractionBackbone::Primed(toe),
     ///     friction: BlimanSorine::none().into(),
@@ -109,14 +120,13 @@ impl TractionLaw {
     #[must_use]
     pub fn strain_at(&self, load: f64) -> Option<f64> {
         let virgin = self.virgin();
-        let is_below = |strain: f64| self.respond(&virgin, strain).load < load;
         let (mut low, mut high) = (0.0, LARGEST_STRAIN);
-        if is_below(high) {
+        if self.respond(&virgin, high).load < load {
             return None;
         }
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
-            if is_below(middle) {
+            if self.respond(&virgin, middle).load < load {
                 low = middle;
             } else {
                 high = middle;
@@ -139,13 +149,13 @@ impl From<ProportionalFriction> for TractionFriction {
 }
 
 impl TractionFriction {
-    /// No friction, for every backbone.
+    /// Returns a friction of zero, for any [`TractionBackbone`].
     #[must_use]
     pub fn none() -> Self {
         Self::Plateau(BlimanSorine::none())
     }
 
-    /// Returns whether there is no friction.
+    /// Returns whether the friction is zero at every strain.
     #[must_use]
     pub fn is_none(&self) -> bool {
         match self {
@@ -156,7 +166,7 @@ impl TractionFriction {
 }
 
 impl TractionBackbone {
-    /// Stiffness at rest, in N/m.
+    /// Returns the stiffness of `self` at rest, in N/m.
     #[must_use]
     pub fn rest_stiffness(&self) -> f64 {
         match self {
@@ -166,6 +176,7 @@ impl TractionBackbone {
         }
     }
 
+    /// Returns load and tangent at `strain`, at least 0, after the largest elongation `peak`.
     fn respond(&self, peak: f64, strain: f64) -> Response {
         match self {
             Self::Exponential(toe) => toe.respond(peak, strain),
@@ -174,6 +185,8 @@ impl TractionBackbone {
         }
     }
 
+    /// Returns the energy per area at `strain`, at least 0, after the largest elongation `peak`, in
+    /// J/m².
     fn energy(&self, peak: f64, strain: f64) -> f64 {
         match self {
             Self::Exponential(toe) => toe.energy(peak, strain),
@@ -184,7 +197,8 @@ impl TractionBackbone {
 }
 
 impl TractionLaw {
-    /// Returns the elastic load and its tangent after the largest elongation `peak`, in N/m.
+    /// Returns the elastic load and its tangent at `strain` after the largest elongation `peak`, in
+    /// N/m.
     #[must_use]
     pub fn elastic(&self, peak: f64, strain: f64) -> Response {
         if strain >= 0.0 {
@@ -194,6 +208,8 @@ impl TractionLaw {
         }
     }
 
+    /// Returns the elastic energy per area at `strain` after the largest elongation `peak`, in
+    /// J/m².
     fn elastic_energy(&self, peak: f64, strain: f64) -> f64 {
         if strain >= 0.0 {
             self.backbone.energy(peak, strain)
@@ -202,14 +218,14 @@ impl TractionLaw {
         }
     }
 
-    /// Returns the path of a friction with a plateau from the memory to a `strain`.
+    /// Returns the path of a friction with a plateau from `memory` to `strain`.
     fn path(&self, memory: &Memory, strain: f64) -> Path {
         let slack = -self.buckling.strain;
         let (toe, at_rest) = match &self.backbone {
             TractionBackbone::Primed(p) => (p.toe(memory.peak), 2.0 - 1.0 / p.toe_ratio),
             TractionBackbone::Exponential(_) | TractionBackbone::Polynomial(_) => (0.0, 1.0),
         };
-        let weight = |strain: f64| {
+        Path::new(memory.position, strain, &[slack, 0.0, toe], |strain| {
             if strain >= toe {
                 1.0
             } else if strain >= 0.0 {
@@ -217,12 +233,11 @@ impl TractionLaw {
             } else {
                 at_rest * (1.0 - strain / slack).max(0.0)
             }
-        };
-        Path::new(memory.position, strain, &[slack, 0.0, toe], weight)
+        })
     }
 
-    /// Returns the friction of a law with an exponential toe. A friction with a plateau is one whose
-    /// ratio is 0.
+    /// Returns the friction of a law with an exponential toe. A friction with a plateau becomes a
+    /// [`ProportionalFriction`] with the ratio 0.
     pub(crate) fn proportional(&self) -> ProportionalFriction {
         match self.friction {
             TractionFriction::Proportional(friction) => friction,
@@ -233,7 +248,8 @@ impl TractionLaw {
         }
     }
 
-    /// Returns the friction of a law of the papers. A friction that grows with the tension is none.
+    /// Returns the friction of a law without an exponential toe. A friction in proportion to the
+    /// elastic load becomes [`BlimanSorine::none`].
     pub(crate) fn plateau(&self) -> BlimanSorine {
         match self.friction {
             TractionFriction::Plateau(friction) => friction,
@@ -241,7 +257,8 @@ impl TractionLaw {
         }
     }
 
-    /// Returns the friction with all that its weight depends on, if the toe is exponential.
+    /// Returns the friction whose weight follows the tension, if the backbone is an exponential
+    /// toe.
     fn weighted_by_tension(&self) -> Option<WeightedByTension> {
         let TractionBackbone::Exponential(toe) = self.backbone else { return None };
         let (friction, buckling) = (self.proportional(), self.buckling);
@@ -285,9 +302,9 @@ impl Law for TractionLaw {
     }
 }
 
-/// Friction that grows with the tension, with all that its weight depends on.
+/// Friction that grows with the tension, with the parameters of its weight.
 ///
-/// The first of the two friction loads of a [`Memory`] is its state.
+/// The state of the friction is the first of the two friction loads of a [`Memory`].
 struct WeightedByTension {
     toe: ExponentialToe,
     friction: ProportionalFriction,
@@ -295,16 +312,18 @@ struct WeightedByTension {
 }
 
 impl WeightedByTension {
+    /// Returns the element whose load is the state of the friction.
     fn element(&self) -> Dahl {
         self.friction.element()
     }
 
+    /// Returns the friction loads after the path from `memory` to `strain`.
     fn advance(&self, memory: &Memory, strain: f64) -> Loads {
         let [state, _] = memory.friction;
         [self.element().advance(state, strain - memory.position), 0.0]
     }
 
-    /// Returns the weight at a `strain`, in N/m, and its slope.
+    /// Returns the weight at `strain` after the largest elongation `peak`, in N/m, and its slope.
     fn weight(&self, peak: f64, strain: f64) -> Response {
         let ProportionalFriction { ratio, plateau, .. } = self.friction;
         if strain < 0.0 {
@@ -316,6 +335,7 @@ impl WeightedByTension {
         Response { load: plateau + ratio * elastic.load, tangent: ratio * elastic.tangent }
     }
 
+    /// Returns the friction's load and tangent at a trial `strain`.
     fn respond(&self, memory: &Memory, strain: f64) -> Response {
         let [state, _] = memory.friction;
         let weight = self.weight(memory.peak, strain);
@@ -326,15 +346,16 @@ impl WeightedByTension {
         }
     }
 
+    /// Returns the friction's work from `memory` to a trial `strain`, in J/m².
     fn work(&self, memory: &Memory, strain: f64) -> f64 {
         let [state, _] = memory.friction;
-        // Beyond every earlier strain the toe moves.
+        // The toe moves at strains beyond all earlier ones.
         let seen = memory.peak.max(self.toe.toe_strain);
         self.work_along(memory.position, strain, state, [self.toe.toe(memory.peak), seen])
     }
 
-    /// Returns the work from one strain to another, in J/m², with a toe that ends at the first of
-    /// `knots` and begins to move at the second.
+    /// Returns the work between the strains `from` and `to`, in J/m², with the friction's `state`
+    /// at the start. The toe ends at the first of `knots` and begins to move at the second.
     fn work_along(&self, from: f64, to: f64, state: f64, knots: [f64; 2]) -> f64 {
         let Self { toe, friction, buckling } = self;
         let weight = Weight { toe, friction, buckling };
@@ -346,22 +367,22 @@ impl WeightedByTension {
             (seen, f64::INFINITY, weight.virgin()),
         ];
         let (element, sign) = (self.element(), 1_f64.copysign(to - from));
-        let work = |(low, high, piece): (f64, f64, WeightPiece)| {
+        let works = pieces.into_iter().map(|(low, high, piece)| {
             let (start, stop) = (from.clamp(low, high), to.clamp(low, high));
             if start == stop {
                 return 0.0;
             }
             let state = element.advance(state, start - from);
             piece.work(WeightedStep { from: start, to: stop, sign, state }, self.friction.length)
-        };
-        pieces.into_iter().map(work).sum()
+        });
+        works.sum()
     }
 
-    /// Returns the most work that the friction can give back from the remembered state, in J/m².
+    /// Returns the largest work that the friction can return from the state `memory`, in J/m².
     ///
-    /// The state is unloaded until it is zero: a strain of `$x_f\ln(1+|g|)$` back from where it was
-    /// built up. On every other path the friction gives back less, so the work of a path less the
-    /// change of this energy is never negative.
+    /// The friction returns this work on the path back to a state of zero, which has the length
+    /// `$x_f\ln(1+|g|)$`. On every other path the friction returns less, so the work of a path less
+    /// the change of this energy is never negative.
     fn stored(&self, memory: &Memory) -> f64 {
         let [state, _] = memory.friction;
         let path = self.friction.length * state.abs().ln_1p();

@@ -11,8 +11,8 @@ use drape_hysteresis::Response;
 /// \frac{\mathrm{d}F}{\mathrm{d}q} = k_\infty + \frac{k_0 - k_\infty}{(1 + (q/q_t)^2)^{3/2}}
 /// ```
 ///
-/// A fabric that softens in bending has `$k_0 > k_\infty$`, one that stiffens in shear has
-/// `$k_0 < k_\infty$`. The load rises everywhere, and it tends to a line beyond the test.
+/// A fabric that softens in bending has `$k_0 > k_\infty$`. A fabric that stiffens in shear has
+/// `$k_0 < k_\infty$`. The load rises everywhere, and tends to a line beyond the test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Varying {
     /// Stiffness `$k_0$` at rest, in load per deformation, greater than 0.
@@ -24,13 +24,13 @@ pub struct Varying {
 }
 
 impl Varying {
-    /// Returns the load at a `deformation` and its derivative.
+    /// Returns the load at `deformation` and its derivative.
     #[inline]
     #[must_use]
     pub fn respond(&self, deformation: f64) -> Response {
         let Self { initial_stiffness, final_stiffness, transition } = *self;
-        let part = deformation / transition;
-        let inverse = 1.0 / (1.0 + part * part).sqrt();
+        let ratio = deformation / transition;
+        let inverse = 1.0 / (1.0 + ratio * ratio).sqrt();
         let change = initial_stiffness - final_stiffness;
         Response {
             load: deformation * (final_stiffness + change * inverse),
@@ -38,41 +38,41 @@ impl Varying {
         }
     }
 
-    /// Returns load over deformation where the square of the deformation is `square`, in load per
-    /// deformation; at 0 the limit.
+    /// Returns the ratio of load to deformation for a deformation with the given `square`, in load
+    /// per deformation. At 0 it is the limit.
     #[inline]
     #[must_use]
     pub fn secant(&self, square: f64) -> f64 {
-        let part = square / (self.transition * self.transition);
+        let ratio_squared = square / (self.transition * self.transition);
         let change = self.initial_stiffness - self.final_stiffness;
-        self.final_stiffness + change / (1.0 + part).sqrt()
+        self.final_stiffness + change / (1.0 + ratio_squared).sqrt()
     }
 
-    /// Returns the tangent less the secant, over the square of the deformation, where that square is
-    /// `square`.
+    /// Returns the tangent less the secant, divided by `square`, for a deformation with this
+    /// square.
     #[inline]
     #[must_use]
     pub fn excess(&self, square: f64) -> f64 {
         let scale = self.transition * self.transition;
-        let whole = 1.0 + square / scale;
+        let sum = 1.0 + square / scale;
         let change = self.initial_stiffness - self.final_stiffness;
         // (1 + u²)^{-3/2} − (1 + u²)^{-1/2} = −u² (1 + u²)^{-3/2}.
-        -change / (scale * whole * whole.sqrt())
+        -change / (scale * sum * sum.sqrt())
     }
 
-    /// Returns the integral of the load from 0, where the square of the deformation is `square`, in
-    /// load times deformation.
+    /// Returns the integral of the load from 0 to a deformation with the given `square`, in load
+    /// times deformation.
     #[inline]
     #[must_use]
     pub fn energy(&self, square: f64) -> f64 {
-        let part = square / (self.transition * self.transition);
+        let ratio_squared = square / (self.transition * self.transition);
         let change = self.initial_stiffness - self.final_stiffness;
         // √(1 + u²) − 1 = u²/(√(1 + u²) + 1), which loses no digits.
-        square * (0.5 * self.final_stiffness + change / (1.0 + (1.0 + part).sqrt()))
+        square * (0.5 * self.final_stiffness + change / (1.0 + (1.0 + ratio_squared).sqrt()))
     }
 
-    /// Returns the backbone of connectors that take the fraction `c` of a deformation, as a function
-    /// of the whole deformation: `$F'(q) = c\,F(c\,q)$`.
+    /// Returns the backbone of a connector that takes the fraction `c` of a deformation, as a
+    /// function of the whole deformation: `$F'(q) = c\,F(c\,q)$`.
     #[must_use]
     pub fn of_fraction(&self, c: f64) -> Self {
         Self {

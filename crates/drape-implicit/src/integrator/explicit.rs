@@ -1,36 +1,39 @@
-//! Explicit steps, as a cross-check of the implicit ones. They use nothing of the solver.
+//! Explicit steps, as a cross-check of the implicit steps. Explicit steps do not use the solver.
 
 use super::path_work::{Path, PathWork};
 use super::state::{IntegratorState, Span};
 use crate::error::{Error, Quantity};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::vector::first_not_finite;
-use crate::report::{Energy, Report};
+use crate::report::{Report, StepEnergy};
 use crate::step_filter::SystemRef;
 use crate::system::{Stiffness, System};
 
-/// Fraction of the largest stable step that is taken: the bound holds for the stiffness at the
-/// start of a call, and a system may stiffen within it. The cost is inversely proportional.
+/// Length of a sub-step as a fraction of the largest stable step. The bound holds for the stiffness
+/// at the start of a call, and a system may stiffen within the call. The cost is inversely
+/// proportional to this fraction.
 const SAFETY: f64 = 0.5;
 
-/// Largest number of sub-steps of one call. A stiffness that asks for more comes from a system that
-/// has blown up.
+/// Largest number of sub-steps of one call. A stiffness that requires more sub-steps belongs to a
+/// system whose motion has diverged.
 const MAX_SUB_STEPS: f64 = 1e7;
 
-/// Integrator by semi-implicit Euler steps, as many as stability asks for.
+/// Integrator by semi-implicit Euler steps, short enough for stability.
 ///
-/// Positions advance with the old velocities, then velocities with the forces at the new positions:
+/// Positions advance with the old velocities. Then velocities advance with the forces at the new
+/// positions:
 ///
 /// ```math
 /// x_1 = x_0 + \mathrm{dt}\,v_0, \qquad v_1 = v_0 + \mathrm{dt}\,M^{-1} f(x_1)
 /// ```
 ///
-/// One evaluation of the forces per sub-step, of first order, and symplectic: on a system that
-/// conserves energy the error of the energy oscillates but does not grow, which separates the
-/// energy that an implicit formula loses from that which the system loses. (\[THK03\] advances
-/// cloth by explicit Euler steps.) The largest stable step is `2/ω` of the fastest oscillation. For
-/// cloth that is some hundredth of an implicit step, so this is a cross-check and not a method for
-/// results. There is no step filter: obstacles that rely on one may be passed through.
+/// A sub-step needs one evaluation of the forces. The method is of first order and symplectic: on a
+/// system that conserves energy the error of the energy oscillates but does not grow. Explicit
+/// steps thus separate the energy that an implicit formula dissipates from the energy that the
+/// system dissipates. (\[THK03\] advances cloth by explicit Euler steps.) The largest stable step
+/// is `2/ω` for the fastest oscillation `ω`. For cloth this is about a hundredth of an implicit
+/// step, so explicit steps are a cross-check and not a method for results. Step filters are not
+/// supported: particles may pass through obstacles that rely on a filter.
 #[derive(Debug)]
 pub struct Explicit {
     fraction: f64,
@@ -45,7 +48,7 @@ pub struct Explicit {
 }
 
 impl Explicit {
-    /// Prepares to advance a system.
+    /// Allocates an integrator for `system`.
     #[must_use]
     pub fn new(system: &dyn System) -> Self {
         let length = 3 * system.particles();
@@ -61,19 +64,19 @@ impl Explicit {
         }
     }
 
-    /// Sets the length of sub-steps to another fraction of the stability bound than one half:
-    /// shorter ones show the order of the error.
+    /// Sets the length of sub-steps to `fraction` of the stability bound. The default is one half.
+    /// Shorter sub-steps show the order of the error.
     #[must_use]
     pub fn with_fraction(self, fraction: f64) -> Self {
         Self { fraction, ..self }
     }
 
-    /// Advances the state by exactly `dt`, in s, in equal sub-steps. The numerical dissipation in
-    /// the report is the energy that the formula lost or, negative, made.
+    /// Advances `state` by exactly `dt`, in s, in equal sub-steps. The numerical dissipation in the
+    /// report is the energy that the formula dissipated. It is negative if the energy grew.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] where the motion blows up, and others for input that no step can be
-    /// made with.
+    /// [`Error::NotFinite`] if the motion diverges. [`Error::StepLength`], [`Error::Dimension`] and
+    /// [`Error::OutsideSparsity`] for inadmissible input. [`Error::Cancelled`].
     pub fn advance(
         &mut self,
         system: &mut dyn System,
@@ -87,14 +90,17 @@ impl Explicit {
         if system.sparsity_version() != self.sparsity_version {
             *self = Self::new(system).with_fraction(self.fraction);
         }
+
         let mut report = Report { stiffness_assemblies: 1, ..Report::default() };
         let stable = self.stable_step(system, state, dt)?;
-        let wanted = (dt / (self.fraction * stable)).ceil().max(1.0);
-        if !(wanted <= MAX_SUB_STEPS) {
+        let required = (dt / (self.fraction * stable)).ceil().max(1.0);
+        if !(required <= MAX_SUB_STEPS) {
             let (quantity, time) = (Quantity::Stiffness, state.time);
             return Err(Error::NotFinite { quantity, particle: 0, time, dt });
         }
-        let (count, origin) = (wanted as usize, state.time);
+
+        // Ends of sub-steps are fractions of `dt`, so that rounding does not add up.
+        let (count, origin) = (required as usize, state.time);
         for step in 1..=count {
             if system.is_cancelled() {
                 return Err(Error::Cancelled);
@@ -104,15 +110,16 @@ impl Explicit {
             let energy = self.sub_step(system, state, span, &mut report)?;
             *report.energy.get_or_insert_default() += energy;
         }
+
         report.sub_steps = count;
         report.force_evaluations += count;
         report.potential_evaluations += 2 * count;
         Ok(report)
     }
 
-    /// Length of the longest stable step from a state, in s: `2/ω`, with `ω²` bounded by the
-    /// largest sum of magnitudes in a row of `M⁻¹K` (Gershgorin's circles). Infinite without
-    /// stiffness.
+    /// Returns the length of the longest stable step from `state`, in s: `2/ω`, with `ω²` bounded
+    /// by the largest sum of magnitudes in a row of `M⁻¹K` (Gershgorin's circles). Infinite without
+    /// stiffness. The system begins a step of length `dt`, in s.
     ///
     /// # Errors
     /// [`Error::OutsideSparsity`].
@@ -129,6 +136,7 @@ impl Explicit {
         if let Some([row, column]) = self.stiffness.outside_sparsity() {
             return Err(Error::OutsideSparsity { row, column });
         }
+
         self.row_sums.fill(0.0);
         let sparsity = self.stiffness.sparsity();
         for row in 0..sparsity.particles() {
@@ -143,29 +151,31 @@ impl Explicit {
                 }
             }
         }
+
         let held = system.held();
-        let mut fastest: f64 = 0.0;
+        let mut square_frequency: f64 = 0.0;
         for (particle, mass) in system.masses().iter().enumerate().filter(|(p, _)| !held[*p]) {
             for row in &self.row_sums[3 * particle..3 * particle + 3] {
-                fastest = fastest.max(row / mass);
+                square_frequency = square_frequency.max(row / mass);
             }
         }
-        Ok(2.0 / fastest.sqrt())
+        Ok(2.0 / square_frequency.sqrt())
     }
 
-    /// Takes one sub-step. Returns its energy balance.
+    /// Takes the sub-step `span`. Returns the energy balance of the sub-step.
     fn sub_step(
         &mut self,
         system: &mut dyn System,
         state: &mut IntegratorState,
         span: Span,
         report: &mut Report,
-    ) -> Result<Energy, Error> {
+    ) -> Result<StepEnergy, Error> {
         let Span { start: time, end, dt } = span;
         let Self { positions, velocities, forces, path_work, .. } = self;
         positions.copy_from_slice(&state.positions);
         system.begin(end, dt, &state.positions, positions);
         let before = system.potential(&state.positions);
+
         let held = system.held();
         let moving = state.positions.iter().zip(&state.velocities);
         for (k, (end, (start, velocity))) in positions.iter_mut().zip(moving).enumerate() {
@@ -177,24 +187,30 @@ impl Explicit {
         if let Some(particle) = first_not_finite(forces).or_else(|| first_not_finite(positions)) {
             return Err(Error::NotFinite { quantity: Quantity::Force, particle, time, dt });
         }
-        let mut energy = Energy::default();
+
+        // Velocities at the end, and the work of inertia and forces over the displacements.
+        let mut energy = StepEnergy::default();
         let [mut inertia_work, mut end_work] = [0.0; 2];
         for (particle, (mass, held)) in system.masses().iter().zip(system.held()).enumerate() {
             let range = 3 * particle..3 * particle + 3;
             for k in range.clone() {
                 let start = state.velocities[k];
-                let moved = positions[k] - state.positions[k];
-                velocities[k] = if *held { moved / dt } else { start + dt * forces[k] / mass };
-                let inertia = mass * (velocities[k] - start) / dt * moved;
+                let displacement = positions[k] - state.positions[k];
+                velocities[k] =
+                    if *held { displacement / dt } else { start + dt * forces[k] / mass };
+                let inertia = mass * (velocities[k] - start) / dt * displacement;
                 inertia_work += inertia;
-                end_work += forces[k] * moved;
+                end_work += forces[k] * displacement;
                 if *held {
-                    energy.work += inertia - forces[k] * moved;
+                    energy.work += inertia - forces[k] * displacement;
                 }
             }
-            let speed = |v: &[f64]| v[range.clone()].iter().map(|v| v * v).sum::<f64>();
-            energy.kinetic += 0.5 * mass * (speed(velocities) - speed(&state.velocities));
+            let [speed_after, speed_before] = [&velocities[..], &state.velocities]
+                .map(|v| v[range.clone()].iter().map(|v| v * v).sum::<f64>());
+            energy.kinetic += 0.5 * mass * (speed_after - speed_before);
         }
+
+        // The work of the forces along the path separates the formula's error from the forces' own.
         let after = system.potential(positions);
         energy.potential = after - before;
         let formula_loss = inertia_work - energy.kinetic;
@@ -208,6 +224,7 @@ impl Explicit {
         };
         let work = path_work.measure(&mut SystemRef::Free(system), &path, report);
         energy.numerical_dissipation = formula_loss + work.forces - end_work;
+
         system.accept(positions, velocities, dt);
         state.advance(span, positions, velocities);
         Ok(energy)

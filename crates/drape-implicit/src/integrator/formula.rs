@@ -3,15 +3,15 @@
 use super::state::{IntegratorState, PreviousState};
 use crate::settings::Integrator;
 
-/// Largest ratio of a second-order step to the one before it: below 1 + √2, from where on the
-/// formula is unstable \[HNW93\].
+/// Largest ratio of a second-order step to the step before. The formula is unstable from a ratio of
+/// 1 + √2 \[HNW93\].
 const MAX_GROWTH: f64 = 2.0;
 
 /// Tolerance for rounding in the ratio of two steps that should be equal.
 const GROWTH_ROUNDING: f64 = 1e-9;
 
-/// Coefficients of `x₁ = current x₀ + previous x₋₁ + beta_dt v₁`, and likewise for momentum and
-/// force.
+/// Coefficients of `x₁ = current x₀ + previous x₋₁ + beta_dt v₁`. The formula of momentum and force
+/// has equal coefficients.
 #[derive(Clone, Copy)]
 pub(crate) struct Formula {
     pub current: f64,
@@ -21,7 +21,8 @@ pub(crate) struct Formula {
 }
 
 impl Formula {
-    /// Formula of a step of length `dt`: BDF2 where it is asked for and the past allows it, with
+    /// Returns the formula of a step of length `dt`, in s, from `state`: BDF2 if `integrator` is
+    /// BDF2 and `dt` is not too long after the previous step. With
     /// `$\rho = \mathrm{dt}/\mathrm{dt}_{-1}$`
     ///
     /// ```math
@@ -29,16 +30,16 @@ impl Formula {
     /// \alpha_{-1} = -\frac{\rho^2}{1+2\rho}, \qquad \beta = \frac{1+\rho}{1+2\rho}
     /// ```
     ///
-    /// and otherwise backward Euler.
+    /// Otherwise the formula is backward Euler.
     pub(crate) fn new(integrator: Integrator, state: &IntegratorState, dt: f64) -> Self {
         match (integrator, &state.previous) {
             (Integrator::Bdf2, Some(previous)) if grows_gently(dt, previous) => {
                 let ratio = dt / previous.dt;
-                let whole = 1.0 + 2.0 * ratio;
+                let divisor = 1.0 + 2.0 * ratio;
                 Self {
-                    current: (1.0 + ratio) * (1.0 + ratio) / whole,
-                    previous: -ratio * ratio / whole,
-                    beta_dt: (1.0 + ratio) / whole * dt,
+                    current: (1.0 + ratio) * (1.0 + ratio) / divisor,
+                    previous: -ratio * ratio / divisor,
+                    beta_dt: (1.0 + ratio) / divisor * dt,
                 }
             }
             _ => Self { current: 1.0, previous: 0.0, beta_dt: dt },
@@ -46,7 +47,7 @@ impl Formula {
     }
 }
 
-/// Whether a second-order step of length `dt` may follow the previous one.
+/// Returns whether a second-order step of length `dt`, in s, may follow the step `previous`.
 pub(crate) fn grows_gently(dt: f64, previous: &PreviousState) -> bool {
     dt <= MAX_GROWTH * (1.0 + GROWTH_ROUNDING) * previous.dt
 }

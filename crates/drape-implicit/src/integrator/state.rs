@@ -1,20 +1,20 @@
-//! State that the integrator advances: positions, velocities, time, and the past of the formula.
+//! State that the integrator advances: positions, velocities, time, and the previous state.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
-/// Positions, velocities and time, with the past that a second-order formula needs.
+/// Positions, velocities and time, with the previous state that a second-order formula needs.
 ///
-/// Written to disk and read back it continues as if nothing had happened, to the last bit: a
-/// [`Stepper`](crate::Stepper) has no memory of its own.
+/// A state that was written to disk and read back continues to the bits of an uninterrupted run:
+/// the [`Stepper`](crate::Stepper) has no memory.
 ///
 /// ```
 /// use drape_implicit::IntegratorState;
 ///
 /// let mut state = IntegratorState::at_rest(vec![0.0, 1.0, 0.0]);
 /// assert_eq!(state.velocities, [0.0; 3]);
-/// // After a change by hand the past no longer fits.
+/// // After a change by hand the previous state no longer fits.
 /// state.velocities[1] = -2.0;
 /// state.restart();
 /// ```
@@ -23,8 +23,8 @@ pub struct IntegratorState {
     /// Time, in s.
     ///
     /// Each call of [`Stepper::advance`](crate::Stepper::advance) adds the step's length. A caller
-    /// that takes many equal steps sets it to their number times the length, so that rounding
-    /// errors do not add up.
+    /// that takes many equal steps sets `time` to the number of steps times their length, so that
+    /// rounding errors do not add up.
     pub time: f64,
     /// Positions, three per particle, in m.
     pub positions: Vec<f64>,
@@ -37,35 +37,36 @@ pub struct IntegratorState {
 /// State one sub-step earlier.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PreviousState {
-    /// Length of the sub-step since then, in s.
+    /// Length of the sub-step from this state to the present one, in s.
     pub dt: f64,
-    /// Positions before it, in m.
+    /// Positions before the sub-step, in m.
     pub positions: Vec<f64>,
-    /// Velocities before it, in m/s.
+    /// Velocities before the sub-step, in m/s.
     pub velocities: Vec<f64>,
 }
 
 impl IntegratorState {
-    /// State at time 0 with given positions, in m, and velocities, in m/s.
+    /// Returns the state at time 0 with `positions`, in m, and `velocities`, in m/s.
     #[must_use]
     pub fn new(positions: Vec<f64>, velocities: Vec<f64>) -> Self {
         Self { time: 0.0, positions, velocities, previous: None }
     }
 
-    /// State at time 0, at rest at given positions, in m.
+    /// Returns the state at time 0, at rest at `positions`, in m.
     #[must_use]
     pub fn at_rest(positions: Vec<f64>) -> Self {
         let velocities = vec![0.0; positions.len()];
         Self::new(positions, velocities)
     }
 
-    /// Forgets the past, so that the next step is of first order. Call it after positions or
-    /// velocities were changed by hand, or when the forces have jumped.
+    /// Removes the `previous` state, so that the next step is of first order. Call this method
+    /// after a change of positions or velocities by hand, or when the forces have jumped.
     pub fn restart(&mut self) {
         self.previous = None;
     }
 
-    /// Checks that all lists have three numbers per particle, and that the past has a length.
+    /// Checks that all lists have three numbers for each of the `particles`, and that the previous
+    /// step has a positive length.
     ///
     /// # Errors
     /// [`Error::Dimension`] and [`Error::StepLength`].
@@ -82,8 +83,9 @@ impl IntegratorState {
         Ok(())
     }
 
-    /// Takes over positions and velocities at the end of a sub-step, and keeps those at its start as
-    /// the past. Buffers are exchanged: the given ones are left with values of no meaning.
+    /// Replaces positions and velocities by the ones at the end of the sub-step `span`. The ones at
+    /// the start become the previous state. Buffers are exchanged: afterwards the contents of
+    /// `positions` and `velocities` are meaningless.
     pub(crate) fn advance(
         &mut self,
         span: Span,
@@ -104,14 +106,14 @@ impl IntegratorState {
     }
 }
 
-/// Checks that a list has the length that the number of particles asks for.
+/// Checks that the list called `name` has the `expected` length.
 pub(crate) fn check_length(name: &'static str, expected: usize, found: usize) -> Result<(), Error> {
     if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
 }
 
 /// Start, end and length of a sub-step, in s.
 ///
-/// The length is exact in binary; end less start is rounded.
+/// `dt` is exact in binary. The difference `end - start` is rounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {
     pub start: f64,

@@ -1,4 +1,4 @@
-//! Stepper: checks its input, divides a step into sub-steps and attempts each.
+//! Stepper: checks the input, divides a step into sub-steps and attempts each sub-step.
 
 use super::state::{IntegratorState, Span, check_length};
 use super::step_control::StepControl;
@@ -15,9 +15,9 @@ use crate::system::System;
 
 /// Integrator that advances the state of a system in time.
 ///
-/// It holds settings and work space, nothing that the next step depends on: a new stepper gives the
-/// same bits. After the first step of a system none allocates memory, unless its sparsity changes
-/// or a state restarts.
+/// A stepper holds settings and work space, but no result that the next step depends on: a new
+/// stepper computes equal bits. Only the first step of a system allocates memory, and a step after
+/// a change of the sparsity or a restart of the state.
 ///
 /// A particle that falls freely for a second, by backward Euler in ten steps:
 ///
@@ -63,11 +63,10 @@ pub struct Stepper {
 }
 
 impl Stepper {
-    /// Prepares to advance a system.
+    /// Checks `settings` and allocates a stepper for `system`.
     ///
     /// # Errors
-    /// [`Error::Setting`], [`Error::Dimension`], or [`Error::TooLarge`] with the factorising
-    /// solver.
+    /// [`Error::Setting`], [`Error::Dimension`], or, with the Cholesky solver, [`Error::TooLarge`].
     pub fn new(system: &dyn System, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         let solver = solver_for(system, &settings)?;
@@ -84,20 +83,20 @@ impl Stepper {
         &self.sub_stepper.settings
     }
 
-    /// Report of the last call of [`Self::advance`] or [`Self::advance_filtered`]. After one that
-    /// failed it counts the work done until then.
+    /// Report of the last call of [`Self::advance`] or [`Self::advance_filtered`]. After a failed
+    /// call the report counts the work before the failure.
     #[must_use]
     pub fn report(&self) -> &Report {
         &self.report
     }
 
-    /// Advances the state by exactly `dt`, in s, in one step or, where that fails, in halves,
-    /// quarters …
+    /// Advances `state` by exactly `dt`, in s, in one step. If the step fails, it is divided into
+    /// halves, quarters and so on.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] or [`Error::NotFinite`] if the shortest sub-step allowed fails, and
-    /// others for input that no step can be made with. The state is then at the end of the last
-    /// sub-step accepted, which its time tells.
+    /// [`Error::NotConverged`] or [`Error::NotFinite`] if the shortest sub-step allowed fails.
+    /// Other variants for inadmissible input. The state is then at the end of the last accepted
+    /// sub-step, at `state.time`.
     pub fn advance(
         &mut self,
         system: &mut dyn System,
@@ -107,11 +106,11 @@ impl Stepper {
         self.advance_either(SystemRef::Free(system), state, dt)
     }
 
-    /// Advances the state as [`Self::advance`] does, with every step limited by a filter and every
-    /// solution tested by it.
+    /// Advances `state` by exactly `dt`, in s, as [`Self::advance`] does. `filter` limits every
+    /// step of the iteration and tests every solution.
     ///
     /// # Errors
-    /// Those of [`Self::advance`], and [`Error::UnfilteredMethod`] with the textbook method.
+    /// The errors of [`Self::advance`], and [`Error::UnfilteredMethod`] with the textbook method.
     pub fn advance_filtered(
         &mut self,
         filter: &mut dyn StepFilter,
@@ -142,9 +141,9 @@ impl Stepper {
     ) -> Result<(), Error> {
         self.check(system.system(), state, dt)?;
         let mut control = StepControl::new(self.settings(), state, dt);
+
         while !control.is_finished() {
-            let resolved = |start, end| system.resolves_motion(start, end);
-            let span = control.next(state.time, resolved);
+            let span = control.next(state.time, |start, end| system.resolves_motion(start, end));
             match self.sub_stepper.attempt(system, state, span, report) {
                 Ok(()) => {
                     report.sub_steps += 1;
@@ -162,6 +161,8 @@ impl Stepper {
         Ok(())
     }
 
+    /// Checks `system`, `state` and the step length `dt`, in s. Reads the masses and, after a
+    /// change of version, the sparsity.
     fn check(
         &mut self,
         system: &dyn System,
@@ -170,12 +171,14 @@ impl Stepper {
     ) -> Result<(), Error> {
         let particles = self.sub_stepper.masses.len();
         check_lengths(system, state, particles, dt)?;
+
         let masses = &mut self.sub_stepper.masses;
         masses.copy_from_slice(system.masses());
-        let bad = masses.iter().position(|&mass| !(mass > 0.0 && mass.is_finite()));
-        if let Some(particle) = bad {
+        let invalid = masses.iter().position(|&mass| !(mass > 0.0 && mass.is_finite()));
+        if let Some(particle) = invalid {
             return Err(Error::Mass { particle, mass: masses[particle] });
         }
+
         let previous = state.previous.as_ref();
         let start = [
             (Quantity::Position, Some(&state.positions)),
@@ -188,6 +191,7 @@ impl Stepper {
                 return Err(Error::NotFinite { quantity, particle, time: state.time, dt });
             }
         }
+
         if system.sparsity_version() != self.sparsity_version {
             self.sub_stepper.solver = solver_for(system, self.settings())?;
             self.sparsity_version = system.sparsity_version();
@@ -195,6 +199,7 @@ impl Stepper {
         Ok(())
     }
 
+    /// Returns the error of the sub-step `span`, which ended with `halt` at the shortest length.
     fn failure(&self, halt: Halt, span: Span) -> Error {
         let Span { start: time, dt, .. } = span;
         match halt {
@@ -214,7 +219,8 @@ impl Stepper {
     }
 }
 
-/// Checks that the step has a length and that all lists are as long as the particles ask for.
+/// Checks that `dt` is positive and that all lists have the length that the number of `particles`
+/// requires.
 fn check_lengths(
     system: &dyn System,
     state: &IntegratorState,
@@ -230,6 +236,7 @@ fn check_lengths(
     state.check(particles)
 }
 
+/// Returns a nonlinear solver for the sparsity and the material points of `system`.
 fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolver, Error> {
     let sparsity = system.sparsity();
     let points = system.material_points();

@@ -6,13 +6,13 @@ pub(crate) type Block = [f64; 9];
 /// Block of zeros.
 pub(crate) const ZERO: Block = [0.0; 9];
 
-/// Transpose of a block.
+/// Returns the transpose of the block `a`.
 #[inline(always)]
 pub(crate) fn transposed(a: &Block) -> Block {
     [a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]]
 }
 
-/// Adds `A x` to `y`.
+/// Adds the product `a x` to `y`.
 #[inline(always)]
 pub(crate) fn add_product(a: &Block, x: &[f64; 3], y: &mut [f64; 3]) {
     y[0] += a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
@@ -20,7 +20,7 @@ pub(crate) fn add_product(a: &Block, x: &[f64; 3], y: &mut [f64; 3]) {
     y[2] += a[6] * x[0] + a[7] * x[1] + a[8] * x[2];
 }
 
-/// Adds `Aᵀ x` to `y`.
+/// Adds the product `aᵀ x` to `y`.
 #[inline(always)]
 pub(crate) fn add_transposed_product(a: &Block, x: &[f64; 3], y: &mut [f64; 3]) {
     y[0] += a[0] * x[0] + a[3] * x[1] + a[6] * x[2];
@@ -28,13 +28,13 @@ pub(crate) fn add_transposed_product(a: &Block, x: &[f64; 3], y: &mut [f64; 3]) 
     y[2] += a[2] * x[0] + a[5] * x[1] + a[8] * x[2];
 }
 
-/// Views a flat vector as one triple per particle.
+/// Returns the flat vector `x` as one triple per particle.
 #[inline(always)]
 pub(crate) fn triples(x: &[f64]) -> &[[f64; 3]] {
     x.as_chunks().0
 }
 
-/// Views a flat vector as one mutable triple per particle.
+/// Returns the flat vector `x` as one mutable triple per particle.
 #[inline(always)]
 pub(crate) fn triples_mut(x: &mut [f64]) -> &mut [[f64; 3]] {
     x.as_chunks_mut().0

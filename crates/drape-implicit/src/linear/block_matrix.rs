@@ -1,4 +1,4 @@
-//! Symmetric sparse matrix of 3x3 blocks, which a system assembles its stiffness into.
+//! Symmetric sparse matrix of 3x3 blocks, into which a system assembles its stiffness.
 
 use core::ops::Range;
 
@@ -7,13 +7,15 @@ use rayon::prelude::*;
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
 
-/// Largest number of blocks that one thread writes, if there are more.
+/// A matrix with more blocks than this is written by several threads, each with at most this
+/// number.
 const PARALLEL_BLOCKS: usize = 16_384;
 
-/// Symmetric sparse matrix of 3x3 blocks, upper half stored; a stiffness is in N/m.
+/// Symmetric sparse matrix of 3x3 blocks with the upper half stored. Entries of a stiffness are in
+/// N/m.
 ///
-/// Blocks are row-major and in the order of the [`Sparsity`]. A block above the diagonal stands for
-/// itself and for its transpose below. Diagonal blocks are stored whole.
+/// Blocks are row-major and in the order of the [`Sparsity`]. A block above the diagonal also
+/// represents its transpose below the diagonal. Diagonal blocks are stored whole.
 ///
 /// ```
 /// use drape_implicit::{BlockMatrix, Sparsity};
@@ -38,10 +40,11 @@ pub struct BlockMatrix {
     couplings: Vec<Coupling>,
     /// Whether each particle is held.
     held: Vec<bool>,
+    /// Row and column of the first block that was refused.
     outside: Option<[usize; 2]>,
 }
 
-/// Block of two different particles that the sparsity has no slot for.
+/// Block of two different particles for which the sparsity has no slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupling {
     /// Particle of the row.
@@ -57,7 +60,7 @@ pub struct Coupling {
 pub(crate) struct NotDefinite;
 
 impl BlockMatrix {
-    /// Returns the matrix of zeros on a sparsity.
+    /// Returns the matrix of zeros on `sparsity`.
     #[must_use]
     pub fn zeros(sparsity: Sparsity) -> Self {
         let blocks = vec![block::ZERO; sparsity.blocks()];
@@ -65,30 +68,30 @@ impl BlockMatrix {
         Self { sparsity, blocks, couplings: Vec::new(), held, outside: None }
     }
 
-    /// Sparsity of the matrix.
+    /// Returns the sparsity of the matrix.
     #[must_use]
     pub fn sparsity(&self) -> &Sparsity {
         &self.sparsity
     }
 
-    /// Blocks, one per slot of the sparsity.
+    /// Returns the blocks, one per slot of the [`Sparsity`].
     #[must_use]
     pub fn blocks(&self) -> &[[f64; 9]] {
         &self.blocks
     }
 
-    /// Blocks, one per slot of the sparsity, to write into.
+    /// Returns the blocks mutably, one per slot of the [`Sparsity`].
     pub fn blocks_mut(&mut self) -> &mut [[f64; 9]] {
         &mut self.blocks
     }
 
-    /// All entries, nine per slot.
+    /// Returns all entries, nine per slot of the [`Sparsity`].
     #[must_use]
     pub fn values(&self) -> &[f64] {
         self.blocks.as_flattened()
     }
 
-    /// All entries, nine per slot, to write into.
+    /// Returns all entries mutably, nine per slot of the [`Sparsity`].
     pub fn values_mut(&mut self) -> &mut [f64] {
         self.blocks.as_flattened_mut()
     }
@@ -101,20 +104,21 @@ impl BlockMatrix {
         self.outside = None;
     }
 
-    /// Adds to the block of a slot.
+    /// Adds `value` to the block of `slot`.
     ///
     /// # Panics
-    /// If the sparsity has no such slot.
+    /// If the sparsity does not have this slot.
     pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
         for (entry, value) in self.blocks[slot].iter_mut().zip(value) {
             *entry += value;
         }
     }
 
-    /// Adds to the block in row `i` and column `j`, and so to its mirror image.
+    /// Adds `value` to the block in row `i` and column `j`, and its transpose to the mirror image.
     ///
-    /// Give each pair once, in either order. A block outside the sparsity is not added; its place
-    /// is kept in [`outside_sparsity`](Self::outside_sparsity), and the step ends with an error.
+    /// Give each pair once, in either order. A block outside the sparsity is not added. Then
+    /// [`outside_sparsity`](Self::outside_sparsity) returns the first such row and column, and the
+    /// step ends with an error.
     pub fn add(&mut self, i: usize, j: usize, value: &[f64; 9]) {
         match self.sparsity.slot(i, j) {
             Some(slot) if i <= j => self.add_block(slot, value),
@@ -123,12 +127,12 @@ impl BlockMatrix {
         }
     }
 
-    /// Adds to the block in row `i` and column `j`, inside the sparsity or not.
+    /// Adds `value` to the block in row `i` and column `j`, inside or outside the sparsity.
     ///
-    /// For blocks that come and go, as those of contact do. Give each pair once, in either order. A
-    /// block outside the sparsity is part of the matrix but not of its preconditioner, so conjugate
-    /// gradients take more iterations. A particle that the matrix does not have is an error, as in
-    /// [`add`](Self::add).
+    /// This method serves couplings that change from step to step, such as contact. Give each pair
+    /// once, in either order. A block outside the sparsity is part of the matrix but not of its
+    /// preconditioner, so conjugate gradients take more iterations. A particle outside the matrix
+    /// is an error, as in [`add`](Self::add).
     pub fn add_coupling(&mut self, i: usize, j: usize, value: &[f64; 9]) {
         let particles = self.sparsity.particles();
         if i >= particles || j >= particles || self.sparsity.slot(i, j).is_some() {
@@ -137,13 +141,14 @@ impl BlockMatrix {
         self.couplings.push(Coupling { row: i as u32, column: j as u32, block: *value });
     }
 
-    /// Blocks outside the sparsity, in the order in which they were added.
+    /// Returns the blocks outside the [`Sparsity`], in the order in which they were added.
     #[must_use]
     pub fn couplings(&self) -> &[Coupling] {
         &self.couplings
     }
 
-    /// Row and column of the first block since the last [`clear`](Self::clear) that was not added.
+    /// Returns row and column of the first block since the last [`clear`](Self::clear) that
+    /// [`add`](Self::add) refused.
     #[must_use]
     pub fn outside_sparsity(&self) -> Option<[usize; 2]> {
         self.outside
@@ -157,22 +162,25 @@ impl BlockMatrix {
         y.fill(0.0);
         let x = block::triples(x);
         let y = block::triples_mut(y);
+
+        // A block above the diagonal contributes to its row and, transposed, to its column.
         for row in 0..self.sparsity.particles() {
             let slots = self.sparsity.row(row);
-            let own = x[row];
+            let x_of_row = x[row];
             let mut sum = [0.0; 3];
-            block::add_product(&self.blocks[slots.start], &own, &mut sum);
+            block::add_product(&self.blocks[slots.start], &x_of_row, &mut sum);
             let above = slots.start + 1..slots.end;
             let columns = &self.sparsity.columns()[above.clone()];
             for (&column, block) in columns.iter().zip(&self.blocks[above]) {
                 let column = column as usize;
                 block::add_product(block, &x[column], &mut sum);
-                block::add_transposed_product(block, &own, &mut y[column]);
+                block::add_transposed_product(block, &x_of_row, &mut y[column]);
             }
             for (y, sum) in y[row].iter_mut().zip(sum) {
                 *y += sum;
             }
         }
+
         for Coupling { row, column, block } in &self.couplings {
             let (row, column) = (*row as usize, *column as usize);
             block::add_product(block, &x[column], &mut y[row]);
@@ -180,13 +188,15 @@ impl BlockMatrix {
         }
     }
 
-    /// Whether a particle is held, and its row and column are empty but for its inertia.
+    /// Returns whether `particle` is held. The row and column of a held particle are empty except
+    /// for its inertia.
     pub(crate) fn is_held(&self, particle: usize) -> bool {
         self.held[particle]
     }
 
-    /// Turns a stiffness into the system matrix of a step: adds the inertia of each particle, in
-    /// N/m, to the diagonal, and removes from the rows and columns of held particles all else.
+    /// Turns a stiffness into the system matrix of a step: removes all entries from the rows and
+    /// columns of `held` particles, and adds the `inertia` of each particle, in N/m, to the
+    /// diagonal.
     pub(crate) fn add_inertia(&mut self, inertia: &[f64], held: &[bool]) {
         let rows = Rows { sparsity: &self.sparsity, rows: 0..inertia.len(), inertia, held };
         rows.add_inertia(&mut self.blocks);
@@ -196,7 +206,7 @@ impl BlockMatrix {
     }
 }
 
-/// Consecutive rows that inertia is added to.
+/// Consecutive rows of a matrix, with the inertia of all particles.
 struct Rows<'a> {
     sparsity: &'a Sparsity,
     rows: Range<usize>,
@@ -205,25 +215,24 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Adds the inertia to the blocks of the rows and empties those of held particles, on several
-    /// threads if there are many.
+    /// Adds the inertia to `blocks`, the blocks of the rows, and clears the blocks of held
+    /// particles. Divides many blocks among threads.
     fn add_inertia(self, blocks: &mut [Block]) {
         let Self { sparsity, rows, inertia, held } = self;
-        let offset = |row: usize| sparsity.offsets()[row] - sparsity.offsets()[rows.start];
+        let offsets = &sparsity.offsets()[rows.start..];
         if blocks.len() > PARALLEL_BLOCKS && rows.len() > 1 {
-            let middle = rows.start + rows.len() / 2;
-            let (own, rest) = blocks.split_at_mut(offset(middle));
-            let part = |rows| Rows { sparsity, rows, inertia, held };
-            rayon::join(
-                || part(rows.start..middle).add_inertia(own),
-                || part(middle..rows.end).add_inertia(rest),
-            );
+            let half = rows.len() / 2;
+            let middle = rows.start + half;
+            let (first, second) = blocks.split_at_mut(offsets[half] - offsets[0]);
+            let first_rows = Rows { sparsity, rows: rows.start..middle, inertia, held };
+            let second_rows = Rows { sparsity, rows: middle..rows.end, inertia, held };
+            rayon::join(|| first_rows.add_inertia(first), || second_rows.add_inertia(second));
             return;
         }
-        for row in rows.clone() {
-            let (own, columns) =
-                (offset(row)..offset(row + 1), &sparsity.columns()[sparsity.row(row)]);
-            let blocks = &mut blocks[own];
+
+        for (row, range) in rows.zip(offsets.windows(2)) {
+            let columns = &sparsity.columns()[sparsity.row(row)];
+            let blocks = &mut blocks[range[0] - offsets[0]..range[1] - offsets[0]];
             for (block, &column) in blocks.iter_mut().zip(columns) {
                 if held[row] || held[column as usize] {
                     *block = block::ZERO;

@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorisation by faer, in one thread. The sparsity is ordered and analysed once.
+//! Sparse Cholesky factorisation by faer, on one thread. The sparsity is ordered and analysed once.
 
 use faer::Conj;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -16,11 +16,11 @@ use crate::error::Error;
 use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
 use crate::linear::sparsity::Sparsity;
 
-/// One thread: on two cores and on many, faer's own parallel factorisation was never faster for
-/// matrices of this kind, and its global default takes every core of the machine.
+/// One thread: faer's parallel factorisation was never faster for such matrices, on two cores or on
+/// many, and its global default uses every core of the machine.
 const PARALLEL: Par = Par::Seq;
 
-/// Factor `L` of a matrix, and the memory to compute it.
+/// Factor `L` of a matrix, with work space.
 pub(crate) struct Cholesky {
     symbolic: SymbolicCholesky<usize>,
     lower: SymbolicSparseColMat<usize>,
@@ -29,12 +29,13 @@ pub(crate) struct Cholesky {
     memory: MemBuffer,
 }
 
-/// Way in which columns are added to each other.
+/// Kernel of the column updates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kernel {
-    /// Many at once, with the vector instructions of the machine: the last bits depend on them.
+    /// Many columns at once with the vector instructions of the machine, on which the last bits
+    /// depend.
     Vector,
-    /// One number after the other: the same bits on every machine.
+    /// One number after another. Every machine computes equal bits.
     Scalar,
 }
 
@@ -54,13 +55,17 @@ impl core::fmt::Debug for Cholesky {
 }
 
 impl Cholesky {
-    /// Orders and analyses a sparsity.
+    /// Orders and analyses `sparsity`.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`].
     pub(crate) fn new(sparsity: &Sparsity, kernel: Kernel) -> Result<Self, Error> {
         let blocks = sparsity.blocks();
         let lower = scalar_lower(sparsity);
         let size = lower.nrows();
-        let too_large = |_| Error::TooLarge { blocks };
-        let Ordering { forward, inverse } = minimum_degree(sparsity).map_err(too_large)?;
+
+        let Ordering { forward, inverse } =
+            minimum_degree(sparsity).map_err(|_| Error::TooLarge { blocks })?;
         let symbolic = factorize_symbolic_cholesky(
             lower.as_ref(),
             Side::Lower,
@@ -70,11 +75,14 @@ impl Cholesky {
                 ..Default::default()
             },
         )
-        .map_err(too_large)?;
+        .map_err(|_| Error::TooLarge { blocks })?;
+
+        // Factorisation and solution share one work space.
         let factorise = symbolic.factorize_numeric_llt_scratch::<f64>(PARALLEL, Default::default());
         let solve = symbolic.solve_in_place_scratch::<f64>(1, PARALLEL);
         let memory = MemBuffer::try_new(StackReq::or(factorise, solve))
             .map_err(|_| Error::TooLarge { blocks })?;
+
         Ok(Self {
             entries: vec![0.0; lower.col_ptr()[size]],
             factor: vec![0.0; symbolic.len_val()],
@@ -84,7 +92,7 @@ impl Cholesky {
         })
     }
 
-    /// Factorises a matrix on the sparsity.
+    /// Factorises `matrix`, which has the analysed sparsity.
     pub(crate) fn factorise(&mut self, matrix: &BlockMatrix) -> Result<(), NotDefinite> {
         fill_lower(matrix, &mut self.entries);
         self.symbolic
@@ -119,8 +127,8 @@ struct Ordering {
     inverse: Vec<usize>,
 }
 
-/// Minimum-degree ordering of the particles, three unknowns each: the same fill as ordering the
-/// unknowns, in half the time.
+/// Returns a minimum-degree ordering of the particles of `sparsity`, expanded to three unknowns
+/// each. Ordering the particles gives equal fill in half the time of ordering the unknowns.
 fn minimum_degree(sparsity: &Sparsity) -> Result<Ordering, FaerError> {
     let particles = sparsity.particles();
     let columns: Vec<usize> = sparsity.columns().iter().map(|&column| column as usize).collect();
@@ -131,19 +139,23 @@ fn minimum_degree(sparsity: &Sparsity) -> Result<Ordering, FaerError> {
         None,
         &columns,
     );
+
     let mut forward = vec![0; particles];
     let mut inverse = vec![0; particles];
     let request = amd::order_maybe_unsorted_scratch::<usize>(particles, columns.len());
     let mut memory = MemBuffer::try_new(request).map_err(|_| FaerError::OutOfMemory)?;
     let stack = MemStack::new(&mut memory);
     amd::order_maybe_unsorted(&mut forward, &mut inverse, graph, Default::default(), stack)?;
-    let expand =
-        |order: &[usize]| order.iter().flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2]).collect();
-    Ok(Ordering { forward: expand(&forward), inverse: expand(&inverse) })
+    Ok(Ordering { forward: unknowns(&forward), inverse: unknowns(&inverse) })
 }
 
-/// Scalar lower half by columns. A block row of the upper half, transposed, is three of its
-/// columns.
+/// Returns the three unknowns of each particle in the order of `particles`.
+fn unknowns(particles: &[usize]) -> Vec<usize> {
+    particles.iter().flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2]).collect()
+}
+
+/// Returns the scalar lower half of `sparsity` by columns. A block row of the upper half is,
+/// transposed, three columns of the lower half.
 fn scalar_lower(sparsity: &Sparsity) -> SymbolicSparseColMat<usize> {
     let size = 3 * sparsity.particles();
     let mut offsets = vec![0];
@@ -161,7 +173,7 @@ fn scalar_lower(sparsity: &Sparsity) -> SymbolicSparseColMat<usize> {
     SymbolicSparseColMat::new_checked(size, size, offsets, None, rows)
 }
 
-/// Writes the entries in the order of [`scalar_lower`].
+/// Writes the entries of `matrix` into `entries` in the order of [`scalar_lower`].
 fn fill_lower(matrix: &BlockMatrix, entries: &mut [f64]) {
     let mut entries = entries.iter_mut();
     for row in 0..matrix.sparsity().particles() {

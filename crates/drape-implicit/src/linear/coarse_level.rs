@@ -1,8 +1,8 @@
-//! Coarse level of the preconditioner: smooth motions, solved for on a coarse grid.
+//! Coarse level of the preconditioner: solves for smooth motions on a coarse grid.
 //!
-//! The incomplete factor corrects what near neighbours do to each other. Motions that are smooth
-//! over many particles are left to the iterations, whose number then grows with the particles along
-//! a side. The coarse level solves for them at once:
+//! The incomplete factor reduces errors that vary between near neighbours. Errors that are smooth
+//! over many particles then need a number of iterations that grows with the number of particles
+//! along a side. The coarse level reduces smooth errors directly:
 //!
 //! ```math
 //! B = (U^T D\,U)^{-1} + P\,(P^T A\,P)^{-1} P^T
@@ -10,10 +10,10 @@
 //!
 //! with the bilinear [interpolation] `$P$` from a grid over each sheet and the [projection]
 //! `$P^T A\,P$` of the matrix on it. This is an additive two-level preconditioner \[SBG96\]. It is
-//! positive definite, because its first term is and its second is semi-definite.
+//! positive definite, because the first term is positive definite and the second semi-definite.
 //!
-//! The coarse matrix is that of the first matrix of a step: smooth motions meet much the same
-//! stiffness all along it.
+//! The coarse matrix is the projection of the first matrix of a step. The stiffness of smooth
+//! motions hardly changes within a step.
 
 mod interpolation;
 mod projection;
@@ -30,13 +30,14 @@ use crate::system::MaterialPoint;
 use interpolation::Interpolation;
 use projection::Projection;
 
-/// Fewest particles at the finest spacing with which the coarse level saves time: with 10 000 it saves
-/// as much as it takes on one thread, and more on two, where it is solved beside the incomplete factor.
-/// With 4 900 it takes a tenth more time than it saves.
+/// Least number of particles, at the finest spacing, with which the coarse level saves time. With
+/// 10 000 particles it saves as much as it costs on one thread, and more on two threads, where it
+/// runs beside the incomplete factor. With 4 900 particles it costs a tenth more time than it
+/// saves.
 const MIN_PARTICLES: f64 = 8_000.0;
 
-/// Relative shift of the main diagonal of the coarse matrix, which may be singular to rounding where
-/// nodes share their only particles.
+/// Relative shift of the main diagonal of the coarse matrix. The coarse matrix may be singular to
+/// rounding where nodes share their only particles.
 const SHIFT: f64 = 1e-9;
 
 /// Coarse matrix with its factor, and the interpolation from its nodes.
@@ -48,7 +49,7 @@ pub(crate) struct CoarseLevel {
     cholesky: Cholesky,
     /// Correction at the nodes, three numbers each.
     correction: Vec<f64>,
-    /// Whether the coarse matrix is that of an earlier step.
+    /// Whether the coarse matrix belongs to an earlier step.
     is_stale: bool,
     /// Whether the coarse matrix has a factor.
     is_definite: bool,
@@ -58,13 +59,13 @@ impl CoarseLevel {
     /// Returns whether a coarse level saves time: whether the sheets would have [`MIN_PARTICLES`]
     /// particles at the finest spacing of their points.
     pub(crate) fn is_worthwhile(material_points: &[MaterialPoint]) -> bool {
-        let spacings = || material_points.iter().map(|point| point.spacing);
-        let finest = spacings().fold(f64::INFINITY, f64::min);
-        spacings().map(|spacing| (spacing / finest).powi(2)).sum::<f64>() >= MIN_PARTICLES
+        let finest = material_points.iter().map(|p| p.spacing).fold(f64::INFINITY, f64::min);
+        let particles: f64 = material_points.iter().map(|p| (p.spacing / finest).powi(2)).sum();
+        particles >= MIN_PARTICLES
     }
 
-    /// Coarse level for the matrices of a sparsity; `row_of` holds the row of each particle. `None`
-    /// without material points, or if there are too many nodes.
+    /// Returns a coarse level for the matrices of `sparsity`. `row_of` holds the row of each
+    /// particle. Returns `None` without material points, or with too many nodes.
     pub(crate) fn new(
         sparsity: &Sparsity,
         row_of: &[u32],
@@ -86,13 +87,14 @@ impl CoarseLevel {
         })
     }
 
-    /// Marks the coarse matrix as that of an earlier step, so that the next update projects anew.
+    /// Marks the coarse matrix as outdated, so that the next [`update`](Self::update) projects
+    /// again.
     pub(crate) fn forget(&mut self) {
         self.is_stale = true;
     }
 
-    /// Projects and factorises a matrix, unless that has been done in this step. Without a factor
-    /// the coarse level corrects nothing until the next step.
+    /// Projects and factorises `matrix`, unless the coarse matrix belongs to this step already. If
+    /// the factorisation fails, the coarse level corrects nothing until the next step.
     pub(crate) fn update(&mut self, arch: Arch, matrix: &BlockMatrix) {
         if !self.is_stale {
             return;
@@ -106,14 +108,14 @@ impl CoarseLevel {
             let slot = coarse.sparsity().row(node).start;
             let block = &mut coarse.blocks_mut()[slot];
             for k in [0, 4, 8] {
-                // A node without a free particle.
+                // A node without a free particle has an empty row.
                 block[k] = if block[k] == 0.0 { 1.0 } else { (1.0 + SHIFT) * block[k] };
             }
         }
         self.is_definite = self.cholesky.factorise(coarse).is_ok();
     }
 
-    /// Solves for the correction at the nodes that belongs to a residual times a factor.
+    /// Solves for the correction at the nodes for `residual` times `factor`.
     pub(crate) fn solve(&mut self, arch: Arch, residual: &Columns<f64>, factor: f64) {
         if !self.is_definite {
             return;
@@ -126,7 +128,7 @@ impl CoarseLevel {
         cholesky.solve(correction);
     }
 
-    /// Adds the correction to the numbers of the free particles.
+    /// Adds the interpolated correction to `image` in the rows of the free particles.
     pub(crate) fn add_correction(
         &self,
         arch: Arch,
@@ -137,7 +139,7 @@ impl CoarseLevel {
             return;
         }
         let Self { interpolation, correction, .. } = self;
-        let rows = PerRow::of(&mut image.0);
+        let rows = PerRow::new(&mut image.0);
         chunk::for_each(&layout.chunks, 0, rows, &|chunk, PerRow(rows)| {
             let first = chunk.rows.start;
             arch.dispatch(Interpolate { interpolation, correction, first, rows });
@@ -145,7 +147,8 @@ impl CoarseLevel {
     }
 }
 
-// Calls that are dispatched to the machine's vector instructions: all below them is inlined.
+// Calls that `pulp` dispatches to the machine's vector instructions. The called functions are
+// inlined.
 
 struct Project<'a> {
     projection: &'a Projection,

@@ -6,7 +6,7 @@ use crate::linear::block;
 use crate::linear::lanes::{Columns, LANES};
 use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow};
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::partial_sum::{PartialProduct, add_others};
+use crate::linear::level_schedule::partial_sum::{PartialProduct, add_from_other_chunks};
 use crate::linear::packed_matrix::PackedMatrix;
 use crate::linear::preconditioner::{Preconditioner, ScaledResidual};
 use crate::linear::vector::{add_scaled, dot, sum};
@@ -14,29 +14,30 @@ use crate::linear::vector::{add_scaled, dot, sum};
 /// Reason why conjugate gradients ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// The residual is below the target.
+    /// The target was met.
     Converged,
-    /// Out of iterations, or at a direction of negative curvature; the result is a descent
-    /// direction all the same.
+    /// The iteration limit was reached, or a direction of negative curvature after some progress.
+    /// The solution so far is a descent direction.
     Truncated,
-    /// A direction of negative curvature was met before the residual was any smaller than that of
-    /// zero.
+    /// A direction of negative curvature was met before the residual was smaller than the right
+    /// side.
     Indefinite,
 }
 
-/// Iterations of a solve and why it ended.
+/// Number of iterations of a solve, and the reason why it ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outcome {
     pub iterations: usize,
     pub ending: Ending,
 }
 
-/// Accuracy at which a solve ends, as soon as one of the two is met.
+/// Accuracy at which a solve ends. The solve ends as soon as one of the two values is reached.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Target {
     /// Norm of the residual.
     pub residual: f64,
-    /// Energy that the last two iterations gained, as a fraction of that of all iterations.
+    /// Decrease of the energy in the last two iterations, as a fraction of the decrease in all
+    /// iterations.
     pub energy: f64,
 }
 
@@ -48,41 +49,43 @@ pub(crate) struct Preconditioned<'a> {
     pub preconditioner: &'a mut Preconditioner,
 }
 
-/// Work space of the iteration: vectors by rows of the layout, with zeros where no particle is.
+/// Work space of the iteration: vectors by rows of the layout. Rows without a particle hold zeros.
 #[derive(Debug)]
 pub(crate) struct ConjugateGradient {
     solution: Columns<f64>,
     residual: Columns<f64>,
     direction: Columns<f64>,
     products: Vec<PartialProduct>,
-    /// Sums of the chunks.
+    /// Partial sum of each chunk.
     sums: Vec<f64>,
 }
 
 impl ConjugateGradient {
+    /// Allocates work space for `layout`.
     pub(crate) fn new(layout: &BatchLayout) -> Self {
-        let zeros = || Columns::new(layout.rows);
+        let zeros = Columns::new(layout.rows);
         Self {
-            solution: zeros(),
-            residual: zeros(),
-            direction: zeros(),
+            solution: zeros.clone(),
+            residual: zeros.clone(),
+            direction: zeros,
             products: layout.chunks.iter().map(PartialProduct::new).collect(),
             sums: vec![0.0; layout.chunks.len()],
         }
     }
 
-    /// Solves `A x = b` from `x = 0` until a target is met, in at least one iteration. `x` holds
-    /// `b ≠ 0` on entry.
+    /// Solves `A x = b` from `x = 0` until `target` is met, in at least one iteration and at most
+    /// `limit` iterations. `x` holds `b ≠ 0` on entry.
     ///
-    /// The energy `½ xᵀA x − bᵀx` that an iteration gains is half the square of its step in the norm
-    /// of `A`, and the energy that is left to gain is half the square of the error \[HS52\]. As long
-    /// as gains fall fast, the last ones tell what is left.
+    /// The decrease of the energy `½ xᵀA x − bᵀx` in an iteration is half the square of the step in
+    /// the norm of `A`. The energy above the minimum is half the square of the error \[HS52\]. As
+    /// long as the decreases become smaller fast, the last two estimate the energy above the
+    /// minimum.
     ///
-    /// At negative curvature the solution so far is kept if its residual is smaller than that of
-    /// zero \[DS83\]. Beginning again with a definite matrix took a third more iterations on a
-    /// cloth that comes to rest on a cube (35 300, not 25 900). Keeping every such solution took 19
-    /// 300 there, but three times as many evaluations of the forces on a T-shirt, where most such
-    /// steps were shortened by the line search.
+    /// At negative curvature the solution so far is kept if its residual is smaller than `b`
+    /// \[DS83\]. A restart with a definite matrix instead took a third more iterations on a cloth
+    /// that comes to rest on a cube (35 300 instead of 25 900). Keeping every such solution took 19
+    /// 300 iterations there, but three times as many evaluations of the forces on a T-shirt, where
+    /// the line search shortened most such steps.
     pub(crate) fn solve(
         &mut self,
         system: Preconditioned<'_>,
@@ -90,6 +93,7 @@ impl ConjugateGradient {
         target: Target,
         limit: usize,
     ) -> Outcome {
+        // Particles are stored in the rows of the layout.
         let row_of = &system.layout.order.row_of;
         for (b, &row) in block::triples(x).iter().zip(row_of) {
             for (column, b) in self.residual.0.iter_mut().zip(b) {
@@ -99,7 +103,9 @@ impl ConjugateGradient {
         for column in &mut self.solution.0 {
             column.fill(0.0);
         }
+
         let outcome = self.iterate(system, target, limit);
+
         for (x, &row) in block::triples_mut(x).iter_mut().zip(row_of) {
             for (x, column) in x.iter_mut().zip(&self.solution.0) {
                 *x = column[row as usize];
@@ -108,18 +114,18 @@ impl ConjugateGradient {
         outcome
     }
 
-    /// Iterates on the residual, which holds `b` on entry.
+    /// Iterates until `target` is met, in at most `limit` iterations. The residual holds `b` on
+    /// entry.
     ///
-    /// Besides the matrix, reading and writing the vectors takes most of the time, so each is read
-    /// as rarely as the method allows: the preconditioned residual stays where the preconditioner
-    /// leaves it.
+    /// Access to the vectors takes most of the time besides the matrix. Each vector is therefore
+    /// read as rarely as the method allows. The preconditioned residual is not copied out of the
+    /// preconditioner.
     fn iterate(&mut self, system: Preconditioned<'_>, target: Target, limit: usize) -> Outcome {
         let Preconditioned { arch, layout, matrix, preconditioner } = system;
-        // Keeps the numbers of the preconditioner in the range of single precision.
-        let start = {
-            let [x, y, z] = &self.residual.0;
-            (dot(x, x) + dot(y, y) + dot(z, z)).sqrt()
-        };
+
+        // The scale keeps the preconditioner's numbers in the range of single precision.
+        let [x, y, z] = &self.residual.0;
+        let start = (dot(x, x) + dot(y, y) + dot(z, z)).sqrt();
         let mut scale = start;
         self.write_image(preconditioner.image_mut(), 1.0 / scale);
         let residual = ScaledResidual { numbers: &self.residual, factor: 1.0 / scale };
@@ -131,8 +137,9 @@ impl ConjugateGradient {
             preconditioner.image(),
             DirectionUpdate { factor: 0.0, scale },
         );
-        let mut gained = 0.0;
-        let mut last_gain = f64::INFINITY;
+
+        let mut total_decrease = 0.0;
+        let mut last_decrease = f64::INFINITY;
         for iteration in 1..=limit {
             let curvature = matrix.multiply(arch, layout, &self.direction, &mut self.products);
             // Written so that a NaN ends the iteration too.
@@ -142,16 +149,18 @@ impl ConjugateGradient {
                 let ending = if worthwhile { Ending::Truncated } else { Ending::Indefinite };
                 return Outcome { iterations: iteration, ending };
             }
+
             let step = weight / curvature;
             let stride = Stride { step, image_factor: 1.0 / scale };
             let length = self.advance(arch, layout, preconditioner.image_mut(), stride).sqrt();
-            let gain = step * weight;
-            gained += gain;
-            let recent = last_gain + gain;
-            last_gain = gain;
-            if length <= target.residual || recent <= target.energy * gained {
+            let decrease = step * weight;
+            total_decrease += decrease;
+            let recent_decrease = last_decrease + decrease;
+            last_decrease = decrease;
+            if length <= target.residual || recent_decrease <= target.energy * total_decrease {
                 return Outcome { iterations: iteration, ending: Ending::Converged };
             }
+
             let residual = ScaledResidual { numbers: &self.residual, factor: 1.0 / scale };
             preconditioner.apply(arch, layout, residual);
             let image = preconditioner.image();
@@ -168,7 +177,7 @@ impl ConjugateGradient {
         Outcome { iterations: limit, ending: Ending::Truncated }
     }
 
-    /// Writes the residual, times a factor, as the image.
+    /// Writes the residual times `factor` into `image`.
     fn write_image(&self, image: &mut Columns<f32>, factor: f64) {
         for (image, residual) in image.0.iter_mut().zip(&self.residual.0) {
             for (image, r) in image.iter_mut().zip(residual) {
@@ -177,8 +186,8 @@ impl ConjugateGradient {
         }
     }
 
-    /// Takes a step along the direction, and writes the image of the residual. Returns its square
-    /// norm.
+    /// Takes the step `stride` along the direction, and writes the scaled residual into `image`.
+    /// Returns the square norm of the residual.
     fn advance(
         &mut self,
         arch: Arch,
@@ -189,7 +198,7 @@ impl ConjugateGradient {
         let Self { solution, residual, direction, products, sums } = self;
         let (direction, products) = (&*direction, &products[..]);
         let vectors =
-            (PerRow::of(&mut solution.0), PerRow::of(&mut residual.0), PerRow::of(&mut image.0));
+            (PerRow::new(&mut solution.0), PerRow::new(&mut residual.0), PerRow::new(&mut image.0));
         let output = (PerChunk(&mut *sums), vectors);
         chunk::for_each(&layout.chunks, LIGHT, output, &|chunk, (PerChunk(sums), vectors)| {
             let advance = Advance { layout, chunk, direction, products, vectors, stride };
@@ -198,7 +207,7 @@ impl ConjugateGradient {
         sums.iter().sum()
     }
 
-    /// Dot product `Σ rᵢ zᵢ` of the residual and its image times a scale.
+    /// Returns the dot product `Σ rᵢ zᵢ` of the residual `r` and `z`, the `image` times `scale`.
     fn weight(
         &mut self,
         arch: Arch,
@@ -214,7 +223,8 @@ impl ConjugateGradient {
         sums.iter().sum()
     }
 
-    /// Replaces the direction `d` by `z + factor · d`, with `z` the image times a scale.
+    /// Replaces the direction `d` by `z + factor · d`, with `z` the `image` times the scale of
+    /// `update`.
     fn update_direction(
         &mut self,
         arch: Arch,
@@ -222,29 +232,33 @@ impl ConjugateGradient {
         image: &Columns<f32>,
         update: DirectionUpdate,
     ) {
-        let direction = PerRow::of(&mut self.direction.0);
+        let direction = PerRow::new(&mut self.direction.0);
         chunk::for_each(&layout.chunks, LIGHT, direction, &|chunk, PerRow(direction)| {
             arch.dispatch(UpdateDirection { chunk, image, direction, update });
         });
     }
 }
 
-/// Step along a direction, and the factor of the image of the residual at its end.
+/// Step along a direction.
 #[derive(Clone, Copy)]
 struct Stride {
+    /// Length of the step, in multiples of the direction.
     step: f64,
+    /// Factor of the residual's copy in single precision after the step.
     image_factor: f64,
 }
 
-/// Factor of the old direction and scale of the image, of which the new one is the sum.
+/// Coefficients of a new direction, the sum of the image and the old direction.
 #[derive(Clone, Copy)]
 struct DirectionUpdate {
+    /// Factor of the old direction.
     factor: f64,
+    /// Factor of the image.
     scale: f64,
 }
 
-/// Adds `step · d` to a chunk of the solution, subtracts `step · A d` from that of the residual and
-/// writes its image. Returns its part of the new `‖r‖₂²`.
+/// Adds `step · d` to a chunk of the solution, subtracts `step · A d` from the residual's chunk and
+/// writes the image of the residual. Returns the chunk's contribution to the new `‖r‖₂²`.
 struct Advance<'a> {
     layout: &'a BatchLayout,
     chunk: &'a Chunk,
@@ -263,8 +277,11 @@ impl WithSimd for Advance<'_> {
         let (PerRow(solution), PerRow(mut residual), PerRow(image)) = vectors;
         let Stride { step, image_factor } = stride;
         let first = chunk.rows.start;
-        let product_of = |own: &Chunk| &products[own.index].rows;
-        add_others(&mut residual, -step, (&layout.chunks, chunk), product_of);
+
+        // Products of other chunks with rows of this chunk come first, in the order of the chunks.
+        add_from_other_chunks(&mut residual, -step, (&layout.chunks, chunk), |source| {
+            &products[source.index].rows
+        });
         for &entry in &chunk.incoming {
             let entry = entry as usize;
             let row = layout.irregular[entry].column as usize - first;
@@ -274,9 +291,10 @@ impl WithSimd for Advance<'_> {
                 residual[row] -= step * push;
             }
         }
+
         let mut square = 0.0;
-        let own = &products[chunk.index].rows.0;
-        for ((residual, product), image) in residual.into_iter().zip(own).zip(image) {
+        let chunk_products = &products[chunk.index].rows.0;
+        for ((residual, product), image) in residual.into_iter().zip(chunk_products).zip(image) {
             let product = &product[first - chunk.window.start..];
             square += update_residual(step, residual, product, Image { image, image_factor });
         }
@@ -287,7 +305,7 @@ impl WithSimd for Advance<'_> {
     }
 }
 
-/// Dot product of a chunk of the residual and of its image times a scale.
+/// Computes the dot product of a chunk of the residual with its image times `scale`.
 struct DotWithImage<'a> {
     chunk: &'a Chunk,
     residual: &'a Columns<f64>,
@@ -330,13 +348,13 @@ impl WithSimd for UpdateDirection<'_> {
     }
 }
 
-/// Copy of a residual in single precision, times a factor.
+/// Copy of a residual in single precision, times `image_factor`.
 struct Image<'a> {
     image: &'a mut [f32],
     image_factor: f64,
 }
 
-/// Subtracts `step · p` from `r` and writes its image. Returns the new `‖r‖₂²`.
+/// Subtracts `step · p` from `r` and writes the `image` of `r`. Returns the new `‖r‖₂²`.
 #[inline(always)]
 fn update_residual(step: f64, r: &mut [f64], p: &[f64], image: Image<'_>) -> f64 {
     let Image { image, image_factor } = image;
@@ -354,7 +372,7 @@ fn update_residual(step: f64, r: &mut [f64], p: &[f64], image: Image<'_>) -> f64
     sum(partial)
 }
 
-/// Dot product `Σ rᵢ zᵢ`, with `z` the image times a factor.
+/// Returns the dot product `Σ rᵢ zᵢ`, with `z` the `image` times `factor`.
 #[inline(always)]
 fn dot_scaled(r: &[f64], image: &[f32], factor: f64) -> f64 {
     let mut partial = [0.0; LANES];
@@ -366,7 +384,7 @@ fn dot_scaled(r: &[f64], image: &[f32], factor: f64) -> f64 {
     sum(partial)
 }
 
-/// Replaces `d` by `z + factor · d`, with `z` the image times a scale.
+/// Replaces `d` by `z + factor · d`, with `z` the `image` times `scale`.
 #[inline(always)]
 fn update_direction(d: &mut [f64], factor: f64, image: &[f32], scale: f64) {
     for (d, image) in d.iter_mut().zip(image) {

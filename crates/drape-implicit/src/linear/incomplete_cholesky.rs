@@ -1,18 +1,19 @@
 //! Incomplete Cholesky factor without fill, in 3x3 blocks: the preconditioner of conjugate
 //! gradients.
 //!
-//! The factor `$U^T D\,U$` has `$U$` unit upper triangular on the matrix's own sparsity \[MV77\].
-//! It is found by elimination, row by row in the order of the level schedule:
+//! In the factor `$U^T D\,U$` the matrix `$U$` is unit upper triangular with the sparsity of the
+//! factorised matrix \[MV77\]. Elimination computes the factor row by row in the order of the level
+//! schedule:
 //!
 //! ```math
 //! D_i = S_{ii}, \qquad U_{ij} = D_i^{-1} S_{ij}, \qquad
 //! S_{jk} \leftarrow S_{jk} - S_{ij}^T\, U_{ik}
 //! ```
 //!
-//! `$S$` begins as the matrix; in between it is the [Schur complement](schur_complement) of the rows
-//! eliminated. Updates outside the sparsity are [dropped](dropped_fill) and compensated on the
-//! diagonal. Pivots may collapse all the same: the [elimination] is then tried again with a larger
-//! shift. A finished [factor] is applied by two [triangular solves](triangular_solve).
+//! `$S$` is the matrix at first, and later the [Schur complement](schur_complement) of the
+//! eliminated rows. Updates outside the sparsity are [dropped](dropped_fill) and compensated on the
+//! diagonal. If a pivot collapses nevertheless, the [elimination] is repeated with a larger shift.
+//! Two [triangular solves](triangular_solve) apply a finished [factor].
 
 pub(crate) mod dropped_fill;
 pub(crate) mod elimination;
@@ -33,16 +34,16 @@ use elimination::{Attempt, Elimination, Input};
 use factor::Factor;
 use triangular_solve::TriangularSolve;
 
-/// Eliminations that are tried in turn as pivots collapse, before the block diagonal alone is used,
-/// which cannot fail.
+/// Variants of the elimination, tried in turn as long as pivots collapse. After the last variant
+/// the block diagonal alone is the factor, which cannot fail.
 ///
-/// Each shift is four times the one before: coarse, because a factorisation costs as much as
-/// several iterations of the solver. With shifts alone after the first attempt, from 0 on,
-/// conjugate gradients took more iterations: 37 300 instead of 21 300 on a wool let down from a
-/// platform, where four or five attempts failed for most factors and one fails now, 163 000 instead
-/// of 112 000 on cloth that settles on a sphere, 25 900 instead of 22 600 on one on a cube.
-/// Stabilisation without shifts did as well there, but with the springs of a garment's seams it
-/// took 75 000 instead of 26 000.
+/// Each shift is four times the shift before. The growth is coarse because a factorisation costs as
+/// much as several iterations of conjugate gradients. With shifts alone after the first attempt,
+/// from 0 upwards, conjugate gradients took more iterations: 37 300 instead of 21 300 on a wool let
+/// down from a platform, where four or five attempts failed for most factors instead of one, 163
+/// 000 instead of 112 000 on cloth that settles on a sphere, and 25 900 instead of 22 600 on cloth
+/// on a cube. Stabilisation without shifts was equally good there, but took 75 000 instead of 26
+/// 000 iterations with the springs of a garment's seams.
 const ATTEMPTS: [Attempt; 7] = [
     Attempt { fill: DroppedFill::Compensated(0.97), shift: 0.0 },
     Attempt { fill: DroppedFill::Stabilised(0.05), shift: 0.004 },
@@ -53,22 +54,23 @@ const ATTEMPTS: [Attempt; 7] = [
     Attempt { fill: DroppedFill::Stabilised(1.0), shift: 4.096 },
 ];
 
-/// Incomplete factor of a matrix, and the vector that it is applied to.
+/// Incomplete factor of a matrix, and the vector to which it is applied.
 #[derive(Debug)]
 pub(crate) struct IncompleteCholesky {
     elimination: Elimination,
     factor: Factor,
     triangular_solve: TriangularSolve,
-    /// Vector to apply the inverse to, by rows.
+    /// Vector to which the inverse is applied, by rows.
     pub image: Columns<f32>,
-    /// First of [`ATTEMPTS`] to try.
+    /// Index of the first of [`ATTEMPTS`] for the next matrix.
     first_attempt: usize,
-    /// First of [`ATTEMPTS`] to try for a matrix that is not like the one before.
+    /// Index of the first of [`ATTEMPTS`] for a matrix that differs from the one before.
     least_attempt: usize,
 }
 
 impl IncompleteCholesky {
-    /// Makes room for a factor that is compensated at first or, if asked for, stabilised.
+    /// Allocates a factor for `layout`. The first attempt is compensated, or `stabilised` if this
+    /// is set.
     pub(crate) fn new(layout: &BatchLayout, stabilised: bool) -> Self {
         let least_attempt = usize::from(stabilised);
         Self {
@@ -81,17 +83,19 @@ impl IncompleteCholesky {
         }
     }
 
-    /// Forgets which attempt succeeded last, for a matrix that is not like the one before.
+    /// Discards the record of the last successful attempt, because the next matrix differs from the
+    /// last.
     pub(crate) fn forget(&mut self) {
         self.first_attempt = self.least_attempt;
     }
 
-    /// Factorises a packed matrix. Returns the number of attempts that failed.
+    /// Factorises the matrix `packed`. Returns the number of failed attempts.
     ///
-    /// Begins with the attempt that succeeded last or, if that succeeded at once, with the second; but
-    /// until [`forget`](Self::forget) the very first is not tried again after it has failed. Tried
-    /// each time, it failed for almost every matrix of a cloth that comes to rest, and for half of
-    /// those of a swing.
+    /// The first attempt is the one that succeeded last. If it succeeds at once, the next matrix
+    /// begins with the second of [`ATTEMPTS`], so that the shift becomes small again. Until
+    /// [`forget`](Self::forget) the very first of [`ATTEMPTS`] is not repeated after a failure:
+    /// when it was tried for each matrix, it failed for almost every matrix of a cloth that comes
+    /// to rest, and for half of the matrices of a swing.
     pub(crate) fn factorise(
         &mut self,
         arch: Arch,
@@ -121,9 +125,10 @@ impl IncompleteCholesky {
     }
 }
 
-// Calls that are dispatched to the machine's vector instructions: all below them is inlined.
+// Calls that `pulp` dispatches to the machine's vector instructions. The called functions are
+// inlined.
 
-/// Whether all blocks of the main diagonal are positive definite.
+/// Computes whether all blocks of the main diagonal are positive definite.
 struct IsDefinite<'a> {
     layout: &'a BatchLayout,
     packed: &'a PackedMatrix,
@@ -271,7 +276,8 @@ mod tests {
         }
     }
 
-    /// Largest entries of the product `UᵀD U`, less those of the matrix, on and beside the sparsity.
+    /// Largest entries of the product `UᵀD U`, less those of the matrix, on and beside the
+    /// sparsity.
     fn differences(matrix: &BlockMatrix, parts: usize) -> [f64; 2] {
         let sparsity = matrix.sparsity();
         let schedule = schedule(sparsity, parts);

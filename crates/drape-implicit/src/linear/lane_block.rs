@@ -13,7 +13,7 @@ pub(crate) type SymmetricBlocks<T> = [T; 6];
 /// Rows and columns of the upper half of a block.
 const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
-/// Product `A x`.
+/// Returns the product of the blocks `a` and the vectors `[x, y, z]`.
 #[inline(always)]
 pub(crate) fn product<T: Copy + Add<Output = T> + Mul<Output = T>>(
     a: &Blocks<T>,
@@ -26,7 +26,7 @@ pub(crate) fn product<T: Copy + Add<Output = T> + Mul<Output = T>>(
     ]
 }
 
-/// Product `Aᵀ x`.
+/// Returns the product of the transposed blocks `aᵀ` and the vectors `[x, y, z]`.
 #[inline(always)]
 pub(crate) fn transposed_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
     a: &Blocks<T>,
@@ -39,7 +39,7 @@ pub(crate) fn transposed_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
     ]
 }
 
-/// Product `A x` of symmetric blocks.
+/// Returns the product of the symmetric blocks `[a, b, c, d, e, f]` and the vectors `[x, y, z]`.
 #[inline(always)]
 pub(crate) fn symmetric_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
     [a, b, c, d, e, f]: &SymmetricBlocks<T>,
@@ -48,14 +48,14 @@ pub(crate) fn symmetric_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
     [(*a * x + *b * y) + *c * z, (*b * x + *d * y) + *e * z, (*c * x + *e * y) + *f * z]
 }
 
-/// Determinants of symmetric blocks.
+/// Returns the determinants of the symmetric blocks `[a, b, c, d, e, f]`.
 #[inline(always)]
 pub(crate) fn determinant([a, b, c, d, e, f]: &SymmetricBlocks<Double>) -> Double {
     (*a * (*d * *f - *e * *e) - *b * (*b * *f - *e * *c)) + *c * (*b * *e - *d * *c)
 }
 
-/// Whether all blocks are positive definite, by their leading minors, with determinants of at least
-/// `least`. A block with a NaN in it is not.
+/// Returns whether all `blocks` are positive definite, by their leading minors, with determinants
+/// of at least `least`. A block with a NaN is not definite.
 #[inline(always)]
 pub(crate) fn are_definite(blocks: &SymmetricBlocks<Double>, least: Double) -> bool {
     let [a, b, _, d, ..] = blocks;
@@ -69,7 +69,7 @@ pub(crate) fn are_definite(blocks: &SymmetricBlocks<Double>, least: Double) -> b
     definite
 }
 
-/// Inverses of symmetric blocks with given determinants.
+/// Returns the inverses of the symmetric blocks `[a, b, c, d, e, f]` with the determinants `det`.
 #[inline(always)]
 pub(crate) fn inverse(
     [a, b, c, d, e, f]: &SymmetricBlocks<Double>,
@@ -89,7 +89,7 @@ pub(crate) fn inverse(
     ]
 }
 
-/// Product `P B` of symmetric blocks `P`.
+/// Returns the product `p b` of symmetric blocks `p` and blocks `b`.
 #[inline(always)]
 pub(crate) fn symmetric_times<T: Number>(p: &SymmetricBlocks<T>, b: &Blocks<T>) -> Blocks<T> {
     let x = symmetric_product(p, [b[0], b[3], b[6]]);
@@ -98,7 +98,7 @@ pub(crate) fn symmetric_times<T: Number>(p: &SymmetricBlocks<T>, b: &Blocks<T>) 
     [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
 }
 
-/// Product `Aᵀ B`.
+/// Returns the product `aᵀ b`.
 #[inline(always)]
 pub(crate) fn transposed_times<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> Blocks<T> {
     let x = transposed_product(a, [b[0], b[3], b[6]]);
@@ -107,9 +107,9 @@ pub(crate) fn transposed_times<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> Block
     [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
 }
 
-/// Upper half of a product `Aᵀ B` that is symmetric.
+/// Returns the upper half of the product `aᵀ b`, which must be symmetric.
 #[inline(always)]
-pub(crate) fn symmetric_of_product<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> SymmetricBlocks<T> {
+pub(crate) fn upper_half_of_product<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> SymmetricBlocks<T> {
     let mut half = [a[0]; 6];
     for (half, (row, column)) in half.iter_mut().zip(UPPER) {
         *half = (a[row] * b[column] + a[3 + row] * b[3 + column]) + a[6 + row] * b[6 + column];
@@ -117,22 +117,22 @@ pub(crate) fn symmetric_of_product<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> S
     half
 }
 
-/// Upper half of the symmetric part of a block.
+/// Returns the upper half of the symmetric part of the blocks `a`.
 #[inline(always)]
 pub(crate) fn symmetric_part<T: Number>(a: &Blocks<T>) -> SymmetricBlocks<T> {
-    let half = T::of(0.5);
+    let half = T::splat(0.5);
     let [a, b, c, d, e, f, g, h, i] = *a;
     [a, half * (b + d), half * (c + g), e, half * (f + h), i]
 }
 
-/// Entries of one lane.
+/// Returns the entries of `blocks` in `lane`.
 #[inline(always)]
-pub(crate) fn lane_of<const N: usize>(blocks: &[Single; N], lane: u32) -> [f32; N] {
-    let mut own = [0.0; N];
-    for (own, entry) in own.iter_mut().zip(blocks) {
-        *own = entry.0[lane as usize];
+pub(crate) fn extract_lane<const N: usize>(blocks: &[Single; N], lane: u32) -> [f32; N] {
+    let mut entries = [0.0; N];
+    for (entry, lanes) in entries.iter_mut().zip(blocks) {
+        *entry = lanes.0[lane as usize];
     }
-    own
+    entries
 }
 
 #[cfg(test)]
@@ -141,7 +141,7 @@ mod tests {
 
     /// The same block in all lanes.
     fn halves(a: SymmetricBlocks<f64>) -> SymmetricBlocks<Double> {
-        a.map(Double::of)
+        a.map(Double::splat)
     }
 
     #[test]
@@ -160,7 +160,7 @@ mod tests {
     fn blocks_indefinite_in_one_lane_or_not_a_number_are_not_definite() {
         let mut a = halves([4.0, 1.0, -0.5, 3.0, 0.25, 2.0]);
         assert!(are_definite(&a, Double::ZERO));
-        assert!(!are_definite(&a, Double::of(100.0)), "its determinant is 20.75");
+        assert!(!are_definite(&a, Double::splat(100.0)), "its determinant is 20.75");
         // Two negative directions: the determinant alone would let it pass.
         let twice = [-1.0, 0.0, 0.0, -1.0, 0.0, 1.0];
         for (entry, value) in a.iter_mut().zip(twice) {

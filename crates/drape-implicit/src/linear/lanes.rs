@@ -1,14 +1,14 @@
 //! Eight numbers side by side, and columns of them, in arithmetic that the compiler turns into
 //! vector instructions.
 //!
-//! The number of lanes is fixed and no operation is fused, so every machine computes the same bits
-//! whatever instructions it has. No closures are passed to functions of other crates, such as an
-//! array's `map`: those are compiled without the machine's vector instructions.
+//! The number of lanes is fixed and no operation is fused, so every machine computes equal bits
+//! with any instruction set. No closure is passed to a function of another crate, such as an
+//! array's `map`: such functions are compiled without the machine's vector instructions.
 
 use core::ops::{Add, Mul, Sub};
 
-/// Number of lanes: one register of the widest instructions in double precision, and few enough
-/// that the short levels of a level schedule fill them.
+/// Number of lanes: one register of the widest instructions in double precision. The number is
+/// small enough that the short levels of a level schedule fill the lanes.
 pub(crate) const LANES: usize = 8;
 
 macro_rules! lanes {
@@ -71,7 +71,7 @@ macro_rules! lanes {
 
         impl Number for $number {
             #[inline(always)]
-            fn of(x: f64) -> Self {
+            fn splat(x: f64) -> Self {
                 x as $number
             }
 
@@ -84,7 +84,7 @@ macro_rules! lanes {
 
         impl Number for $name {
             #[inline(always)]
-            fn of(x: f64) -> Self {
+            fn splat(x: f64) -> Self {
                 Self([x as $number; LANES])
             }
 
@@ -92,7 +92,7 @@ macro_rules! lanes {
             fn root_and_inverse(self) -> [Self; 2] {
                 let mut roots = [Self::ZERO; 2];
                 let [root, inverse] = &mut roots;
-                // Without branches, which would keep the compiler from vector instructions.
+                // Branches would keep the compiler from using vector instructions.
                 for ((root, inverse), x) in root.0.iter_mut().zip(&mut inverse.0).zip(self.0) {
                     let positive = if x > 0.0 { x } else { 0.0 };
                     *root = positive.sqrt();
@@ -108,11 +108,12 @@ macro_rules! lanes {
 lanes!(Double, f64, 64);
 lanes!(Single, f32, 32);
 
-/// One number or eight.
+/// One number, or one number per lane.
 pub(crate) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
-    fn of(x: f64) -> Self;
+    /// Returns `x` in every lane.
+    fn splat(x: f64) -> Self;
 
-    /// Square root and its inverse; both are 0 where the number is not positive.
+    /// Returns the square root of `self` and its inverse. Both are 0 where `self` is not positive.
     fn root_and_inverse(self) -> [Self; 2];
 }
 
@@ -138,7 +139,7 @@ impl Single {
     }
 }
 
-/// Converts to double precision.
+/// Converts `short` to double precision.
 #[inline(always)]
 pub(crate) fn widened<const N: usize>(short: &[Single; N]) -> [Double; N] {
     let mut wide = [Double::ZERO; N];
@@ -148,7 +149,7 @@ pub(crate) fn widened<const N: usize>(short: &[Single; N]) -> [Double; N] {
     wide
 }
 
-/// Converts to single precision.
+/// Converts `wide` to single precision.
 #[inline(always)]
 pub(crate) fn narrowed<const N: usize>(wide: &[Double; N]) -> [Single; N] {
     let mut short = [Single::ZERO; N];
@@ -164,13 +165,12 @@ pub(crate) struct Columns<T>(pub [Vec<T>; 3]);
 
 impl<T: Copy + Default> Columns<T> {
     pub(crate) fn new(rows: usize) -> Self {
-        let column = || vec![T::default(); rows];
-        Self([column(), column(), column()])
+        Self(core::array::from_fn(|_| vec![T::default(); rows]))
     }
 }
 
 impl<T: Copy> Columns<T> {
-    /// Numbers of a row.
+    /// Returns the numbers of `row`.
     #[inline(always)]
     pub(crate) fn at(&self, row: usize) -> [T; 3] {
         let [x, y, z] = &self.0;

@@ -1,26 +1,27 @@
 //! Level schedule: the order in which a matrix is eliminated, eight rows at once \[Saad03\].
 //!
-//! A particle is in the first level after those of all its neighbours of smaller number. The rows
-//! of a level do not depend on each other, so they can be eliminated together, and the factor is
-//! that of the particles' own order:
+//! The level of a particle is the first level after the levels of all neighbours with smaller
+//! numbers. The rows of a level do not depend on each other, so they can be eliminated together.
+//! The factor equals the factor in the order of the particles' numbers:
 //!
 //! ```math
 //! \mathrm{level}(j) = 1 + \max_{i < j,\ a_{ij} \neq 0} \mathrm{level}(i)
 //! ```
 //!
-//! or 0 without such a neighbour.
+//! The level is 0 without such a neighbour.
 //!
-//! The rows of a level are taken in *batches* of eight, one row per lane. On a lattice the
-//! neighbours of a batch are batches again, at the same few distances all along a level: the
-//! *diagonals* of a *run* of batches. A block on no diagonal, such as those along an outline, is an
-//! *irregular entry* and is computed by itself.
+//! The rows of a level are processed in *batches* of eight, one row per lane. On a lattice the
+//! neighbours of a batch are batches too, at a few distances that are constant along a level: the
+//! *diagonals* of a *run* of batches. A block on no diagonal, for example along an outline, is an
+//! *irregular entry* and is computed separately.
 //!
 //! Particles of a large matrix are first divided into parts, which are eliminated side by side, and
-//! separators, which are eliminated after them ([`partition`]). Each has levels of its own.
+//! separators, which are eliminated after the parts ([`partition`]). Parts and separators have
+//! separate levels.
 //!
-//! Built once per sparsity, in this order: rows ([`row_order`]), runs and places of blocks
-//! ([`layout`]), the runs of each part ([`part`]), the division of the runs among threads for all
-//! that needs no order ([`chunk`]), updates of the elimination ([`updates`]).
+//! A schedule is built once per sparsity in this order: rows ([`row_order`]), runs and slots of
+//! blocks ([`layout`]), the runs of each part ([`part`]), chunks of rows for operations in any
+//! order ([`chunk`]), and updates of the elimination ([`updates`]).
 
 pub(crate) mod chunk;
 mod grouped;
@@ -49,6 +50,7 @@ pub(crate) struct LevelSchedule {
 }
 
 impl LevelSchedule {
+    /// Returns the schedule of `sparsity`, divided into parts by `partition`.
     pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
         let layout = BatchLayout::new(sparsity, partition);
         let updates = UpdateTable::new(sparsity, &layout);

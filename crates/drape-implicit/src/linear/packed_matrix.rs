@@ -13,38 +13,42 @@ use crate::linear::level_schedule::chunk::{
 };
 use crate::linear::level_schedule::later_blocks::BlockSlot;
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum, add_others};
+use crate::linear::level_schedule::partial_sum::{
+    PartialProduct, PartialSum, add_from_other_chunks,
+};
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::IrregularEntry;
 use crate::linear::vector::dot;
 
-/// Places of a symmetric block's upper half in the block.
+/// Indices of the upper half of a row-major block.
 const UPPER_HALF: [usize; 6] = [0, 1, 2, 4, 5, 8];
 
-/// Block of a row without a particle.
+/// Diagonal block of a row without a particle.
 const IDENTITY: Block = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// Blocks of a matrix in batches.
 ///
-/// The off-diagonal blocks are in single precision, because a product is bound by memory. The
-/// symmetric part of what rounding takes from the sum of a row is added to its main diagonal: the
-/// soft motions of a stiff system, translations first of all, would otherwise meet a stiffness that
-/// is not there. The antisymmetric part of the rounding and its moments remain; they are as large
-/// as what rounding does to the forces.
+/// The off-diagonal blocks are in single precision, because memory access limits the speed of a
+/// product. The symmetric part of a row's rounding errors is added to the main diagonal of the row.
+/// Without this correction the soft motions of a stiff system, above all translations, would meet a
+/// spurious stiffness. The antisymmetric part of the rounding errors and their moments remain.
+/// These are as large as the rounding errors of the forces.
 #[derive(Debug)]
 pub(crate) struct PackedMatrix {
     /// Off-diagonal blocks by run, batch and diagonal.
     pub off_diagonal: Vec<Blocks<Single>>,
+    /// Blocks of the irregular entries.
     pub irregular: Vec<Blocks<f32>>,
     /// Upper halves of the main diagonal, by row. Rows without a particle have the identity.
     main_diagonal: [Vec<f64>; 6],
-    /// Parts of the main diagonal that each chunk adds.
+    /// Contribution of each chunk to the main diagonal.
     parts: Vec<PartialSum<6>>,
-    /// Blocks outside the sparsity, between rows.
+    /// Blocks outside the sparsity, with rows of the layout in place of particles.
     couplings: Vec<Coupling>,
 }
 
 impl PackedMatrix {
+    /// Allocates a matrix of zeros for `layout`.
     pub(crate) fn new(layout: &BatchLayout) -> Self {
         Self {
             off_diagonal: vec![[Single::ZERO; 9]; layout.slots.len()],
@@ -55,7 +59,7 @@ impl PackedMatrix {
         }
     }
 
-    /// Copies a matrix on the sparsity of the layout.
+    /// Copies `matrix`, which has the sparsity of `layout`.
     pub(crate) fn pack(&mut self, arch: Arch, layout: &BatchLayout, matrix: &BlockMatrix) {
         self.couplings.clear();
         self.couplings.extend(matrix.couplings().iter().map(|coupling| Coupling {
@@ -63,6 +67,8 @@ impl PackedMatrix {
             column: layout.order.row_of[coupling.column as usize],
             ..*coupling
         }));
+
+        // Each chunk packs its blocks, and sums the diagonal entries of its window.
         let (off_diagonal, irregular) = (&mut self.off_diagonal, &mut self.irregular);
         chunk::for_each(
             &layout.chunks,
@@ -74,16 +80,20 @@ impl PackedMatrix {
                 arch.dispatch(Pack { layout, chunk, blocks: matrix.blocks(), packed });
             },
         );
+
+        // Each chunk collects the diagonal entries of its rows from all chunks in a fixed order.
         let (irregular, parts) = (&self.irregular, &self.parts);
-        chunk::for_each(&layout.chunks, LIGHT, PerRow::of(&mut self.main_diagonal), &|chunk,
-                                                                                      PerRow(
+        chunk::for_each(&layout.chunks, LIGHT, PerRow::new(&mut self.main_diagonal), &|chunk,
+                                                                                       PerRow(
             mut rows,
         )| {
             let first = chunk.rows.start;
             for (column, part) in rows.iter_mut().zip(&parts[chunk.index].0) {
                 column.copy_from_slice(&part[first - chunk.window.start..][..column.len()]);
             }
-            add_others(&mut rows, 1.0, (&layout.chunks, chunk), |own| &parts[own.index]);
+            add_from_other_chunks(&mut rows, 1.0, (&layout.chunks, chunk), |source| {
+                &parts[source.index]
+            });
             for &entry in &chunk.incoming {
                 let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
                 let short = &irregular[entry as usize];
@@ -95,7 +105,7 @@ impl PackedMatrix {
         });
     }
 
-    /// Blocks on the main diagonal of the batch that begins at a row.
+    /// Returns the blocks on the main diagonal of the batch that begins at `row`.
     #[inline(always)]
     pub(crate) fn main_diagonal(&self, row: usize) -> SymmetricBlocks<Double> {
         let mut main = [Double::ZERO; 6];
@@ -105,8 +115,8 @@ impl PackedMatrix {
         main
     }
 
-    /// Writes the products of all chunks with `x`, which has zeros in the rows without a particle.
-    /// Returns `xᵀA x`.
+    /// Writes the `products` of all chunks with `x`, which has zeros in the rows without a
+    /// particle. Returns `xᵀA x`.
     pub(crate) fn multiply(
         &self,
         arch: Arch,
@@ -114,17 +124,28 @@ impl PackedMatrix {
         x: &Columns<f64>,
         products: &mut [PartialProduct],
     ) -> f64 {
-        chunk::for_each(&layout.chunks, 0, PerChunk(&mut *products), &|chunk, PerChunk(own)| {
-            arch.dispatch(Multiply { layout, matrix: self, chunk, x, product: &mut own[0] });
-        });
+        chunk::for_each(
+            &layout.chunks,
+            0,
+            PerChunk(&mut *products),
+            &|chunk, PerChunk(product)| {
+                arch.dispatch(Multiply {
+                    layout,
+                    matrix: self,
+                    chunk,
+                    x,
+                    product: &mut product[0],
+                });
+            },
+        );
         let mut curvature = products.iter().map(|product| product.curvature).sum();
         for Coupling { row, column, block } in &self.couplings {
             let [row, column] = [*row as usize, *column as usize];
-            let (mut here, mut there) = ([0.0; 3], [0.0; 3]);
-            block::add_product(block, &x.at(column), &mut here);
-            block::add_transposed_product(block, &x.at(row), &mut there);
-            curvature += 2.0 * dot(&here, &x.at(row));
-            for (row, numbers) in [(row, here), (column, there)] {
+            let (mut row_product, mut column_product) = ([0.0; 3], [0.0; 3]);
+            block::add_product(block, &x.at(column), &mut row_product);
+            block::add_transposed_product(block, &x.at(row), &mut column_product);
+            curvature += 2.0 * dot(&row_product, &x.at(row));
+            for (row, numbers) in [(row, row_product), (column, column_product)] {
                 let chunk = &layout.chunks[layout.chunk_of(row)];
                 products[chunk.index].rows.add(row - chunk.window.start, numbers);
             }
@@ -133,7 +154,7 @@ impl PackedMatrix {
     }
 }
 
-/// Parts of a packed matrix that a chunk writes.
+/// Entries of a packed matrix that one chunk writes.
 struct PackedChunk<'a> {
     off_diagonal: &'a mut [Blocks<Single>],
     irregular: &'a mut [Blocks<f32>],
@@ -157,27 +178,31 @@ impl WithSimd for Pack<'_> {
         let PackedChunk { off_diagonal, irregular, main_diagonal } = packed;
         let first = chunk.window.start;
         main_diagonal.clear();
+
         for run in &layout.runs[chunk.runs.clone()] {
             let diagonals = &layout.diagonals[run.diagonals.clone()];
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let slots = &layout.main_slots[run.batches + batch];
                 let mut main = [Double::ZERO; 6];
-                for (main, place) in main.iter_mut().zip(UPPER_HALF) {
+                for (main, index) in main.iter_mut().zip(UPPER_HALF) {
                     for (entry, &slot) in main.0.iter_mut().zip(slots) {
-                        *entry = pick(blocks, slot, &IDENTITY)[place];
+                        *entry = main_block(blocks, slot)[index];
                     }
                 }
                 main_diagonal.add_batch(row - first, main);
-                let slots = &layout.slots[run.blocks_of(batch)];
-                let own = run.blocks_of(batch);
-                let own = own.start - chunk.blocks.start..own.end - chunk.blocks.start;
-                let above = &mut off_diagonal[own];
-                for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
+
+                // A rounding error of a block concerns the sums of its row and of its column.
+                let range = run.blocks_of(batch);
+                let slots = &layout.slots[range.clone()];
+                let range = range.start - chunk.blocks.start..range.end - chunk.blocks.start;
+                let packed = &mut off_diagonal[range];
+                for ((diagonal, slots), packed) in diagonals.iter().zip(slots).zip(packed) {
                     let block = gather(blocks, slots);
-                    let lost = round(&block, above);
+                    let lost = round(&block, packed);
                     main_diagonal.add_batch(row - first, lost);
                     main_diagonal.add_batch(diagonal.column(row) - first, lost);
                 }
+
                 for index in layout.irregular_of[run.batches + batch].clone() {
                     let IrregularEntry { lane, column, slot } = layout.irregular[index];
                     let block = slot.copy(blocks);
@@ -215,22 +240,26 @@ impl WithSimd for Multiply<'_> {
         let first = chunk.window.start;
         rows.clear();
         *curvature = 0.0;
+
         for run in &layout.runs[chunk.runs.clone()] {
             let diagonals = &layout.diagonals[run.diagonals.clone()];
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let here = x.load(row);
-                let mut sum = symmetric_product(&matrix.main_diagonal(row), here);
+                let x_of_rows = x.load(row);
+                let mut sum = symmetric_product(&matrix.main_diagonal(row), x_of_rows);
                 let blocks = &matrix.off_diagonal[run.blocks_of(batch)];
                 for (diagonal, block) in diagonals.iter().zip(blocks) {
                     let column = diagonal.column(row);
                     let wide = widened(block);
-                    let there = lane_block::product(&wide, x.load(column));
-                    for (sum, there) in sum.iter_mut().zip(there) {
-                        *sum = *sum + there;
+                    let product = lane_block::product(&wide, x.load(column));
+                    for (sum, product) in sum.iter_mut().zip(product) {
+                        *sum = *sum + product;
                     }
-                    rows.add_batch(column - first, transposed_product(&wide, here));
+                    rows.add_batch(column - first, transposed_product(&wide, x_of_rows));
                 }
                 rows.add_batch(row - first, sum);
+
+                // The column of an irregular entry may lie outside the window: its chunk adds the
+                // push later.
                 for index in layout.irregular_of[run.batches + batch].clone() {
                     let IrregularEntry { lane, column, .. } = layout.irregular[index];
                     let mut wide = block::ZERO;
@@ -249,13 +278,14 @@ impl WithSimd for Multiply<'_> {
                 }
             }
         }
+
         for (x, sums) in x.0.iter().zip(&rows.0) {
             *curvature += dot(&x[chunk.window.clone()], sums);
         }
     }
 }
 
-/// Blocks of a batch on a diagonal.
+/// Returns the blocks of a batch on a diagonal, one per lane, from their `slots`.
 #[inline(always)]
 fn gather(blocks: &[Block], slots: &[BlockSlot; LANES]) -> Blocks<Double> {
     let mut gathered = [Double::ZERO; 9];
@@ -264,6 +294,8 @@ fn gather(blocks: &[Block], slots: &[BlockSlot; LANES]) -> Blocks<Double> {
             entry.0[lane] = *value;
         }
     }
+
+    // Lanes of transposed blocks exchange their entries across the diagonal.
     for (lane, slot) in slots.iter().enumerate() {
         if slot.is_transposed() {
             for [a, b] in [[1, 3], [2, 6], [5, 7]] {
@@ -276,7 +308,7 @@ fn gather(blocks: &[Block], slots: &[BlockSlot; LANES]) -> Blocks<Double> {
     gathered
 }
 
-/// Symmetric part of what rounding takes from a block.
+/// Returns the symmetric part of `block` less its copy `short` in single precision.
 #[inline(always)]
 fn rounding(block: &Block, short: &Blocks<f32>) -> [f64; 6] {
     let mut lost = block::ZERO;
@@ -286,20 +318,22 @@ fn rounding(block: &Block, short: &Blocks<f32>) -> [f64; 6] {
     symmetric_part(&lost)
 }
 
-/// Converts blocks to single precision. Returns the symmetric part of what they lose.
+/// Writes `block` in single precision into `short`. Returns the symmetric part of the rounding
+/// errors.
 #[inline(always)]
-fn round(block: &Blocks<Double>, above: &mut Blocks<Single>) -> SymmetricBlocks<Double> {
+fn round(block: &Blocks<Double>, short: &mut Blocks<Single>) -> SymmetricBlocks<Double> {
     let mut lost = [Double::ZERO; 9];
-    for ((lost, above), value) in lost.iter_mut().zip(above).zip(block) {
-        *above = value.narrow();
-        *lost = *value - above.widen();
+    for ((lost, short), value) in lost.iter_mut().zip(short).zip(block) {
+        *short = value.narrow();
+        *lost = *value - short.widen();
     }
     symmetric_part(&lost)
 }
 
+/// Returns the block of `slot` on the main diagonal, the identity for a row without a particle.
 #[inline(always)]
-fn pick<'a>(blocks: &'a [Block], slot: u32, none: &'a Block) -> &'a Block {
-    if slot == ABSENT { none } else { &blocks[slot as usize] }
+fn main_block(blocks: &[Block], slot: u32) -> &Block {
+    if slot == ABSENT { &IDENTITY } else { &blocks[slot as usize] }
 }
 
 #[cfg(test)]

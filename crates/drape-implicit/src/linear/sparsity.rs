@@ -1,13 +1,13 @@
-//! Sparsity of a symmetric matrix of 3x3 blocks: which particles are coupled.
+//! Sparsity of a symmetric matrix of 3x3 blocks: the list of coupled particles.
 
 use crate::error::Error;
 
-/// Sparsity of a symmetric matrix of 3x3 blocks: the particles that each particle's force depends
-/// on.
+/// Sparsity of a symmetric matrix of 3x3 blocks: the pairs of particles whose forces depend on each
+/// other's positions.
 ///
-/// Only the upper half is kept. Row `i` lists its own column first (the diagonal block), then the
-/// columns `j > i` that are coupled to it, ascending. The position of a block in this list is its
-/// *slot*.
+/// Only the upper half is stored. Row `i` begins with column `i` (the diagonal block). The columns
+/// `j > i` coupled to row `i` follow in ascending order. The index of a block in the list of all
+/// blocks is its *slot*.
 ///
 /// ```
 /// use drape_implicit::Sparsity;
@@ -26,44 +26,45 @@ pub struct Sparsity {
 }
 
 impl Sparsity {
-    /// Builds the sparsity from row offsets, one more than there are particles and starting at 0,
-    /// and the columns of all blocks.
+    /// Returns the sparsity with the row `offsets`, one more than particles and starting at 0, and
+    /// the `columns` of all blocks.
     ///
     /// # Errors
-    /// [`Error::Sparsity`] if a row does not start with its diagonal, is not ascending, or leaves
-    /// the matrix.
+    /// [`Error::Sparsity`] if a row does not begin with its diagonal, is not ascending, or has a
+    /// column outside the matrix.
     pub fn new(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, Error> {
         let rows = offsets.len().saturating_sub(1);
-        let fault = |row, fault| Err(Error::Sparsity { row, fault });
         if offsets.first() != Some(&0) {
-            return fault(0, "the first row offset must be 0");
+            return malformed(0, "the first row offset must be 0");
         }
         if offsets.last() != Some(&columns.len()) {
-            return fault(rows, "the last row offset must be the number of columns listed");
+            return malformed(rows, "the last row offset must be the number of columns listed");
         }
         if i32::try_from(columns.len()).is_err() {
-            return fault(rows, "more than 2³¹ blocks");
+            return malformed(rows, "more than 2³¹ blocks");
         }
+
         for row in 0..rows {
             if offsets[row + 1] <= offsets[row] || offsets[row + 1] > columns.len() {
-                return fault(row, "row offsets must grow: each row has at least its diagonal");
+                return malformed(row, "row offsets must grow: each row has at least its diagonal");
             }
             let list = &columns[offsets[row]..offsets[row + 1]];
             if list[0] as usize != row {
-                return fault(row, "the first block of a row must be its diagonal");
+                return malformed(row, "the first block of a row must be its diagonal");
             }
             if list.windows(2).any(|pair| pair[0] >= pair[1]) {
-                return fault(row, "the columns of a row must ascend without repeats");
+                return malformed(row, "the columns of a row must ascend without repeats");
             }
             if list[list.len() - 1] as usize >= rows {
-                return fault(row, "a column lies outside the matrix");
+                return malformed(row, "a column lies outside the matrix");
             }
         }
+
         Ok(Self { offsets, columns })
     }
 
-    /// Builds the sparsity from the pairs of particles that act on each other, in any order;
-    /// repeats are allowed.
+    /// Returns the sparsity for a number of `particles` with the coupled `pairs`, in any order and
+    /// with any repeats.
     ///
     /// # Errors
     /// [`Error::Sparsity`] if a pair names a particle that does not exist.
@@ -81,6 +82,7 @@ impl Sparsity {
                 rows[low].push(column);
             }
         }
+
         let mut offsets = Vec::with_capacity(particles + 1);
         let mut columns = Vec::new();
         offsets.push(0);
@@ -94,45 +96,46 @@ impl Sparsity {
         Self::new(offsets, columns)
     }
 
-    /// Number of particles, which is the number of block rows.
+    /// Returns the number of particles, which is the number of block rows.
     #[must_use]
     pub fn particles(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// Number of stored blocks.
+    /// Returns the number of stored blocks.
     #[must_use]
     pub fn blocks(&self) -> usize {
         self.columns.len()
     }
 
-    /// First slot of each row, and the end of the last row.
+    /// Returns the first slot of each row, and the end of the last row.
     #[must_use]
     pub fn offsets(&self) -> &[usize] {
         &self.offsets
     }
 
-    /// Column of each stored block.
+    /// Returns the column of each stored block.
     #[must_use]
     pub fn columns(&self) -> &[u32] {
         &self.columns
     }
 
-    /// Slots of a row, its diagonal first.
+    /// Returns the slots of `row`, beginning with the diagonal.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// If the matrix does not have this row.
     #[must_use]
     pub fn row(&self, row: usize) -> core::ops::Range<usize> {
         self.offsets[row]..self.offsets[row + 1]
     }
 
-    /// Particles that a particle is coupled to and that come after it.
+    /// Returns the particles coupled to `particle` that have a larger number.
     pub(crate) fn later(&self, particle: usize) -> &[u32] {
         &self.columns[self.row(particle)][1..]
     }
 
-    /// Slot that couples two particles, given in either order; `None` if they are not coupled.
+    /// Returns the slot that couples the particles `i` and `j`, in either order. `None` if the two
+    /// are not coupled.
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         let (low, high) = (i.min(j), i.max(j));
@@ -140,9 +143,14 @@ impl Sparsity {
             return None;
         }
         let row = self.row(low);
-        let found = self.columns[row.clone()].binary_search(&(high as u32)).ok()?;
-        Some(row.start + found)
+        let index = self.columns[row.clone()].binary_search(&(high as u32)).ok()?;
+        Some(row.start + index)
     }
+}
+
+/// Returns the error for a malformed `row`.
+fn malformed<T>(row: usize, fault: &'static str) -> Result<T, Error> {
+    Err(Error::Sparsity { row, fault })
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! System matrix of a step, factorised or preconditioned, and linear systems with it.
+//! System matrix of a step, with a factorisation or a preconditioner, and the solution of linear
+//! systems.
 
 use pulp::Arch;
 
@@ -19,31 +20,34 @@ use crate::report::Report;
 use crate::settings::{LinearSolver, Settings};
 use crate::system::MaterialPoint;
 
-/// Relative residual above which a factorised solve is not trusted: far above rounding for any
-/// matrix that can be factorised at all, far below what the nonlinear iteration would notice.
+/// Relative residual above which the solution of the Cholesky factor is discarded. The value is far
+/// above rounding for any matrix with a factor, and too small to affect the nonlinear iteration.
 const CHOLESKY_ACCURACY: f64 = 1e-6;
 
-/// Matrix `M/(β dt)² + K`, and two solvers for it.
+/// Matrix `M/(β dt)² + K` with two linear solvers.
 #[derive(Debug)]
 pub(crate) struct SystemMatrix {
     pub matrix: BlockMatrix,
     cholesky: Option<Cholesky>,
-    iterative: Option<Iterative>,
-    /// Material points for parts and a coarse level, or none.
+    iterative: Option<IterativeSolver>,
+    /// Material points of the particles if the matrix has parts and a coarse level, otherwise
+    /// empty.
     material_points: Vec<MaterialPoint>,
-    /// Whether the present matrix is factorised by Cholesky.
+    /// Whether the present matrix has a Cholesky factor.
     direct: bool,
     residual: Vec<f64>,
     max_iterations: usize,
 }
 
 impl SystemMatrix {
-    /// Matrix of zeros on a sparsity, with the material points of the particles or none.
+    /// Returns the matrix of zeros on `sparsity`. `material_points` are the points of all
+    /// particles, or empty.
     ///
-    /// Steps that end when little energy is left to gain are preconditioned without a coarse level, in
-    /// one part: with it, cloth of 10 201 particles that comes to rest on a cube took half as many
-    /// matrices again, 51 s instead of 33, and a T-shirt of 21 137 only a twentieth less time. Parts
-    /// are for the stabilised factor, which goes with it.
+    /// Steps with an energy tolerance have a preconditioner without a coarse level and with one
+    /// part. With a coarse level, cloth of 10 201 particles that comes to rest on a cube took half
+    /// as many matrices again, 51 s instead of 33 s, and a T-shirt of 21 137 particles only a
+    /// twentieth less time. Several parts suit only the stabilised factor, which belongs to the
+    /// coarse level.
     pub(crate) fn new(
         sparsity: Sparsity,
         material_points: Vec<MaterialPoint>,
@@ -64,7 +68,8 @@ impl SystemMatrix {
         })
     }
 
-    /// Forgets what the last preconditioner was made of, for a matrix that is not like the last.
+    /// Discards the preconditioner's record of earlier matrices, because the next matrix differs
+    /// from them.
     pub(crate) fn forget(&mut self) {
         if let Some(iterative) = &mut self.iterative {
             iterative.preconditioner.forget();
@@ -73,7 +78,7 @@ impl SystemMatrix {
 
     /// Factorises the matrix for [`solve`](Self::solve), or its preconditioner.
     pub(crate) fn factorise(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
-        // The direct factor has no place for blocks outside the sparsity.
+        // The Cholesky factor cannot represent blocks outside the sparsity.
         self.direct = self.cholesky.is_some() && self.matrix.couplings().is_empty();
         match &mut self.cholesky {
             Some(cholesky) if self.direct => cholesky.factorise(&self.matrix),
@@ -83,14 +88,14 @@ impl SystemMatrix {
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         let Self { matrix, material_points, iterative, .. } = self;
-        let iterative =
-            iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity(), material_points));
+        let iterative = iterative
+            .get_or_insert_with(|| IterativeSolver::new(matrix.sparsity(), material_points));
         report.pivot_shifts += iterative.factorise(matrix)?;
         Ok(())
     }
 
-    /// Solves `A x = b` to a target (conjugate gradients) or to rounding (Cholesky). Returns whether
-    /// the target was met.
+    /// Solves `A x = b` to `target` (conjugate gradients) or to rounding (Cholesky). Returns
+    /// whether the target was met.
     pub(crate) fn solve(
         &mut self,
         b: &[f64],
@@ -100,6 +105,8 @@ impl SystemMatrix {
     ) -> Result<bool, NotDefinite> {
         report.linear_solves += 1;
         x.copy_from_slice(b);
+
+        // Conjugate gradients replace an inaccurate factor.
         if self.direct {
             if self.solve_directly(b, x) {
                 return Ok(true);
@@ -108,6 +115,7 @@ impl SystemMatrix {
             self.direct = false;
             x.copy_from_slice(b);
         }
+
         let iterative = self.iterative.as_mut().ok_or(NotDefinite)?;
         let limit = self.max_iterations;
         let Outcome { iterations, ending } = iterative.solve(x, target, limit);
@@ -122,7 +130,8 @@ impl SystemMatrix {
         }
     }
 
-    /// Solves by the Cholesky factor. Returns whether the residual is as small as it should be.
+    /// Solves for `x`, which holds the right side `b` on entry, by the Cholesky factor. Returns
+    /// whether the residual is at most [`CHOLESKY_ACCURACY`].
     fn solve_directly(&mut self, b: &[f64], x: &mut [f64]) -> bool {
         let Some(cholesky) = &mut self.cholesky else {
             return false;
@@ -134,9 +143,9 @@ impl SystemMatrix {
     }
 }
 
-/// Preconditioned conjugate gradients with all that they work on.
+/// Preconditioned conjugate gradients with their matrix and work space.
 #[derive(Debug)]
-struct Iterative {
+struct IterativeSolver {
     schedule: LevelSchedule,
     packed: PackedMatrix,
     preconditioner: Preconditioner,
@@ -144,8 +153,9 @@ struct Iterative {
     arch: Arch,
 }
 
-impl Iterative {
-    /// With material points the matrix is divided into parts and has a coarse level.
+impl IterativeSolver {
+    /// Allocates a solver for `sparsity`. With `material_points` the matrix is divided into parts
+    /// and has a coarse level.
     fn new(sparsity: &Sparsity, material_points: &[MaterialPoint]) -> Self {
         let partition = match material_points {
             [] => Partition::into_parts(sparsity, 1),
@@ -163,14 +173,15 @@ impl Iterative {
         }
     }
 
-    /// Factorises a matrix; returns the number of attempts that failed.
+    /// Computes the preconditioner of `matrix`. Returns the number of failed attempts.
     fn factorise(&mut self, matrix: &BlockMatrix) -> Result<usize, NotDefinite> {
         let Self { schedule, packed, preconditioner, arch, .. } = self;
         packed.pack(*arch, &schedule.layout, matrix);
         preconditioner.factorise(*arch, schedule, matrix, packed)
     }
 
-    /// Solves for `x`, which holds the right side on entry.
+    /// Solves for `x`, which holds the right side on entry, to `target` or in at most `limit`
+    /// iterations.
     fn solve(&mut self, x: &mut [f64], target: Target, limit: usize) -> Outcome {
         let Self { schedule, packed, preconditioner, gradient, arch } = self;
         let (arch, layout) = (*arch, &schedule.layout);
@@ -199,7 +210,8 @@ mod tests {
 
     /// Solves for a load that is smooth.
     fn solve(matrix: &BlockMatrix, points: &[MaterialPoint], arch: Arch) -> (usize, Vec<f64>) {
-        let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), points) };
+        let mut iterative =
+            IterativeSolver { arch, ..IterativeSolver::new(matrix.sparsity(), points) };
         iterative.factorise(matrix).unwrap();
         let size = 3 * matrix.sparsity().particles();
         let held = |k: usize| matrix.is_held(k / 3);
@@ -249,7 +261,8 @@ mod tests {
             matrix.add(i, j, &[-0.8, 0.1, 0.0, 0.2, -0.7, 0.0, 0.1, 0.0, -0.9]);
         }
         let run = |arch: Arch| {
-            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), &[]) };
+            let mut iterative =
+                IterativeSolver { arch, ..IterativeSolver::new(matrix.sparsity(), &[]) };
             iterative.factorise(&matrix).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
             let target = Target { residual: 1e-9, energy: 0.0 };

@@ -1,27 +1,27 @@
-//! Flat vectors. Sums run in an order that depends on the length alone, so they have the same bits
-//! on every machine.
+//! Flat vectors. The order of a sum depends on the length alone, so every machine computes equal
+//! bits.
 
 use crate::linear::lanes::LANES;
 
-/// Dot product `Σ aᵢ bᵢ`.
+/// Returns the dot product `Σ aᵢ bᵢ`.
 #[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (heads, tail) = a.as_chunks::<LANES>();
-    let (other_heads, other_tail) = b.as_chunks::<LANES>();
+    let (b_heads, b_tail) = b.as_chunks::<LANES>();
     let mut partial = [0.0; LANES];
-    for (x, y) in heads.iter().zip(other_heads) {
+    for (x, y) in heads.iter().zip(b_heads) {
         for k in 0..LANES {
             partial[k] += x[k] * y[k];
         }
     }
     let mut rest = 0.0;
-    for (x, y) in tail.iter().zip(other_tail) {
+    for (x, y) in tail.iter().zip(b_tail) {
         rest += x * y;
     }
     sum(partial) + rest
 }
 
-/// Sum of partial sums.
+/// Returns the sum of the `partial` sums.
 #[inline(always)]
 pub(crate) fn sum(mut partial: [f64; LANES]) -> f64 {
     for half in [4, 2, 1] {
@@ -32,7 +32,7 @@ pub(crate) fn sum(mut partial: [f64; LANES]) -> f64 {
     partial[0]
 }
 
-/// Euclidean length; NaN if an entry is NaN.
+/// Returns the Euclidean norm of `a`, NaN if an entry is NaN.
 pub(crate) fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
@@ -45,7 +45,7 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
-/// Particle of the first entry that is not finite.
+/// Returns the particle of the first entry of `x` that is not finite.
 pub(crate) fn first_not_finite(x: &[f64]) -> Option<usize> {
     x.iter().position(|x| !x.is_finite()).map(|k| k / 3)
 }

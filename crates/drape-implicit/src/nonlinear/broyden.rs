@@ -6,13 +6,14 @@
 //! H' = (I + w\,s^T)\,H, \qquad w = \frac{s - H y}{s^T H y}
 //! ```
 //!
-//! which is the smallest change of the matrix that maps `$s$` to `$y$` ("good Broyden", \[Bro65\],
-//! \[Kel95\] chapter 7). Only `$s$` and `$w$` of each update are stored.
+//! This update corresponds to the smallest change of the matrix that makes the matrix map `$s$` to
+//! `$y$` ("good Broyden", \[Bro65\], \[Kel95\] chapter 7). Only `$s$` and `$w$` of each update are
+//! stored.
 
 use super::search::Search;
 use crate::linear::vector::{add_scaled, dot};
 
-/// BroydenUpdates of one initial inverse `H₀`. Their storage is kept when they are forgotten.
+/// Broyden's updates of one initial inverse `H₀`. [`forget`](Self::forget) keeps the storage.
 #[derive(Debug, Default)]
 pub(crate) struct BroydenUpdates {
     steps: Vec<Vec<f64>>,
@@ -21,13 +22,14 @@ pub(crate) struct BroydenUpdates {
 }
 
 impl BroydenUpdates {
-    /// Allocates storage for a number of updates of vectors of a length; it grows with more.
+    /// Allocates storage for a number of `updates` of vectors with `length` entries. The storage
+    /// grows if needed.
     pub(crate) fn with_capacity(updates: usize, length: usize) -> Self {
         let storage = vec![vec![0.0; length]; updates];
         Self { steps: storage.clone(), gains: storage, count: 0 }
     }
 
-    /// Returns to the initial inverse.
+    /// Removes all updates, so that the inverse is `H₀` again.
     pub(crate) fn forget(&mut self) {
         self.count = 0;
     }
@@ -36,11 +38,11 @@ impl BroydenUpdates {
         self.count == 0
     }
 
-    /// Computes the next direction after a step of a length along the last one. On entry the image
-    /// is `H₀ φ` at its end.
+    /// Computes the next direction of `search` after a step of `length` along the last direction.
+    /// On entry the image is `H₀ φ` at the end of the step.
     ///
-    /// Returns false, and leaves the direction as it is, if the update of that step is refused: see
-    /// [`learn`](Self::learn).
+    /// Returns `false` and keeps the direction if [`learn`](Self::learn) refuses the update of the
+    /// step. `floor` is the least curvature of an update.
     pub(crate) fn next_direction(&mut self, search: &mut Search, length: f64, floor: f64) -> bool {
         self.apply(&mut search.image);
         if !self.learn(&search.direction, length, &search.image, floor) {
@@ -51,7 +53,7 @@ impl BroydenUpdates {
         true
     }
 
-    /// Turns `H₀ φ` into `H φ`.
+    /// Turns `z = H₀ φ` into `z = H φ`.
     fn apply(&self, z: &mut [f64]) {
         for (step, gain) in self.steps.iter().zip(&self.gains).take(self.count) {
             let along = dot(step, z);
@@ -59,23 +61,26 @@ impl BroydenUpdates {
         }
     }
 
-    /// Adds the update of a step `length · direction`, where `direction = −H φ` before it and
-    /// `z = H φ` after it.
+    /// Adds the update of a step `length · direction`, with `direction = −H φ` before the step and
+    /// `z = H φ` after the step.
     ///
-    /// Refuses, and returns false, unless `sᵀ H y > floor · sᵀ s`: the curvature along the step has
-    /// fallen to that fraction of the expected one, and the update would multiply errors by its
-    /// inverse.
+    /// Refuses the update and returns `false` unless `sᵀ H y > floor · sᵀ s`. Otherwise the
+    /// curvature along the step would be less than the fraction `floor` of the curvature of the
+    /// matrix, and the update would multiply errors by more than `1/floor`.
     fn learn(&mut self, direction: &[f64], length: f64, z: &[f64], floor: f64) -> bool {
         let square = length * length * dot(direction, direction);
         let along = length * (dot(direction, z) + dot(direction, direction));
+        // Written so that a NaN is refused too.
         let accepted = along > floor * square;
         if !accepted {
             return false;
         }
+
         if self.count == self.steps.len() {
             self.steps.push(vec![0.0; z.len()]);
             self.gains.push(vec![0.0; z.len()]);
         }
+
         let step = &mut self.steps[self.count];
         let gain = &mut self.gains[self.count];
         for (((s, w), p), z) in step.iter_mut().zip(gain).zip(direction).zip(z) {
@@ -86,7 +91,8 @@ impl BroydenUpdates {
         true
     }
 
-    /// Applies the last update alone, to `z = H φ` with the inverse before it.
+    /// Applies the last update alone to `z`, which is `H φ` with the inverse before the last
+    /// update.
     fn apply_last(&self, z: &mut [f64]) {
         if let Some(last) = self.count.checked_sub(1) {
             let along = dot(&self.steps[last], z);

@@ -6,14 +6,14 @@ use crate::report::Stop;
 /// Reason why an attempt at a sub-step ends without a solution.
 #[derive(Clone, Debug)]
 pub(crate) enum Halt {
-    /// The iteration stopped; a shorter step may help.
+    /// The iteration stopped. A shorter step may succeed.
     Stop(Stop),
-    /// A quantity is not finite; a shorter step may help.
+    /// A quantity is not finite. A shorter step may succeed.
     NotFinite {
         quantity: Quantity,
-        /// First particle concerned.
+        /// First particle with such a quantity.
         particle: usize,
     },
-    /// No shorter step helps.
+    /// An error that no shorter step avoids.
     Fatal(Error),
 }

@@ -1,4 +1,5 @@
-//! State of the iteration: the current iterate, a direction, and the trial iterate along it.
+//! State of the iteration: the current iterate, a direction, and a trial iterate along the
+//! direction.
 
 use super::equations::{Iterate, StepEquations};
 use super::halt::Halt;
@@ -6,23 +7,23 @@ use crate::error::Error;
 use crate::linear::vector::add_scaled;
 use crate::report::Stop;
 
-/// Iterates of an attempt at a sub-step, and its work space.
+/// Iterates and work space of an attempt at a sub-step.
 #[derive(Debug)]
 pub(crate) struct Search {
     pub current: Iterate,
     pub trial: Iterate,
-    /// One of two candidates for the start point.
+    /// Second candidate for the start point.
     pub spare: Iterate,
-    /// Step to take, or the last one taken, in m.
+    /// Next step, or the last step taken, in m.
     pub direction: Vec<f64>,
-    /// Inverse in use times the residual, in m.
+    /// Product of the approximate inverse and the residual, in m.
     pub image: Vec<f64>,
-    /// Iterations of this attempt.
+    /// Number of iterations of this attempt.
     pub iterations: usize,
 }
 
 impl Search {
-    /// Work space for vectors of a length.
+    /// Allocates work space for vectors with `length` entries.
     pub(crate) fn new(length: usize) -> Self {
         Self {
             current: Iterate::new(length),
@@ -34,7 +35,7 @@ impl Search {
         }
     }
 
-    /// Counts an iteration, if one is left of the number allowed and the step is not given up.
+    /// Counts an iteration. Fails after `max_iterations`, and if the system cancels the step.
     pub(crate) fn count_iteration(
         &mut self,
         equations: &mut StepEquations<'_, '_>,
@@ -51,14 +52,14 @@ impl Search {
         Ok(())
     }
 
-    /// Moves the trial iterate to a length along the direction, without evaluating it.
+    /// Moves the trial iterate by `length` times the direction, without evaluating it.
     pub(crate) fn move_trial(&mut self, length: f64) {
         self.trial.deviation.copy_from_slice(&self.current.deviation);
         add_scaled(&mut self.trial.deviation, length, &self.direction);
         self.trial.obstacle_time = self.current.obstacle_time;
     }
 
-    /// Evaluates the trial iterate at a length along the direction.
+    /// Moves the trial iterate by `length` times the direction, and evaluates it.
     pub(crate) fn try_step(&mut self, equations: &mut StepEquations<'_, '_>, length: f64) {
         self.move_trial(length);
         equations.evaluate(&mut self.trial);
@@ -76,8 +77,8 @@ impl Search {
         }
     }
 
-    /// Limits the direction to what a step filter allows of it with obstacles at rest. Returns
-    /// whether that is all of it.
+    /// Shortens the direction to the step that the filter allows with obstacles at rest. Returns
+    /// `true` if the whole direction is allowed.
     pub(crate) fn limit_direction(&mut self, equations: &mut StepEquations<'_, '_>) -> bool {
         equations.limit_step(&self.current, &mut self.direction, 0.0).is_whole()
     }

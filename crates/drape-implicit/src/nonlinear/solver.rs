@@ -1,4 +1,4 @@
-//! Nonlinear solver of a sub-step: start point, then one of the methods.
+//! Nonlinear solver of a sub-step: a start point, then one of the methods.
 
 use super::equations::StepEquations;
 use super::halt::Halt;
@@ -11,7 +11,7 @@ use crate::linear::system_matrix::SystemMatrix;
 use crate::linear::vector::first_not_finite;
 use crate::settings::{Method, Settings};
 
-/// Solver of the equations of a sub-step, and its work space.
+/// Solver of the equations of a sub-step, with work space.
 #[derive(Debug)]
 pub(crate) struct NonlinearSolver {
     pub search: Search,
@@ -25,6 +25,7 @@ enum Algorithm {
 }
 
 impl NonlinearSolver {
+    /// Returns a solver with the method of `settings`.
     pub(crate) fn new(matrix: SystemMatrix, settings: &Settings) -> Self {
         let length = 3 * matrix.matrix.sparsity().particles();
         let algorithm = match settings.method {
@@ -34,8 +35,9 @@ impl NonlinearSolver {
         Self { search: Search::new(length), algorithm }
     }
 
-    /// Solves the equations from the deviations of the current iterate or, if the forces there are
-    /// not finite, from those of the trial iterate. The solution is the current iterate.
+    /// Solves `equations` from the deviations of the current iterate. If the forces there are not
+    /// finite, the iteration starts from the deviations of the trial iterate. The solution is the
+    /// current iterate.
     pub(crate) fn solve(
         &mut self,
         equations: &mut StepEquations<'_, '_>,
@@ -46,6 +48,7 @@ impl NonlinearSolver {
         if let Algorithm::Newton(newton) = algorithm {
             newton.reset();
         }
+
         search.current.obstacle_time = 1.0;
         search.trial.obstacle_time = 1.0;
         if equations.system.is_filtered() {
@@ -53,6 +56,8 @@ impl NonlinearSolver {
         } else {
             equations.evaluate(&mut search.current);
         }
+
+        // The prediction may be unphysical. The start of the sub-step is the second choice.
         if !search.current.norm.is_finite() {
             core::mem::swap(&mut search.current, &mut search.trial);
             equations.evaluate(&mut search.current);
@@ -61,6 +66,7 @@ impl NonlinearSolver {
             let particle = first_not_finite(&search.current.residual).unwrap_or(0);
             return Err(Halt::NotFinite { quantity: Quantity::Force, particle });
         }
+
         match algorithm {
             Algorithm::Newton(newton) => newton.solve(search, equations, settings),
             Algorithm::Textbook(_) if equations.system.is_filtered() => {

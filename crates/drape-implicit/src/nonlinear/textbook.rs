@@ -10,12 +10,12 @@ use crate::report::Stop;
 use crate::settings::{InitialMatrix, Settings};
 use crate::system::Stiffness;
 
-/// Floor of the curvature along a step, as a fraction of the expected one. Updates are refused only
-/// where they would divide by zero: the initial matrix overestimates soft directions by orders of
-/// magnitude, and the updates are there to correct that.
+/// Floor of the curvature along a step, as a fraction of the matrix's curvature. Updates are
+/// refused only where they would divide by zero: the initial matrix overestimates the stiffness of
+/// soft directions by orders of magnitude, and the updates correct this.
 const CURVATURE_FLOOR: f64 = 1e-12;
 
-/// Textbook Broyden and its work space.
+/// Textbook Broyden with work space.
 #[derive(Debug)]
 pub(crate) struct Textbook {
     matrix: SystemMatrix,
@@ -30,8 +30,8 @@ impl Textbook {
         Self { matrix, initial, updates: BroydenUpdates::default(), diagonal: Vec::new() }
     }
 
-    /// Iterates from the current iterate, with a line search on the residual. Starts over from the
-    /// diagonal when a direction fails.
+    /// Solves `equations` from the current iterate of `search`, with a line search on the residual.
+    /// Restarts from the diagonal matrix when a direction fails.
     pub(crate) fn solve(
         &mut self,
         search: &mut Search,
@@ -42,6 +42,7 @@ impl Textbook {
         self.updates.forget();
         self.divide_by_diagonal(search);
         search.descend();
+
         while !search.current.solves(equations.limit) {
             search.count_iteration(equations, settings.max_iterations)?;
             match residual_search(search, equations) {
@@ -55,12 +56,15 @@ impl Textbook {
                 None if self.updates.is_empty() => return Err(Halt::Stop(Stop::LineSearch)),
                 None => self.updates.forget(),
             }
+
+            // Restart from the diagonal matrix.
             self.divide_by_diagonal(search);
             search.descend();
         }
         Ok(())
     }
 
+    /// Sets the diagonal of the initial matrix at the current iterate of `search`.
     fn set_diagonal(
         &mut self,
         search: &Search,
@@ -71,22 +75,22 @@ impl Textbook {
         if self.initial == InitialMatrix::Diagonal {
             equations.assemble(&search.current, Stiffness::Exact, &mut self.matrix)?;
             let matrix = &self.matrix.matrix;
-            for (row, own) in self.diagonal.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+            for (row, entries) in self.diagonal.as_chunks_mut::<3>().0.iter_mut().enumerate() {
                 let block = &matrix.blocks()[matrix.sparsity().row(row).start];
-                // At least the inertia: a negative stiffness is no start for a minimisation.
+                // The inertia is the least entry: a minimisation needs a positive matrix.
                 for k in 0..3 {
-                    own[k] = own[k].max(block[4 * k]);
+                    entries[k] = entries[k].max(block[4 * k]);
                 }
             }
         }
         Ok(())
     }
 
-    /// Sets the image to the residual over the diagonal.
+    /// Sets the image of `search` to the residual over the diagonal.
     fn divide_by_diagonal(&self, search: &mut Search) {
         let Search { image, current, .. } = search;
-        for ((z, phi), own) in image.iter_mut().zip(&current.residual).zip(&self.diagonal) {
-            *z = phi / own;
+        for ((z, phi), entry) in image.iter_mut().zip(&current.residual).zip(&self.diagonal) {
+            *z = phi / entry;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Balance of the energy: it closes with the right forces, and opens with planted wrong ones.
 
 use drape_implicit::{
-    BlockMatrix, Energy, Explicit, Integrator, IntegratorState, Report, Settings, Sparsity,
+    BlockMatrix, Explicit, Integrator, IntegratorState, Report, Settings, Sparsity, StepEnergy,
     Stepper, Stiffness, System,
 };
 
@@ -67,7 +67,7 @@ impl System for Hardening {
 }
 
 /// Balance of a quarter of a second, and the energy that was exchanged in it.
-fn swing(mistake: Mistake, integrator: Option<Integrator>, dt: f64) -> (Energy, f64) {
+fn swing(mistake: Mistake, integrator: Option<Integrator>, dt: f64) -> (StepEnergy, f64) {
     let mut system = Hardening(mistake);
     let mut state = IntegratorState::at_rest(vec![0.15, 0.0, 0.0]);
     let settings = |integrator| Settings {
@@ -78,7 +78,7 @@ fn swing(mistake: Mistake, integrator: Option<Integrator>, dt: f64) -> (Energy, 
     };
     let mut stepper = integrator.map(|own| Stepper::new(&system, settings(own)).unwrap());
     let mut explicit = Explicit::new(&system);
-    let (mut sum, mut exchanged) = (Energy::default(), 0.0);
+    let (mut sum, mut exchanged) = (StepEnergy::default(), 0.0);
     for _ in 0..(0.25 / dt) as usize {
         let report: Report = match &mut stepper {
             Some(stepper) => stepper.advance(&mut system, &mut state, dt).unwrap(),

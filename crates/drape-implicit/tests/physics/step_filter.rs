@@ -1,8 +1,8 @@
 //! A step filter: a particle over a floor that it must not pass, in trial steps neither.
 
 use drape_implicit::{
-    BlockMatrix, Error, InitialMatrix, IntegratorState, Method, Settings, Sparsity, StepFilter,
-    StepLimit, Stepper, Stiffness, Stop, System, TrialStep,
+    AllowedStep, BlockMatrix, Error, InitialMatrix, IntegratorState, Method, Settings, Sparsity,
+    StepFilter, Stepper, Stiffness, Stop, System, TrialStep,
 };
 
 /// Height at which the floor begins to push, m.
@@ -116,19 +116,19 @@ impl System for Floor {
 }
 
 impl StepFilter for Floor {
-    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         // A tenth of the gap is kept.
         let closing = (self.ends[1] - self.ends[0]) * step.obstacle_advance - step.displacements[1];
         let room = 0.9 * (step.start[1] - self.now);
         if closing <= room {
             return match step.obstacle_advance <= self.advance_max {
-                true => StepLimit::Whole,
-                false => StepLimit::Shortened { obstacle_advance: self.advance_max },
+                true => AllowedStep::Whole,
+                false => AllowedStep::Shortened { obstacle_advance: self.advance_max },
             };
         }
         let part = room / closing;
         step.displacements.iter_mut().for_each(|displacement| *displacement *= part);
-        StepLimit::Shortened { obstacle_advance: step.obstacle_advance * part }
+        AllowedStep::Shortened { obstacle_advance: step.obstacle_advance * part }
     }
 
     fn set_obstacle_time(&mut self, time: f64) {

@@ -1,7 +1,7 @@
-//! Archive: the subset of zip that U3M requires, which writers of zip files do not write.
+//! Archive: the subset of zip that U3M requires. Libraries for zip files do not write this subset.
 //!
-//! Names are marked as UTF-8 even where they are ASCII, times are UTC, and attributes, extra fields
-//! and comments are left out \[Viz22\].
+//! Names are marked as UTF-8 even if they are ASCII, times are UTC, and attributes, extra fields
+//! and comments are absent \[Viz22\].
 
 use std::io::Write;
 
@@ -9,10 +9,10 @@ use chrono::{DateTime, Datelike, Timelike, Utc};
 use flate2::write::DeflateEncoder;
 use flate2::{Compression, Crc};
 
-/// Version of the format that a reader needs: 2.0, deflate.
+/// Version of the format that a reader must support: 2.0, for deflate.
 const VERSION_NEEDED: u16 = 0x14;
 
-/// Version of the writer, and its file system: 6.3, none.
+/// Version of the writer, 6.3, with file system 0.
 const VERSION_MADE_BY: u16 = 0x3f;
 
 /// Flags: names are UTF-8.
@@ -21,7 +21,7 @@ const FLAGS: u16 = 1 << 11;
 /// Method: deflate.
 const DEFLATE: u16 = 8;
 
-/// Returns an archive of files, by name and bytes, with one time for all.
+/// Returns an archive of `files`, pairs of name and bytes, with the modification time `time`.
 pub(super) fn write(files: &[(&str, &[u8])], time: DateTime<Utc>) -> Vec<u8> {
     let (mut archive, mut directory) = (Vec::new(), Vec::new());
     for (name, bytes) in files {
@@ -29,7 +29,7 @@ pub(super) fn write(files: &[(&str, &[u8])], time: DateTime<Utc>) -> Vec<u8> {
         let compressed = deflated(bytes);
         let description = description(name, bytes, &compressed, time);
 
-        // The file, and its place in the directory.
+        // The file, and its entry in the directory.
         archive.extend(b"PK\x03\x04");
         archive.extend(&description);
         archive.extend(name.as_bytes());
@@ -43,7 +43,7 @@ pub(super) fn write(files: &[(&str, &[u8])], time: DateTime<Utc>) -> Vec<u8> {
         directory.extend(name.as_bytes());
     }
 
-    // The end, which says where the directory is.
+    // The end record contains the position of the directory.
     let count = u16::try_from(files.len()).expect("a material has few files").to_le_bytes();
     let (start, size) = (length(archive.len()), length(directory.len()));
     archive.extend(directory);
@@ -56,7 +56,8 @@ pub(super) fn write(files: &[(&str, &[u8])], time: DateTime<Utc>) -> Vec<u8> {
     archive
 }
 
-/// Returns what file and directory say alike: version, flags, method, time, sizes, length of the name.
+/// Returns the fields that the headers of file and directory have in common: version, flags,
+/// method, `time`, checksum and sizes of `bytes` and `compressed`, and length of `name`.
 fn description(name: &str, bytes: &[u8], compressed: &[u8], time: DateTime<Utc>) -> Vec<u8> {
     let mut crc = Crc::new();
     crc.update(bytes);
@@ -68,27 +69,30 @@ fn description(name: &str, bytes: &[u8], compressed: &[u8], time: DateTime<Utc>)
     [halves.concat(), words.concat(), tail.concat()].concat()
 }
 
-/// Returns a length in an archive, of a few kilobytes.
+/// Returns the length `bytes` as a field of an archive.
 fn length(bytes: usize) -> u32 {
     u32::try_from(bytes).expect("a fabric is far below 4 GiB")
 }
 
+/// Returns `bytes` compressed by deflate.
 fn deflated(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
-    let written = encoder.write_all(bytes).and_then(|()| encoder.finish());
-    written.expect("writing to memory does not fail")
+    let result = encoder.write_all(bytes).and_then(|()| encoder.finish());
+    result.expect("writing to memory does not fail")
 }
 
-/// Returns time and date as MS-DOS counts them, from 1980 to 2107 in steps of two seconds.
+/// Returns the clock and the day of `time` in the format of MS-DOS, from 1980 to 2107 in steps of
+/// two seconds. Any other time becomes the first day.
 fn dos_time(time: DateTime<Utc>) -> (u16, u16) {
     let years = u16::try_from(time.year() - 1980);
     let Ok(years @ 0..=127) = years else {
         let first_day = 1 << 5 | 1;
         return (0, first_day);
     };
-    let part = |value: u32| u16::try_from(value).expect("a part of a date is below 60");
-    let clock = part(time.hour()) << 11 | part(time.minute()) << 5 | part(time.second() / 2);
-    (clock, years << 9 | part(time.month()) << 5 | part(time.day()))
+    let fields = [time.hour(), time.minute(), time.second() / 2, time.month(), time.day()];
+    let [hour, minute, double_second, month, day] =
+        fields.map(|field| u16::try_from(field).expect("a field of a date is below 60"));
+    (hour << 11 | minute << 5 | double_second, years << 9 | month << 5 | day)
 }
 
 #[cfg(test)]

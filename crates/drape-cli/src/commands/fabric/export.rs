@@ -93,7 +93,7 @@ pub(super) fn export(arguments: &MaterialArguments) -> Result<(), Failure> {
     }
 
     // The numbers, and the file of them.
-    let material = Material::of(&read(path)?, *load).map_err(|error| match error {
+    let material = Material::from_fabric(&read(path)?, *load).map_err(|error| match error {
         Error::Load { .. } => Failure::Usage(format!("--load: {error}")),
         error => Failure::Input(Diagnostic::new(input::shown(path), error.to_string()).into()),
     })?;

@@ -9,7 +9,7 @@ use std::ops::Range;
 use drape_collide::{
     Body, Error, PairDistance, SeamIntersections, Shape, SurfaceContact, SurfaceStep, Triangulation,
 };
-use drape_implicit::{StepLimit, TrialStep};
+use drape_implicit::{AllowedStep, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 use serde::{Deserialize, Serialize};
 
@@ -296,10 +296,10 @@ impl Surfaces {
     }
 
     /// Limits a step to a fraction that keeps all surfaces apart.
-    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         #[cfg(test)]
         if self.omitted.step_filter {
-            return StepLimit::Whole;
+            return AllowedStep::Whole;
         }
         let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
         let whole = self.contact.limit_step(SurfaceStep {
@@ -310,8 +310,8 @@ impl Surfaces {
             obstacle_advance: &mut obstacle_advance,
         });
         match whole {
-            true => StepLimit::Whole,
-            false => StepLimit::Shortened { obstacle_advance },
+            true => AllowedStep::Whole,
+            false => AllowedStep::Shortened { obstacle_advance },
         }
     }
 

@@ -16,9 +16,9 @@ pub(crate) struct Compression {
 }
 
 impl Compression {
-    /// Adds the elastic load of the lanes that are compressed, and its tangent if `TANGENT`.
+    /// Adds the elastic load of the compressed lanes of `trial`, and its tangent if `TANGENT`.
     ///
-    /// The law of tension must have added its tangent at zero strain for these lanes.
+    /// For these lanes `responses` must contain the tangent of tension at zero strain already.
     #[inline(always)]
     pub(crate) fn add_load<const TANGENT: bool>(&self, trial: &Lanes, responses: &mut Responses) {
         if !any(|lane| trial[lane] < 0.0) {
@@ -28,17 +28,17 @@ impl Compression {
         let rest = self.rest;
         let Buckling { strain, stiffness } = self.buckling;
         for lane in 0..LANES {
-            let squeeze = -positive(-trial[lane]);
-            let lost = exp_m1(squeeze / strain);
-            load[lane] += rest * strain * lost - 0.5 * stiffness * squeeze * squeeze;
+            let compression = -positive(-trial[lane]);
+            let lost = exp_m1(compression / strain);
+            load[lane] += rest * strain * lost - 0.5 * stiffness * compression * compression;
             if TANGENT {
-                let slope = rest * (1.0 + lost) - stiffness * squeeze;
-                tangent[lane] += if squeeze < 0.0 { slope - rest } else { 0.0 };
+                let slope = rest * (1.0 + lost) - stiffness * compression;
+                tangent[lane] += if compression < 0.0 { slope - rest } else { 0.0 };
             }
         }
     }
 
-    /// Adds the elastic energy per area of the lanes that are compressed, in J/m².
+    /// Adds the elastic energy per area of the compressed lanes of `trial` to `energies`, in J/m².
     #[inline(always)]
     pub(crate) fn add_energy(&self, trial: &Lanes, energies: &mut Lanes) {
         if !any(|lane| trial[lane] < 0.0) {
@@ -46,10 +46,10 @@ impl Compression {
         }
         let Buckling { strain, stiffness } = self.buckling;
         for lane in 0..LANES {
-            let squeeze = -positive(-trial[lane]);
-            let lost = exp_m1(squeeze / strain);
-            energies[lane] += self.rest * strain * (strain * lost - squeeze)
-                - stiffness * squeeze * squeeze * squeeze / 6.0;
+            let compression = -positive(-trial[lane]);
+            let lost = exp_m1(compression / strain);
+            energies[lane] += self.rest * strain * (strain * lost - compression)
+                - stiffness * compression * compression * compression / 6.0;
         }
     }
 }

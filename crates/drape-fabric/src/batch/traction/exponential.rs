@@ -16,31 +16,31 @@ use crate::laws::traction::proportional::{
 
 /// The law with an exponential toe for many connectors side by side.
 ///
-/// The end of the toe is kept with the memory ([`Toe`]). The first of the two friction loads of a
-/// memory is the state of the friction.
+/// The memory contains the end of the toe ([`Toe`]). The state of the friction is the first of the
+/// two friction loads of a memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ExponentialBatch {
     toe: ExponentialToe,
     friction: ProportionalFriction,
     compression: Compression,
-    /// Element whose load is the state of the friction; `None` without friction.
+    /// Element whose load is the state of the friction, `None` without friction.
     element: Option<PreparedDahl>,
-    /// Stiffness that the toe adds over its steepness, in N/m.
+    /// Ratio of the stiffness that the toe adds to its steepness, in N/m.
     scale: f64,
-    /// `$e^{-b} - 1$` with the steepness `$b$`.
+    /// Number `$e^{-b} - 1$` with the steepness `$b$`.
     rest: f64,
-    /// Stiffness that the toe adds times its deficit, in N/m.
+    /// Product of the stiffness that the toe adds and its deficit, in N/m.
     lowered: f64,
 }
 
-/// Elastic load in tension of a batch and its tangent, without the load of compressed lanes.
+/// Elastic load in tension of a batch and its tangent. The load is 0 in compressed lanes.
 struct Tension {
     load: Lanes,
     tangent: Lanes,
 }
 
 impl ExponentialBatch {
-    /// Prepares a law.
+    /// Prepares the law with a `toe`, a `friction` and `buckling` for a batch.
     pub(crate) fn new(
         toe: ExponentialToe,
         friction: ProportionalFriction,
@@ -65,21 +65,22 @@ impl ExponentialBatch {
         Toe { end, weight_slope: steepness / end }
     }
 
-    /// Returns whether some lane is stretched beyond its largest elongation, which moves its toe.
+    /// Returns whether any lane of `trial` is stretched beyond its largest elongation, which moves
+    /// its toe.
     #[inline(always)]
     fn extends_toe(&self, memory: &MemoryBatch<'_>, trial: &Lanes) -> bool {
         self.toe.toe_strain_after > self.toe.toe_strain
             && any(|lane| trial[lane] > memory.lane(lane).peak.max(self.toe.toe_strain))
     }
 
-    /// Returns the elastic load in tension, and its tangent if `TANGENT`.
+    /// Returns the elastic load in tension at `trial`, and its tangent if `TANGENT`.
     #[inline(always)]
     fn tension<const TANGENT: bool>(&self, memory: &MemoryBatch<'_>, trial: &Lanes) -> Tension {
         let ExponentialToe { base_stiffness, stiffness, steepness, .. } = self.toe;
         let (mut load, mut tangent) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             let (strain, toe) = (positive(trial[lane]), memory.lane(lane).toe);
-            // Beyond the toe the exponent is zero; at zero strain it is the steepness to the bit.
+            // Beyond the toe the exponent is zero. At zero strain it is exactly the steepness.
             let below = exp_m1(-positive(steepness - toe.weight_slope * strain));
             let within = self.scale * toe.end * (below - self.rest);
             let beyond = stiffness * positive(strain - toe.end);
@@ -89,15 +90,15 @@ impl ExponentialBatch {
             }
         }
 
-        // Where the toe moves with the strain, its end replaces the remembered one.
+        // If the toe moves with the strain, its end replaces the end in the memory.
         if self.extends_toe(memory, trial) {
             let ExponentialToe { toe_strain, toe_strain_after, .. } = self.toe;
             for lane in 0..LANES {
                 let strain = trial[lane];
                 let moves = strain > memory.lane(lane).peak.max(toe_strain);
                 let end = toe_end(toe_strain, toe_strain_after, strain);
-                let softer = self.lowered * (end - memory.lane(lane).toe.end);
-                load[lane] -= if moves { softer } else { 0.0 };
+                let reduction = self.lowered * (end - memory.lane(lane).toe.end);
+                load[lane] -= if moves { reduction } else { 0.0 };
                 if TANGENT {
                     let growth = (toe_strain_after - end) / toe_strain;
                     tangent[lane] -= if moves { self.lowered * growth } else { 0.0 };
@@ -107,8 +108,8 @@ impl ExponentialBatch {
         Tension { load, tangent }
     }
 
-    /// Adds the loads of the friction, and their tangents if `TANGENT`, where the elastic load is
-    /// `tension`.
+    /// Adds the loads of the friction, and their tangents if `TANGENT`, with the elastic load
+    /// `tension` to `responses`.
     #[inline(always)]
     fn add_friction_at<const TANGENT: bool>(
         &self,
@@ -121,7 +122,7 @@ impl ExponentialBatch {
         let ProportionalFriction { ratio, plateau, .. } = self.friction;
         let Responses { load, tangent } = responses;
 
-        // Weight and its slope; in compression the elastic load is zero and the plateau decays.
+        // Weight and its slope. In compression the elastic load is zero and the plateau decays.
         let (mut weights, mut slopes) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             weights[lane] = plateau + ratio * tension.load[lane];
@@ -130,10 +131,10 @@ impl ExponentialBatch {
         if any(|lane| trial[lane] < 0.0) {
             let scale = self.compression.buckling.strain;
             for lane in 0..LANES {
-                let squeezed = trial[lane] < 0.0;
+                let compressed = trial[lane] < 0.0;
                 let decayed = plateau * (1.0 + exp_m1(-positive(-trial[lane]) / scale));
-                weights[lane] = if squeezed { decayed } else { weights[lane] };
-                slopes[lane] = if squeezed { decayed / scale } else { slopes[lane] };
+                weights[lane] = if compressed { decayed } else { weights[lane] };
+                slopes[lane] = if compressed { decayed / scale } else { slopes[lane] };
             }
         }
 
@@ -149,14 +150,14 @@ impl ExponentialBatch {
         }
     }
 
-    /// Returns the path from the memory to a trial, along which the state of the friction changes.
+    /// Returns the path of the friction's state from the memory `lane` to `trial`.
     #[inline(always)]
     fn stroke(&self, lane: LaneMemory, trial: f64) -> Stroke {
         let sign = if trial >= lane.position { 1.0 } else { -1.0 };
         Stroke { sign, length: (trial - lane.position).abs(), weight: 1.0, weight_slope: 0.0 }
     }
 
-    /// Adds the elastic energies per area, in J/m².
+    /// Adds the elastic energies per area at `trial` to `energies`, in J/m².
     #[inline(always)]
     fn add_elastic_energy(&self, memory: &MemoryBatch<'_>, trial: &Lanes, energies: &mut Lanes) {
         let ExponentialToe { base_stiffness, stiffness, steepness, .. } = self.toe;
@@ -171,7 +172,7 @@ impl ExponentialBatch {
             energies[lane] += 0.5 * base_stiffness * strain * strain + stiffness * (curved + line);
         }
 
-        // Where the toe moves, the integral of its end replaces that of the remembered end.
+        // If the toe moves, the integral of its end replaces the integral of the end in the memory.
         if self.extends_toe(memory, trial) {
             let ExponentialToe { toe_strain, toe_strain_after, .. } = self.toe;
             for lane in 0..LANES {
@@ -185,7 +186,7 @@ impl ExponentialBatch {
         self.compression.add_energy(trial, energies);
     }
 
-    /// Adds the works of the friction per area along paths, in J/m².
+    /// Adds the works of the friction per area along `paths` to `works`, in J/m².
     #[inline(always)]
     fn add_path_work(&self, paths: &Paths<'_>, works: &mut Lanes) {
         let weight = Weight {
@@ -193,8 +194,10 @@ impl ExponentialBatch {
             friction: &self.friction,
             buckling: &self.compression.buckling,
         };
-        let negative = |lane: usize| paths.from[lane].min(paths.to[lane]) < 0.0;
-        if self.friction.plateau != 0.0 && any(negative) {
+
+        // Each piece of the weight that a path touches contributes to the work.
+        let is_compressed = any(|lane| paths.from[lane].min(paths.to[lane]) < 0.0);
+        if self.friction.plateau != 0.0 && is_compressed {
             let piece = weight.compressed();
             self.add_piece_work(paths, |_| (f64::NEG_INFINITY, 0.0, piece), works);
         }
@@ -203,20 +206,21 @@ impl ExponentialBatch {
             |lane| (0.0, paths.ends[lane], weight.within_toe(paths.ends[lane])),
             works,
         );
-        let highest = |lane: usize| paths.from[lane].max(paths.to[lane]);
-        if any(|lane| highest(lane) > paths.ends[lane]) {
-            let piece = |lane: usize| {
-                (paths.ends[lane], paths.seen[lane], weight.beyond_toe(paths.ends[lane]))
-            };
-            self.add_piece_work(paths, piece, works);
+        if any(|lane| paths.highest(lane) > paths.ends[lane]) {
+            self.add_piece_work(
+                paths,
+                |lane| (paths.ends[lane], paths.peaks[lane], weight.beyond_toe(paths.ends[lane])),
+                works,
+            );
         }
-        if any(|lane| highest(lane) > paths.seen[lane]) {
+        if any(|lane| paths.highest(lane) > paths.peaks[lane]) {
             let piece = weight.virgin();
-            self.add_piece_work(paths, |lane| (paths.seen[lane], f64::INFINITY, piece), works);
+            self.add_piece_work(paths, |lane| (paths.peaks[lane], f64::INFINITY, piece), works);
         }
     }
 
-    /// Adds the works along the parts of paths between the ends of one piece each.
+    /// Adds the works along one piece of the weight to `works`. `piece` returns the lower and upper
+    /// end of the piece in a lane, and the piece.
     #[inline(always)]
     fn add_piece_work(
         &self,
@@ -229,17 +233,18 @@ impl ExponentialBatch {
             let (low, high, piece) = piece(lane);
             let (from, to) = (paths.from[lane], paths.to[lane]);
             let sign = if to >= from { 1.0 } else { -1.0 };
-            let start = within(from, low, high);
+            let start = clamped(from, low, high);
             let kept = 1.0 + exp_m1(-(start - from).abs() / length);
             let state = sign + (paths.states[lane] - sign) * kept;
-            let step = WeightedStep { from: start, to: within(to, low, high), sign, state };
-            // A path without length gives no work, whatever the piece is there.
+            let step = WeightedStep { from: start, to: clamped(to, low, high), sign, state };
+            // A path of zero length does no work, even where the piece is undefined.
             let work = piece.work(step, length);
             works[lane] += if step.from == step.to { 0.0 } else { work };
         }
     }
 
-    /// Adds the energies per area that the friction gives back on the best path, in J/m².
+    /// Adds the largest energies per area that the friction can return from `memory` to `energies`,
+    /// in J/m².
     #[inline(always)]
     fn add_unloading(&self, memory: &MemoryBatch<'_>, energies: &mut Lanes) {
         if self.element.is_none() {
@@ -251,9 +256,10 @@ impl ExponentialBatch {
             let path = self.friction.length * states[lane].abs().ln_1p();
             unloaded[lane] = positions[lane] - path.copysign(states[lane]);
         }
+
         let ends = self.ends(memory);
-        let seen = [f64::INFINITY; LANES];
-        let paths = Paths { from: positions, to: &unloaded, states, ends: &ends, seen: &seen };
+        let peaks = [f64::INFINITY; LANES];
+        let paths = Paths { from: positions, to: &unloaded, states, ends: &ends, peaks: &peaks };
         let mut works = [0.0; LANES];
         self.add_path_work(&paths, &mut works);
         for lane in 0..LANES {
@@ -261,13 +267,14 @@ impl ExponentialBatch {
         }
     }
 
+    /// Returns the ends of the toes in `memory`.
     #[inline(always)]
     fn ends(&self, memory: &MemoryBatch<'_>) -> Lanes {
         std::array::from_fn(|lane| memory.lane(lane).toe.end)
     }
 }
 
-/// Straight paths of a batch, with what the weight of the friction depends on.
+/// Straight paths of a batch, with the strains on which the weight of the friction depends.
 struct Paths<'a> {
     /// Strains at the starts.
     from: &'a Lanes,
@@ -278,12 +285,20 @@ struct Paths<'a> {
     /// Ends of the toes, at strains greater than 0.
     ends: &'a Lanes,
     /// Strains beyond which the toes move.
-    seen: &'a Lanes,
+    peaks: &'a Lanes,
 }
 
-/// Returns `x` between `low` and `high`, and NaN of NaN.
+impl Paths<'_> {
+    /// Returns the largest strain of the path in `lane`.
+    #[inline(always)]
+    fn highest(&self, lane: usize) -> f64 {
+        self.from[lane].max(self.to[lane])
+    }
+}
+
+/// Returns `x` clamped between `low` and `high`, and NaN for a NaN `x`.
 #[inline(always)]
-fn within(x: f64, low: f64, high: f64) -> f64 {
+fn clamped(x: f64, low: f64, high: f64) -> f64 {
     let x = if x < low { low } else { x };
     if x > high { high } else { x }
 }
@@ -333,10 +348,10 @@ impl BatchLaw for ExponentialBatch {
             return;
         }
         let ends = self.ends(memory);
-        let seen = std::array::from_fn(|lane| memory.lane(lane).peak.max(self.toe.toe_strain));
+        let peaks = std::array::from_fn(|lane| memory.lane(lane).peak.max(self.toe.toe_strain));
         let states = memory.friction(0);
         let from = memory.position();
-        self.add_path_work(&Paths { from, to: trial, states, ends: &ends, seen: &seen }, works);
+        self.add_path_work(&Paths { from, to: trial, states, ends: &ends, peaks: &peaks }, works);
     }
 
     #[inline(always)]
@@ -347,7 +362,7 @@ impl BatchLaw for ExponentialBatch {
 
     #[inline(always)]
     fn commit(&self, memories: &mut MemoriesMut<'_>, start: usize, trial: &Lanes) -> Lanes {
-        // What the fabric had and was given, less what it has afterwards, is lost.
+        // The dissipated energy is the energy before plus the work, less the energy afterwards.
         let memory = memories.batch(start);
         let mut lost = [0.0; LANES];
         self.add_friction_work(&memory, trial, &mut lost);

@@ -1,5 +1,5 @@
-//! The traction laws of the papers for a batch. The weight of their friction has three knots: the ends
-//! of buckling and of the priming zone, and zero strain.
+//! The traction laws with a priming zone and with a polynomial for a batch. The weight of their
+//! friction has three knots: the ends of buckling and of the priming zone, and zero strain.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_hysteresis::BlimanSorine;
@@ -15,7 +15,7 @@ use crate::laws::traction::buckling::Buckling;
 use crate::laws::traction::polynomial::Polynomial;
 use crate::laws::traction::primed::Primed;
 
-/// Elastic load of a traction law of the papers.
+/// Elastic load of a traction law without an exponential toe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum WeightedBackbone {
     /// Priming zone, then a line.
@@ -24,10 +24,10 @@ pub(crate) enum WeightedBackbone {
     Polynomial(Polynomial),
 }
 
-/// A traction law of the papers for many connectors side by side.
+/// A traction law without an exponential toe for many connectors side by side.
 ///
-/// The end of the priming zone is kept with the memory ([`Toe`]). A law without one has it at a strain
-/// of 1, which no weight depends on.
+/// The memory contains the end of the priming zone ([`Toe`]). A law without a priming zone has this
+/// end at a strain of 1, on which no weight depends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WeightedTraction {
     backbone: WeightedBackbone,
@@ -60,7 +60,8 @@ impl WeightedTraction {
         }
     }
 
-    /// Adds the elastic load in tension of a law with a priming zone.
+    /// Adds the elastic load in tension of a law with the priming zone `primed`, and its tangent if
+    /// `TANGENT`.
     #[inline(always)]
     fn add_tension<const TANGENT: bool>(
         &self,
@@ -85,27 +86,35 @@ impl WeightedTraction {
                 tangent[lane] += if bends { slope } else { stiffness };
             }
         }
+
+        // If the priming zone moves with the strain, its end replaces the end in the memory.
         if self.extends_toe(primed, memory, trial) {
             for lane in 0..LANES {
                 let strain = trial[lane];
-                let new = strain > memory.lane(lane).peak.max(toe_strain);
-                // The priming zone moves with the strain: it replaces the remembered one.
+                let moves = strain > memory.lane(lane).peak.max(toe_strain);
                 let toe = toe_end(primed.toe_strain, primed.toe_strain_after, strain);
-                let softer = stiffness * deficit * (memory.lane(lane).toe.end - toe);
-                load[lane] += if new { softer } else { 0.0 };
+                let change = stiffness * deficit * (memory.lane(lane).toe.end - toe);
+                load[lane] += if moves { change } else { 0.0 };
                 if TANGENT {
                     let growth = (toe_strain_after - toe) / toe_strain;
-                    tangent[lane] -= if new { stiffness * deficit * growth } else { 0.0 };
+                    tangent[lane] -= if moves { stiffness * deficit * growth } else { 0.0 };
                 }
             }
         }
     }
 
-    /// Returns whether some lane is stretched beyond its largest elongation, which moves its toe.
+    /// Returns whether any lane of `trial` is stretched beyond its largest elongation, which moves
+    /// its toe.
     #[inline(always)]
     fn extends_toe(&self, primed: &Primed, memory: &MemoryBatch<'_>, trial: &Lanes) -> bool {
         any(|lane| trial[lane] > memory.lane(lane).peak.max(primed.toe_strain))
     }
+}
+
+/// Returns whether a path from `position` begins below `knot`. A falling path from the knot does.
+#[inline(always)]
+fn is_below(position: f64, knot: f64, rising: bool) -> bool {
+    (position < knot) | (!rising & (position == knot))
 }
 
 impl WeightedLaw for WeightedTraction {
@@ -137,19 +146,20 @@ impl WeightedLaw for WeightedTraction {
     fn weight(&self, lane: LaneMemory, strain: f64) -> f64 {
         let toe = lane.toe;
         let stretched = self.at_rest + toe.weight_slope * strain;
-        let squeezed = positive(self.at_rest + self.buckled_slope * strain);
-        let within = if strain >= 0.0 { stretched } else { squeezed };
+        let compressed = positive(self.at_rest + self.buckled_slope * strain);
+        let within = if strain >= 0.0 { stretched } else { compressed };
         if strain >= toe.end { 1.0 } else { within }
     }
 
     #[inline(always)]
     fn weight_slope(&self, lane: LaneMemory, rising: bool) -> f64 {
-        let at = lane.position;
-        let below = |knot: f64| (at < knot) | (!rising & (at == knot));
-        let toe = lane.toe;
-        let mut slope = if below(toe.end) { toe.weight_slope } else { 0.0 };
-        slope = if below(0.0) { self.buckled_slope } else { slope };
-        if below(-self.compression.buckling.strain) { 0.0 } else { slope }
+        let (position, toe) = (lane.position, lane.toe);
+        let is_primed = is_below(position, toe.end, rising);
+        let is_compressed = is_below(position, 0.0, rising);
+        let is_buckled = is_below(position, -self.compression.buckling.strain, rising);
+        let mut slope = if is_primed { toe.weight_slope } else { 0.0 };
+        slope = if is_compressed { self.buckled_slope } else { slope };
+        if is_buckled { 0.0 } else { slope }
     }
 
     #[inline(always)]
@@ -197,19 +207,20 @@ impl WeightedLaw for WeightedTraction {
                     let strain = positive(trial[lane]);
                     energies[lane] += primed.fixed_energy(memory.lane(lane).toe.end, strain);
                 }
+
                 if self.extends_toe(primed, memory, trial) {
                     let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
                     for lane in 0..LANES {
                         let (strain, toe) = (trial[lane], memory.lane(lane).toe.end);
-                        let seen = memory.lane(lane).peak.max(toe_strain);
-                        // Integral of the moving toe less that of the remembered one.
-                        let beyond = strain - seen;
+                        let peak = memory.lane(lane).peak.max(toe_strain);
+                        // Integral of the moving toe less the integral of the toe in the memory.
+                        let beyond = strain - peak;
                         let toes = (toe_strain_after - toe) * beyond
                             - toe_strain
                                 * (toe_end(primed.toe_strain, primed.toe_strain_after, strain)
                                     - toe);
-                        let softer = stiffness * (1.0 - toe_ratio) * toes;
-                        energies[lane] -= if beyond > 0.0 { softer } else { 0.0 };
+                        let reduction = stiffness * (1.0 - toe_ratio) * toes;
+                        energies[lane] -= if beyond > 0.0 { reduction } else { 0.0 };
                     }
                 }
             }

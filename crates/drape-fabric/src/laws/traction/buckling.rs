@@ -4,25 +4,26 @@ use drape_hysteresis::Response;
 
 /// Strain over which a compressed yarn buckles, a ratio.
 ///
-/// Larger values make compression stiffer and the equations easier to solve; smaller ones sharpen the
-/// corner of the load at zero strain, which slows quasi-Newton iterations. A fifth of a per cent is
-/// well below the strains of a KES tensile curve (1 to 10 %).
+/// Larger values make compression stiffer and the equations easier to solve. Smaller values sharpen
+/// the corner of the load at zero strain, which slows quasi-Newton iterations. A fifth of a per
+/// cent is well below the strains of a KES tensile curve (1 to 10 %).
 pub const BUCKLING_STRAIN: f64 = 0.002;
 
 /// Post-buckling stiffness of a yarn, in N/m.
 ///
 /// The load grows with the square of the compression: 0.5 N/m at 10 %, a quarter of the weight of
-/// a metre of cloth. Without it a segment could shrink to zero length without any load.
+/// a metre of cloth. Without this stiffness a segment could shrink to zero length without any load.
 pub const POST_BUCKLING_STIFFNESS: f64 = 100.0;
 
-/// Load of a compressed yarn, which buckles at a length below the spacing of the particles.
+/// Load of a compressed yarn. The yarn buckles at a wavelength below the spacing of the particles.
 ///
 /// ```math
 /// F = k_0\varepsilon_b\left(e^{\varepsilon/\varepsilon_b}-1\right) - \tfrac12 k_p\varepsilon^2,
 /// \qquad \varepsilon < 0
 /// ```
 ///
-/// with the stiffness `$k_0$` at rest, so that the slope is continuous. No KES test measures it.
+/// with the stiffness `$k_0$` at rest, so that the slope is continuous. No KES test measures this
+/// load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Buckling {
     /// Strain `$\varepsilon_b$` over which the stiffness at rest decays, a ratio.

@@ -4,13 +4,13 @@ use drape_hysteresis::Response;
 
 use crate::laws::traction::toe::toe_end;
 
-/// Smallest toe ratio, a ratio; at one half the fabric would have no stiffness at rest.
+/// Smallest toe ratio, a ratio. With one half the fabric would have no stiffness at rest.
 pub const TOE_RATIO_MIN: f64 = 0.505;
 
 /// Priming zone (toe) and linear zone of a tensile curve \[NB04, eq. 3\].
 ///
-/// With the stiffness `$k_t$`, the end `$\varepsilon_c$` of the priming zone, the load `$F_1$` there and
-/// the toe ratio `$r = F_1/(k_t\varepsilon_c)$` the load is
+/// With the stiffness `$k_t$`, the end `$\varepsilon_c$` of the priming zone, the load `$F_1$` at
+/// this end, and the toe ratio `$r = F_1/(k_t\varepsilon_c)$`, the load is
 ///
 /// ```math
 /// F = k_t\left[(1-r)\,\varepsilon^2/\varepsilon_c + (2r-1)\,\varepsilon\right]
@@ -18,8 +18,8 @@ pub const TOE_RATIO_MIN: f64 = 0.505;
 /// F = k_t\left[\varepsilon - (1-r)\,\varepsilon_c\right]\;(\varepsilon > \varepsilon_c)
 /// ```
 ///
-/// It is once differentiable, and monotone for `$\tfrac12 \le r \le 1$`. The end of the toe depends on
-/// the largest elongation so far, `$\hat\varepsilon$`:
+/// The load is once differentiable, and monotone for `$\tfrac12 \le r \le 1$`. The end of the toe
+/// depends on the largest elongation so far, `$\hat\varepsilon$`:
 ///
 /// ```math
 /// \varepsilon_c = \varepsilon_1 + (\varepsilon_1'-\varepsilon_1)
@@ -27,37 +27,39 @@ pub const TOE_RATIO_MIN: f64 = 0.505;
 /// \qquad \hat\varepsilon > \varepsilon_1
 /// ```
 ///
-/// with the toe ratio unchanged. The paper identifies two values of `$\varepsilon_c$` and gives no rule
-/// between them. This rule is continuous, keeps the virgin curve rising while
-/// `$\varepsilon_1' \le 2\varepsilon_1$`, and saturates, so that a fit is not extrapolated without
-/// bound.
+/// with a constant toe ratio. The paper identifies two values of `$\varepsilon_c$` and gives no
+/// rule between them. The rule of this law is continuous, and the virgin curve rises as long as
+/// `$\varepsilon_1' \le 2\varepsilon_1$`. The rule is bounded, so an extrapolation of a fit is
+/// bounded too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Primed {
     /// Stiffness `$k_t$` of the linear zone, in N/m.
     pub stiffness: f64,
-    /// Toe ratio `$r$`, from 0.505 to 1; 1 is a straight line.
+    /// Toe ratio `$r$`, from 0.505 to 1. With 1 the curve is a straight line.
     pub toe_ratio: f64,
-    /// Strain `$\varepsilon_1$` where the priming zone of a virgin fabric ends, a ratio.
+    /// Strain `$\varepsilon_1$` at which the priming zone of a virgin fabric ends, a ratio.
     pub toe_strain: f64,
-    /// Strain `$\varepsilon_1'$` where it ends after the fabric has been stretched, a ratio from
-    /// `toe_strain` to twice that.
+    /// Strain `$\varepsilon_1'$` at which the priming zone of a stretched fabric ends, a ratio from
+    /// `toe_strain` to twice `toe_strain`.
     pub toe_strain_after: f64,
 }
 
 impl Primed {
-    /// Returns the strain where the priming zone ends after the largest elongation `peak`, a ratio.
+    /// Returns the strain at which the priming zone ends after the largest elongation `peak`, a
+    /// ratio.
     #[must_use]
     pub fn toe(&self, peak: f64) -> f64 {
         toe_end(self.toe_strain, self.toe_strain_after, peak)
     }
 
-    /// Load `$F_1$` at the end of the virgin priming zone, in N/m.
+    /// Returns the load `$F_1$` at the end of the virgin priming zone, in N/m.
     #[must_use]
     pub fn toe_load(&self) -> f64 {
         self.toe_ratio * self.stiffness * self.toe_strain
     }
 
-    /// Returns load and tangent at a strain of at least 0 with a toe of fixed length.
+    /// Returns load and tangent at a `strain` of at least 0, with a toe that ends at the strain
+    /// `toe`.
     fn fixed(&self, toe: f64, strain: f64) -> Response {
         let Self { stiffness, toe_ratio, .. } = *self;
         if strain <= toe {
@@ -72,7 +74,7 @@ impl Primed {
         }
     }
 
-    /// Returns load and tangent at a strain beyond every earlier one and beyond the virgin toe.
+    /// Returns load and tangent at a `strain` beyond all earlier strains and beyond the virgin toe.
     fn virgin(&self, strain: f64) -> Response {
         let toe = self.toe(strain);
         let growth = (self.toe_strain_after - toe) / self.toe_strain;
@@ -91,8 +93,8 @@ impl Primed {
         }
     }
 
-    /// Returns the integral of the load from 0 to a strain of at least 0 with a toe of fixed length, in
-    /// J/m².
+    /// Returns the integral of the load from 0 to a `strain` of at least 0, with a toe that ends at
+    /// the strain `toe`, in J/m².
     pub(crate) fn fixed_energy(&self, toe: f64, strain: f64) -> f64 {
         let Self { stiffness, toe_ratio, .. } = *self;
         let within = strain.min(toe);
@@ -103,17 +105,18 @@ impl Primed {
         stiffness * (toe_part + beyond * (0.5 * (strain + within) - (1.0 - toe_ratio) * toe))
     }
 
-    /// Returns the integral of the load from 0 after the largest elongation `peak`, in J/m².
+    /// Returns the integral of the load from 0 to `strain` after the largest elongation `peak`, in
+    /// J/m².
     pub(crate) fn energy(&self, peak: f64, strain: f64) -> f64 {
-        let seen = peak.max(self.toe_strain);
-        if strain <= seen {
+        let largest = peak.max(self.toe_strain);
+        if strain <= largest {
             return self.fixed_energy(self.toe(peak), strain);
         }
         // Integral of the moving toe: ∫ε_c dε = ε₁'Δε − ε₁(ε_c(end) − ε_c(start)).
-        let toes = self.toe_strain_after * (strain - seen)
-            - self.toe_strain * (self.toe(strain) - self.toe(seen));
-        let line = 0.5 * (strain - seen) * (strain + seen);
-        self.fixed_energy(self.toe(seen), seen)
+        let toes = self.toe_strain_after * (strain - largest)
+            - self.toe_strain * (self.toe(strain) - self.toe(largest));
+        let line = 0.5 * (strain - largest) * (strain + largest);
+        self.fixed_energy(self.toe(largest), largest)
             + self.stiffness * (line - (1.0 - self.toe_ratio) * toes)
     }
 }

@@ -1,9 +1,10 @@
 //! Friction of traction that grows with the tension of the yarns.
 //!
-//! The state `$g$` of the friction is the load of a Dahl element with a plateau of one; the friction
-//! is `$w(\varepsilon)\,g$` with a weight that follows the elastic load. Along a piece of the path on
-//! which the weight is a line and an exponential, the work of the friction is a sum of products of
-//! exponentials, which `WeightPiece` integrates. `batch::exponential` uses the same pieces.
+//! The state `$g$` of the friction is the load of a Dahl element with a plateau of one. The
+//! friction is `$w(\varepsilon)\,g$`, with a weight that follows the elastic load. The path is cut
+//! into pieces on which the weight is the sum of a line and an exponential. On such a piece the
+//! work of the friction is a sum of products of exponentials, which `WeightPiece` integrates.
+//! `batch::exponential` uses these pieces too.
 
 use drape_hysteresis::{Dahl, exp_m1};
 
@@ -12,16 +13,16 @@ use crate::laws::traction::exponential::ExponentialToe;
 
 /// Largest ratio of the friction to the elastic load.
 ///
-/// A cloth that was unloaded by many friction lengths keeps this much less than one of its elastic
-/// stiffness: with a ratio of one it would have none. Two per cent of the stiffness change no loop by
-/// more than two per cent of its load, at its lower end.
+/// After unloading by many friction lengths a cloth has the fraction `1 - ratio` of its elastic
+/// stiffness: with a ratio of one the cloth would have none. Two per cent of the stiffness change
+/// the load of a loop by at most two per cent, at the lower end of the loop.
 pub const FRICTION_RATIO_MAX: f64 = 0.98;
 
-/// Friction in proportion to the elastic load, beside a constant part.
+/// Friction in proportion to the elastic load, plus a constant part.
 ///
-/// Yarns press on each other the more, the more tension they carry, so the friction where they cross
-/// grows with the tension, as that of a rope around a drum does (Euler and Eytelwein's capstan). With
-/// the elastic load `$F_e$` of an [`ExponentialToe`], the ratio `$\mu$` and the plateau `$c$`,
+/// The tension of the yarns presses them on each other, so the friction at the crossings grows with
+/// the tension, like the friction of a rope around a drum (Euler and Eytelwein's capstan). With the
+/// elastic load `$F_e$` of an [`ExponentialToe`], the ratio `$\mu$` and the plateau `$c$`,
 ///
 /// ```math
 /// F = F_e(\varepsilon) + \left[c + \mu F_e(\varepsilon)\right] g, \qquad
@@ -29,10 +30,10 @@ pub const FRICTION_RATIO_MAX: f64 = 0.98;
 /// \sigma = \operatorname{sgn}\dot\varepsilon, \qquad |g| \le 1
 /// ```
 ///
-/// The state `$g$` is advanced exactly, as [`Dahl`] friction. The load rises with the strain on every
-/// branch because the weight is never negative and `$\mu < 1$`. In compression the weight of the
-/// plateau decays as the elastic stiffness does, `$c\,e^{\varepsilon/\varepsilon_b}$`; the load
-/// then rises as long as `$c \le k_r\varepsilon_b$` with the stiffness `$k_r$` at rest.
+/// The state `$g$` is advanced exactly, as [`Dahl`] friction. The load rises with the strain on
+/// every branch, because the weight is never negative and `$\mu < 1$`. In compression the weight of
+/// the plateau decays like the elastic stiffness, as `$c\,e^{\varepsilon/\varepsilon_b}$`. The load
+/// then rises as long as `$c \le k_r\varepsilon_b$`, with the stiffness `$k_r$` at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProportionalFriction {
     /// Ratio `$\mu$` of the friction to the elastic load, from 0 to [`FRICTION_RATIO_MAX`].
@@ -49,20 +50,22 @@ impl ProportionalFriction {
         self.ratio == 0.0 && self.plateau == 0.0
     }
 
-    /// Dahl element whose load is the state of the friction, which stays zero without friction.
+    /// Returns the [`Dahl`] element whose load is the state of the friction. Without friction the
+    /// state is always zero.
     pub(crate) fn element(&self) -> Dahl {
         if self.is_none() { Dahl::NONE } else { Dahl::new(1.0, self.length) }
     }
 
-    /// Returns the strain `$\varepsilon_b$` over which a yarn must buckle so that its load rises with
-    /// the strain in compression too: at least [`Buckling::default`]'s.
+    /// Returns the strain `$\varepsilon_b$` over which a yarn with this `toe` must buckle so that
+    /// its load rises with the strain in compression too. The least value is the strain of
+    /// [`Buckling::default`].
     #[must_use]
     pub fn buckling_strain(&self, toe: &ExponentialToe) -> f64 {
         Buckling::default().strain.max(self.plateau / toe.rest_stiffness())
     }
 }
 
-/// Piece of the path on which the weight of the friction is a line and an exponential.
+/// Piece of the path on which the weight of the friction is the sum of a line and an exponential.
 ///
 /// ```math
 /// w(\varepsilon) = A + B\varepsilon + C\,e^{\lambda(\varepsilon - \varepsilon_r)}
@@ -77,7 +80,7 @@ pub(crate) struct WeightPiece {
     pub(crate) amplitude: f64,
     /// Rate `$\lambda$` of the exponential, per strain.
     pub(crate) rate: f64,
-    /// Reference strain `$\varepsilon_r$`: the exponent is not positive on the piece.
+    /// Reference strain `$\varepsilon_r$`, such that the exponent is never positive on the piece.
     pub(crate) reference: f64,
 }
 
@@ -95,16 +98,17 @@ pub(crate) struct WeightedStep {
 }
 
 impl WeightPiece {
-    /// Exponential part of the weight at a `strain`, in N/m.
+    /// Returns the exponential part of the weight at `strain`, in N/m.
     #[inline(always)]
     fn exponential(&self, strain: f64) -> f64 {
         self.amplitude * (1.0 + exp_m1(self.rate * (strain - self.reference)))
     }
 
-    /// Returns the work `$\int w\,g\,\mathrm{d}\varepsilon$` of the friction over a `step`, in J/m².
+    /// Returns the work `$\int w\,g\,\mathrm{d}\varepsilon$` of the friction over a `step`, in
+    /// J/m², with the friction length `length`.
     ///
-    /// With the length `$u$` of the step, `$g = \sigma + (g_0 - \sigma)e^{-s/x_f}$` after the path
-    /// `$s$`, and the work is `$\int w\,\mathrm{d}s + (\sigma g_0 - 1)\int w\,e^{-s/x_f}\mathrm{d}s$`.
+    /// After the path `$s$` the state is `$g = \sigma + (g_0 - \sigma)e^{-s/x_f}$`, so the work is
+    /// `$\int w\,\mathrm{d}s + (\sigma g_0 - 1)\int w\,e^{-s/x_f}\mathrm{d}s$`.
     #[inline(always)]
     pub(crate) fn work(&self, step: WeightedStep, length: f64) -> f64 {
         let WeightedStep { from, to, sign, state } = step;
@@ -112,13 +116,13 @@ impl WeightPiece {
         let kept = 1.0 + exp_m1(-path / length);
         let lost = 1.0 - kept;
 
-        // The line, seen along the path.
+        // Contributions of the line, as a function of the path.
         let (constant, slope) = (self.constant + self.slope * from, sign * self.slope);
         let lag = path - length * lost;
         let line = path * (constant + 0.5 * slope * path);
         let decaying_line = length * (constant * lost + slope * (path * lost - lag));
 
-        // The exponential, seen along the path.
+        // Contributions of the exponential, as a function of the path.
         let (start, end) = (self.exponential(from), self.exponential(to));
         let rate = sign * self.rate;
         let rising = integral_of_exponential(start, end, rate, path);
@@ -128,10 +132,11 @@ impl WeightPiece {
     }
 }
 
-/// Returns the integral of an exponential over a path, from its values at both ends.
+/// Returns the integral of an exponential over a path of length `path`, from the values `start` and
+/// `end` at both ends.
 ///
-/// `rate` is its logarithmic derivative along the path: `$e_1 = e_0\,e^{\lambda u}$`. Only the larger
-/// end is used, so nothing overflows.
+/// `rate` is the logarithmic derivative along the path: `$e_1 = e_0\,e^{\lambda u}$`. The formula
+/// uses only the larger end, so that nothing overflows.
 #[inline(always)]
 fn integral_of_exponential(start: f64, end: f64, rate: f64, path: f64) -> f64 {
     let larger = if rate > 0.0 { end } else { start };
@@ -140,7 +145,7 @@ fn integral_of_exponential(start: f64, end: f64, rate: f64, path: f64) -> f64 {
     larger * path * if exponent > 0.0 { shrunk } else { 1.0 }
 }
 
-/// Weight of the friction along all strains, in pieces.
+/// Weight of the friction at all strains, in pieces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Weight<'a> {
     pub(crate) toe: &'a ExponentialToe,
@@ -149,7 +154,7 @@ pub(crate) struct Weight<'a> {
 }
 
 impl Weight<'_> {
-    /// Piece of a yarn in compression.
+    /// Returns the piece of a yarn in compression.
     #[inline(always)]
     pub(crate) fn compressed(&self) -> WeightPiece {
         WeightPiece {
@@ -161,7 +166,7 @@ impl Weight<'_> {
         }
     }
 
-    /// Piece within a toe that ends at the strain `end`.
+    /// Returns the piece within a toe that ends at the strain `end`.
     #[inline(always)]
     pub(crate) fn within_toe(&self, end: f64) -> WeightPiece {
         let ExponentialToe { base_stiffness, stiffness, steepness, .. } = *self.toe;
@@ -176,7 +181,7 @@ impl Weight<'_> {
         }
     }
 
-    /// Piece beyond a toe that ends at the strain `end` and does not move.
+    /// Returns the piece beyond a toe that ends at the strain `end` and does not move.
     #[inline(always)]
     pub(crate) fn beyond_toe(&self, end: f64) -> WeightPiece {
         let ExponentialToe { base_stiffness, stiffness, .. } = *self.toe;
@@ -190,7 +195,7 @@ impl Weight<'_> {
         }
     }
 
-    /// Piece beyond the largest elongation so far, along which the toe moves.
+    /// Returns the piece beyond the largest elongation so far, along which the toe moves.
     #[inline(always)]
     pub(crate) fn virgin(&self) -> WeightPiece {
         let ExponentialToe { stiffness, toe_strain, toe_strain_after, .. } = *self.toe;

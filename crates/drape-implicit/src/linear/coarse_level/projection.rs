@@ -1,4 +1,4 @@
-//! Projection `Pᵀ A P` of a matrix on the nodes of the coarse grids.
+//! Projection `Pᵀ A P` of a matrix `A` on the nodes of the coarse grids.
 
 use core::cmp::Ordering;
 use core::ops::Range;
@@ -9,35 +9,36 @@ use crate::linear::block::{self, Block};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::sparsity::Sparsity;
 
-/// Weighted sums of blocks for each pair of corners of two cells: for each of nine entries, the four
-/// corners of the second cell with the first corner of the first cell, then with the next.
+/// Weighted sums of blocks for each pair of corners of two cells. The outer index is the entry of
+/// the block. The inner index is four times the corner of the first cell plus the corner of the
+/// second.
 type CornerSums = [[f64; 16]; 9];
 
-/// Blocks of the matrix by the cells that their particles lie in, and their places in the coarse
-/// matrix.
+/// Blocks of the matrix by the cells of their particles, and the slots of these cells' nodes in the
+/// coarse matrix.
 #[derive(Debug)]
 pub(super) struct Projection {
     pairs: Vec<CellPair>,
     blocks: Vec<PointPair>,
 }
 
-/// Two cells, or twice the same, with blocks between their particles.
+/// Two cells with the blocks between their particles. Both cells may be one and the same.
 #[derive(Debug)]
 struct CellPair {
-    /// Target of each pair of corners.
-    targets: [Target; 16],
+    /// Slot of each pair of corners in the coarse matrix.
+    targets: [NodePair; 16],
     blocks: Range<usize>,
 }
 
-/// Place of a pair of nodes in the coarse matrix.
+/// Pair of nodes with a block in the coarse matrix.
 #[derive(Clone, Copy, Debug)]
-struct Target {
+struct NodePair {
     slot: u32,
-    /// Order of the two nodes: a block of the coarse matrix is stored for the lower one's row.
+    /// Order of the two nodes. A block of the coarse matrix is stored in the row of the lower node.
     order: Ordering,
 }
 
-/// Block of the matrix with the points of its row and column.
+/// Block of the matrix, with the points of its row and column.
 #[derive(Clone, Copy, Debug)]
 struct PointPair {
     slot: u32,
@@ -46,7 +47,11 @@ struct PointPair {
 }
 
 impl Projection {
-    /// Projection of matrices on a sparsity, and the sparsity of the coarse matrix.
+    /// Returns the projection of matrices with `sparsity` by `interpolation`, and the sparsity of
+    /// the coarse matrix.
+    ///
+    /// # Errors
+    /// [`Error::Sparsity`] with too many blocks.
     pub(super) fn new(
         sparsity: &Sparsity,
         interpolation: &Interpolation,
@@ -59,6 +64,7 @@ impl Projection {
                 (cell_of[particle], point_of[particle]) = (number, index as u32);
             }
         }
+
         let mut blocks = Vec::with_capacity(sparsity.blocks());
         for particle in 0..sparsity.particles() {
             for slot in sparsity.row(particle) {
@@ -68,29 +74,31 @@ impl Projection {
                 blocks.push(([cell_of[particle], cell_of[other]], pair));
             }
         }
+
+        // Blocks between one pair of cells are consecutive, ordered by row.
         blocks.sort_by_key(|(cells, pair)| (*cells, pair.row, pair.slot));
-        let corners = |[first, second]: [usize; 2]| {
-            let [first, second] = [first, second].map(|cell| interpolation.cells[cell].nodes);
-            core::array::from_fn::<_, 16, _>(|k| [first[k / 4] as usize, second[k % 4] as usize])
-        };
-        let pairs = || blocks.chunk_by(|a, b| a.0 == b.0);
-        let node_pairs = pairs().flat_map(|same| corners(same[0].0));
-        let coarse = Sparsity::from_pairs(interpolation.nodes, node_pairs)?;
+        let mut cell_pairs = Vec::new();
         let mut first = 0;
-        let pairs = pairs().map(|same| {
-            let targets = corners(same[0].0).map(|[a, b]| Target {
+        for group in blocks.chunk_by(|a, b| a.0 == b.0) {
+            cell_pairs.push((interpolation.corner_pairs(group[0].0), first..first + group.len()));
+            first += group.len();
+        }
+
+        let node_pairs = cell_pairs.iter().flat_map(|(corners, _)| *corners);
+        let coarse = Sparsity::from_pairs(interpolation.nodes, node_pairs)?;
+        let pairs = cell_pairs.into_iter().map(|(corners, blocks)| {
+            let targets = corners.map(|[a, b]| NodePair {
                 slot: coarse.slot(a, b).unwrap_or_default() as u32,
                 order: a.cmp(&b),
             });
-            first += same.len();
-            CellPair { targets, blocks: first - same.len()..first }
+            CellPair { targets, blocks }
         });
         let pairs = pairs.collect();
         let blocks = blocks.into_iter().map(|(_, pair)| pair).collect();
         Ok((Self { pairs, blocks }, coarse))
     }
 
-    /// Adds the projection of a matrix to a coarse matrix.
+    /// Adds the projection of `matrix` to the matrix `coarse`.
     #[inline(always)]
     pub(super) fn project(
         &self,
@@ -99,32 +107,33 @@ impl Projection {
         coarse: &mut BlockMatrix,
     ) {
         for CellPair { targets, blocks } in &self.pairs {
-            // A block beside the diagonal stands for its transpose too.
+            // An off-diagonal block also represents its transpose.
             let mut beside: CornerSums = [[0.0; 16]; 9];
             let mut diagonal: CornerSums = [[0.0; 16]; 9];
             for row in self.blocks[blocks.clone()].chunk_by(|a, b| a.row == b.row) {
-                let own = &interpolation.points[row[0].row as usize];
+                let row_point = &interpolation.points[row[0].row as usize];
                 let mut partial = [[0.0; 4]; 9];
                 for pair in row {
                     let block = &matrix.blocks()[pair.slot as usize];
                     if pair.row == pair.column {
                         let mut partial = [[0.0; 4]; 9];
-                        add_weighted(&mut partial, block, own);
-                        add_outer(&mut diagonal, &partial, own);
+                        add_weighted(&mut partial, block, row_point);
+                        add_outer(&mut diagonal, &partial, row_point);
                     } else {
-                        let other = &interpolation.points[pair.column as usize];
-                        add_weighted(&mut partial, block, other);
+                        let column_point = &interpolation.points[pair.column as usize];
+                        add_weighted(&mut partial, block, column_point);
                     }
                 }
-                add_outer(&mut beside, &partial, own);
+                add_outer(&mut beside, &partial, row_point);
             }
+
             for (corners, target) in targets.iter().enumerate() {
-                let [beside, own] = [&beside, &diagonal]
+                let [beside, diagonal] = [&beside, &diagonal]
                     .map(|sums| -> Block { core::array::from_fn(|entry| sums[entry][corners]) });
                 let slot = target.slot as usize;
                 if target.order != Ordering::Greater {
                     coarse.add_block(slot, &beside);
-                    coarse.add_block(slot, &own);
+                    coarse.add_block(slot, &diagonal);
                 }
                 if target.order != Ordering::Less {
                     coarse.add_block(slot, &block::transposed(&beside));
@@ -134,7 +143,7 @@ impl Projection {
     }
 }
 
-/// Adds a block times the weights of the point of its column.
+/// Adds `block` times the weights of the point `column` to `partial`.
 #[inline(always)]
 fn add_weighted(partial: &mut [[f64; 4]; 9], block: &Block, column: &Point) {
     for (partial, entry) in partial.iter_mut().zip(block) {
@@ -144,7 +153,7 @@ fn add_weighted(partial: &mut [[f64; 4]; 9], block: &Block, column: &Point) {
     }
 }
 
-/// Adds weighted blocks times the weights of the point of their row.
+/// Adds the weighted blocks `partial` times the weights of the point `row` to `sums`.
 #[inline(always)]
 fn add_outer(sums: &mut CornerSums, partial: &[[f64; 4]; 9], row: &Point) {
     for (sums, partial) in sums.iter_mut().zip(partial) {

@@ -1,66 +1,69 @@
-//! Fill that a factor without fill drops, and its replacement on the diagonal.
+//! Fill that a factor without fill drops, and the replacement of the fill on the diagonal.
 
 use crate::linear::lane_block::{
-    Blocks, SymmetricBlocks, lane_of, symmetric_part, transposed_times,
+    Blocks, SymmetricBlocks, extract_lane, symmetric_part, transposed_times,
 };
 use crate::linear::lanes::{Number, Single};
 
-/// Treatment of the updates that fall outside the sparsity.
+/// Treatment of the updates outside the sparsity.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum DroppedFill {
     /// This fraction of the dropped updates is subtracted from the diagonal.
     ///
-    /// With all of it the factor would treat a translation of all particles as the matrix does, and
-    /// the number of iterations would grow with the square root of the number of particles across
-    /// (\[Gus78\], for scalars); but then pivots collapse. On hung cloth of 2500 and 10 000
-    /// particles, 0.95 took 27 % and 39 % fewer iterations than 0; on 40 000 particles that swing,
+    /// With the fraction 1 the factor would treat a translation of all particles exactly, and the
+    /// number of iterations would grow with the square root of the number of particles along a side
+    /// (\[Gus78\], for scalars). But pivots collapse then. On hanging cloth of 2500 and 10 000
+    /// particles, 0.95 took 27 % and 39 % fewer iterations than 0. On a swing of 40 000 particles,
     /// steps took 54, 51, 50, 79 and 157 iterations with 0.95, 0.97, 0.98, 0.99 and 1.
     Compensated(f64),
     /// This fraction of a bound of the dropped updates is added to the diagonal.
     ///
-    /// With all of it the matrix that is factorised is the given one plus a positive one, and the
-    /// pivots of a definite matrix are positive (\[AJ84\], for scalars).
+    /// With the fraction 1 the factorised matrix is the given matrix plus a positive semi-definite
+    /// matrix, so the pivots of a definite matrix are positive (\[AJ84\], for scalars).
     Stabilised(f64),
 }
 
 impl DroppedFill {
-    /// Blocks to subtract from the pivots of both columns in place of a dropped update.
+    /// Returns the blocks to subtract from the pivots of both columns in place of the dropped
+    /// `update`.
     #[inline(always)]
     pub(crate) fn replacement<T: Number>(self, update: &DroppedUpdate<'_, T>) -> Replacement<T> {
         let DroppedUpdate { left, right, left_square, right_square } = update;
         match self {
-            DroppedFill::Compensated(part) => {
-                let half = times(symmetric_part(&transposed_times(left, right)), T::of(part));
-                Replacement { left: half, right: half }
+            DroppedFill::Compensated(fraction) => {
+                let update = symmetric_part(&transposed_times(left, right));
+                let blocks = scaled(update, T::splat(fraction));
+                Replacement { left: blocks, right: blocks }
             }
-            DroppedFill::Stabilised(part) => Replacement {
-                left: left_square.against(right_square, part),
-                right: right_square.against(left_square, part),
+            DroppedFill::Stabilised(fraction) => Replacement {
+                left: left_square.stabilisation(right_square, fraction),
+                right: right_square.stabilisation(left_square, fraction),
             },
         }
     }
 }
 
-/// Update `leftᵀ D⁻¹ right` of two blocks of a row that is dropped.
+/// Dropped update `leftᵀ D⁻¹ right` of two blocks of a row.
 pub(crate) struct DroppedUpdate<'a, T> {
     /// Block of the left column.
     pub left: &'a Blocks<T>,
     /// Block of the right column, already times `D⁻¹`.
     pub right: &'a Blocks<T>,
-    /// Blocks that both subtract from the pivots of their own columns.
+    /// Block that the row subtracts from the pivot of the left column.
     pub left_square: &'a Square<T>,
+    /// Block that the row subtracts from the pivot of the right column.
     pub right_square: &'a Square<T>,
 }
 
-/// Blocks that are subtracted from the pivots of two columns.
+/// Blocks to subtract from the pivots of two columns.
 pub(crate) struct Replacement<T> {
     pub left: SymmetricBlocks<T>,
     pub right: SymmetricBlocks<T>,
 }
 
-/// Blocks times a factor.
+/// Returns `blocks` times `factor`.
 #[inline(always)]
-fn times<T: Number>(mut blocks: SymmetricBlocks<T>, factor: T) -> SymmetricBlocks<T> {
+fn scaled<T: Number>(mut blocks: SymmetricBlocks<T>, factor: T) -> SymmetricBlocks<T> {
     for entry in &mut blocks {
         *entry = *entry * factor;
     }
@@ -71,8 +74,10 @@ fn times<T: Number>(mut blocks: SymmetricBlocks<T>, factor: T) -> SymmetricBlock
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Square<T> {
     pub blocks: SymmetricBlocks<T>,
-    /// Root of the trace and its inverse; 0 where the block is. Only stabilisation needs them.
+    /// Square root of the trace, 0 for a block of zeros. Only stabilisation uses `size` and
+    /// `inverse`.
     size: T,
+    /// Inverse of `size`, 0 for a block of zeros.
     inverse: T,
 }
 
@@ -80,28 +85,29 @@ impl<T: Number> Square<T> {
     #[inline(always)]
     pub(crate) fn new(blocks: SymmetricBlocks<T>, fill: DroppedFill) -> Self {
         let [size, inverse] = match fill {
-            DroppedFill::Compensated(_) => [T::of(0.0); 2],
+            DroppedFill::Compensated(_) => [T::splat(0.0); 2],
             DroppedFill::Stabilised(_) => (blocks[0] + blocks[3] + blocks[5]).root_and_inverse(),
         };
         Self { blocks, size, inverse }
     }
 
-    /// Block to subtract from the pivot of this square for a dropped update with another one; it is
-    /// negative.
+    /// Returns the block to subtract from the pivot of this square's column, for a dropped update
+    /// with the square `other`. The block is negative.
     ///
-    /// Both squares with the dropped blocks beside them would be positive, and stay so if one is
-    /// scaled up and the other down, here to the same size.
+    /// The matrix of both squares on the diagonal and the dropped block beside them is positive
+    /// semi-definite. It remains so if one square is scaled up and the other down, here to equal
+    /// size. `fraction` of the scaled squares is added to the diagonal.
     #[inline(always)]
-    fn against(&self, other: &Self, part: f64) -> SymmetricBlocks<T> {
-        times(self.blocks, T::of(-part) * (other.size * self.inverse))
+    fn stabilisation(&self, other: &Self, fraction: f64) -> SymmetricBlocks<T> {
+        scaled(self.blocks, T::splat(-fraction) * (other.size * self.inverse))
     }
 }
 
 impl Square<Single> {
-    /// Square of one lane.
+    /// Returns the square of one `lane`.
     #[inline(always)]
     pub(crate) fn lane(&self, lane: u32) -> Square<f32> {
-        let [size, inverse] = lane_of(&[self.size, self.inverse], lane);
-        Square { blocks: lane_of(&self.blocks, lane), size, inverse }
+        let [size, inverse] = extract_lane(&[self.size, self.inverse], lane);
+        Square { blocks: extract_lane(&self.blocks, lane), size, inverse }
     }
 }

@@ -1,4 +1,4 @@
-//! Elimination: turns a packed matrix into a factor, batch by batch.
+//! Elimination: computes the factor of a packed matrix, batch by batch.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -6,23 +6,24 @@ use super::dropped_fill::{DroppedFill, DroppedUpdate, Square};
 use super::factor::{Factor, FactorRows};
 use super::schur_complement::SchurComplement;
 use crate::linear::lane_block::{
-    SymmetricBlocks, are_definite, determinant, inverse, lane_of, symmetric_of_product,
-    symmetric_times, transposed_times,
+    SymmetricBlocks, are_definite, determinant, extract_lane, inverse, symmetric_times,
+    transposed_times, upper_half_of_product,
 };
 use crate::linear::lanes::{Double, LANES, Number, Single, narrowed, widened};
 use crate::linear::level_schedule::LevelSchedule;
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::part::{Group, Part};
+use crate::linear::level_schedule::part::{Group, MatrixPart};
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::{IrregularEntry, Run};
 use crate::linear::level_schedule::updates::{IrregularUpdate, UpdateTarget};
 use crate::linear::packed_matrix::PackedMatrix;
 
-/// Fraction of the determinant of its original block below which that of a pivot is refused.
+/// A pivot collapses if its determinant is below this fraction of the determinant of the original
+/// block.
 ///
-/// Large steps leave pivots that are positive but almost zero; conjugate gradients then stagnate
-/// for thousands of iterations without an error. Measured on cloth at 17 ms: without the rule more
-/// than half of the steps were lost, with it none. Much larger values shift matrices that need no
+/// Large steps lead to pivots that are positive but almost zero. Conjugate gradients then stagnate
+/// for thousands of iterations without an error. On cloth at 17 ms more than half of the steps
+/// failed without this rule, and none with it. Much larger values shift matrices that need no
 /// shift, and weaken the factor.
 const PIVOT_COLLAPSE: f64 = 1e-5;
 
@@ -34,7 +35,7 @@ pub(crate) struct Attempt {
     pub shift: f64,
 }
 
-/// Work spaces of an elimination: one for each part, and one for the separators.
+/// Work space of an elimination: one for each part, and one for the separators.
 #[derive(Debug)]
 pub(crate) struct Elimination {
     parts: Vec<GroupWork>,
@@ -48,7 +49,7 @@ struct GroupWork {
     batch: BatchWork,
 }
 
-/// Matrix to factorise, and how.
+/// Matrix to factorise, and the variant of the elimination.
 #[derive(Clone, Copy)]
 pub(crate) struct Input<'a> {
     pub schedule: &'a LevelSchedule,
@@ -58,7 +59,7 @@ pub(crate) struct Input<'a> {
 
 /// Consecutive parts, with their work space and their rows of the factor.
 struct Parts<'a> {
-    parts: &'a [Part],
+    parts: &'a [MatrixPart],
     work: &'a mut [GroupWork],
     factor: FactorRows<'a>,
 }
@@ -69,28 +70,28 @@ struct GroupElimination<'a, 'f> {
     group: &'a Group,
     work: &'a mut GroupWork,
     factor: &'a mut FactorRows<'f>,
-    /// First run that is not copied to the Schur complement yet.
+    /// First run that is not yet copied to the Schur complement.
     loaded: usize,
 }
 
-/// Copies all separators to their Schur complement.
+/// Copies the rows of all separators to their Schur complement.
 struct LoadSeparators<'a> {
     input: Input<'a>,
     schur: &'a mut SchurComplement,
 }
 
-/// Work space of the batch that is being eliminated.
+/// Work space of the elimination of a batch.
 #[derive(Debug)]
 struct BatchWork {
-    /// Blocks that its diagonals subtract from the pivots of their columns.
+    /// Blocks that the diagonals of the batch subtract from the pivots of their columns.
     squares: Vec<Square<Single>>,
-    /// The same blocks, with the replacements of dropped updates.
+    /// Sums of `squares` and the replacements of dropped updates.
     subtracted: Vec<SymmetricBlocks<Single>>,
-    /// Blocks that its irregular entries subtract from the pivots of their columns.
+    /// Blocks that the irregular entries of the batch subtract from the pivots of their columns.
     irregular_squares: Vec<Square<f32>>,
 }
 
-/// Batch of a run that is being eliminated.
+/// Batch of a run under elimination.
 #[derive(Clone, Copy)]
 struct Batch<'a> {
     schedule: &'a LevelSchedule,
@@ -108,24 +109,28 @@ impl Batch<'_> {
 }
 
 impl Elimination {
+    /// Allocates work space for `layout`.
     pub(crate) fn new(layout: &BatchLayout) -> Self {
-        let part = |part| GroupWork::new(layout, SchurComplement::of_part(layout, part));
+        let parts = layout.parts.iter();
+        let schur_complements = parts.map(|part| SchurComplement::for_part(layout, part));
         Self {
-            parts: layout.parts.iter().map(part).collect(),
-            separators: GroupWork::new(layout, SchurComplement::of_separators(layout)),
+            parts: schur_complements.map(|schur| GroupWork::new(layout, schur)).collect(),
+            separators: GroupWork::new(layout, SchurComplement::for_separators(layout)),
         }
     }
 
-    /// Factorises a packed matrix, the parts side by side. Returns false if a pivot collapses; the
-    /// factor is then unfinished.
+    /// Computes the `factor` of the matrix in `input`, the parts side by side. Returns `false` if a
+    /// pivot collapses. The factor is then unfinished.
     pub(crate) fn eliminate(&mut self, arch: Arch, input: Input<'_>, factor: &mut Factor) -> bool {
         let Self { parts, separators } = self;
         let layout = &input.schedule.layout;
         factor.is_diagonal = false;
-        let all = Parts { parts: &layout.parts, work: parts, factor: factor.rows() };
-        if !all.eliminate(arch, input) {
+        let parts_of_matrix = Parts { parts: &layout.parts, work: parts, factor: factor.rows() };
+        if !parts_of_matrix.eliminate(arch, input) {
             return false;
         }
+
+        // Separators follow after the sums of all parts, in the order of the parts.
         arch.dispatch(LoadSeparators { input, schur: &mut separators.schur });
         for part in parts {
             separators.schur.add_part(&part.schur);
@@ -139,27 +144,30 @@ impl Elimination {
 }
 
 impl Parts<'_> {
-    /// Eliminates the parts side by side; all of them, because it depends on the threads in which of
-    /// them a pivot collapses first.
+    /// Eliminates the parts of the matrix in `input` side by side. Returns whether no pivot
+    /// collapsed. All parts are eliminated in any case, because the threads decide in which part a
+    /// pivot collapses first.
     fn eliminate(self, arch: Arch, input: Input<'_>) -> bool {
         let Self { parts, work, mut factor } = self;
         if let ([part], [work]) = (parts, &mut *work) {
             work.schur.clear_separators();
-            let (group, factor, loaded) = (&part.own, &mut factor, part.own.runs.start);
+            let (group, factor, loaded) = (&part.group, &mut factor, part.group.runs.start);
             return arch.dispatch(GroupElimination { input, group, work, factor, loaded });
         }
-        let (here, there) = parts.split_at(parts.len() / 2);
-        let (own, others) = work.split_at_mut(here.len());
-        let (factor, more) = factor.split_before(&there[0].own);
-        let here = Self { parts: here, work: own, factor };
-        let there = Self { parts: there, work: others, factor: more };
-        let (a, b) = rayon::join(|| here.eliminate(arch, input), || there.eliminate(arch, input));
-        a && b
+
+        let (first_parts, second_parts) = parts.split_at(parts.len() / 2);
+        let (first_work, second_work) = work.split_at_mut(first_parts.len());
+        let (first_rows, second_rows) = factor.split_before(&second_parts[0].group);
+        let first = Self { parts: first_parts, work: first_work, factor: first_rows };
+        let second = Self { parts: second_parts, work: second_work, factor: second_rows };
+        let (first_success, second_success) =
+            rayon::join(|| first.eliminate(arch, input), || second.eliminate(arch, input));
+        first_success && second_success
     }
 }
 
 impl Attempt {
-    /// Factor of the main diagonal.
+    /// Returns the factor of the main diagonal.
     fn scale(&self) -> f64 {
         1.0 + self.shift
     }
@@ -189,12 +197,14 @@ impl WithSimd for GroupElimination<'_, '_> {
         let Self { group, work, factor, mut loaded, .. } = self;
         let layout = &schedule.layout;
         let scale = attempt.scale();
-        let floor = Double::of(PIVOT_COLLAPSE * scale.powi(3));
+        let floor = Double::splat(PIVOT_COLLAPSE * scale.powi(3));
+
         for run in &layout.runs[group.runs.clone()] {
             while loaded < run.look_ahead {
                 work.schur.load(layout, &layout.runs[loaded], packed, scale);
                 loaded += 1;
             }
+
             for (index, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let pivot = widened(&work.schur.pivots(run, index));
                 if !are_definite(&pivot, floor * determinant(&packed.main_diagonal(row))) {
@@ -212,7 +222,20 @@ impl WithSimd for GroupElimination<'_, '_> {
     }
 }
 
+impl BatchWork {
+    /// Returns the square of the block `number` in `lane`. Blocks are numbered as in
+    /// [`IrregularUpdate`], with `count` diagonals.
+    #[inline(always)]
+    fn square(&self, number: usize, count: usize, lane: u32) -> Square<f32> {
+        match number.checked_sub(count) {
+            None => self.squares[number].lane(lane),
+            Some(entry) => self.irregular_squares[entry],
+        }
+    }
+}
+
 impl GroupWork {
+    /// Allocates work space for the group with the Schur complement `schur`.
     fn new(layout: &BatchLayout, schur: SchurComplement) -> Self {
         let batch = BatchWork {
             squares: Vec::with_capacity(layout.max_diagonals),
@@ -222,7 +245,8 @@ impl GroupWork {
         Self { schur, batch }
     }
 
-    /// Computes the rows of `U` of a batch that lie on diagonals, and subtracts their updates.
+    /// Computes the blocks of `U` in the rows of `batch` that lie on diagonals, and subtracts their
+    /// updates from the Schur complement. `inverse` holds the inverse pivots of the batch.
     #[inline(always)]
     fn eliminate_diagonals(
         &mut self,
@@ -234,28 +258,31 @@ impl GroupWork {
         let Batch { schedule: LevelSchedule { layout, updates }, run, index, fill } = batch;
         let row = batch.first_row();
         let diagonals = run.diagonals.clone();
+
         squares.clear();
         subtracted.clear();
         let upper = factor.upper_of(run, index);
         for (diagonal, upper) in upper.iter_mut().enumerate() {
             let block = schur.off_diagonal(run, diagonal, index);
             *upper = symmetric_times(inverse, &block);
-            let square = Square::new(symmetric_of_product(&block, upper), fill);
+            let square = Square::new(upper_half_of_product(&block, upper), fill);
             subtracted.push(square.blocks);
             squares.push(square);
         }
+
+        // Each pair of diagonals updates a diagonal of the columns' run, or is dropped.
         for (left, diagonal) in diagonals.enumerate() {
             let block = schur.off_diagonal(run, left, index);
-            let a = &layout.diagonals[diagonal];
-            let target = &layout.runs[a.run as usize];
-            let pivots = schur.place(target.numbers);
-            let place = a.column(row).wrapping_sub(target.start);
+            let left_diagonal = &layout.diagonals[diagonal];
+            let target = &layout.runs[left_diagonal.run as usize];
+            let pivots = schur.index_of(target.numbers);
+            let offset = left_diagonal.column(row).wrapping_sub(target.start);
             for update in &updates.regular[updates.regular_of[diagonal].clone()] {
                 let right = update.right as usize;
                 if update.target != ABSENT {
                     let product = transposed_times(&block, &upper[right]);
                     let column = (6 + 9 * update.target as usize) * target.len();
-                    let first = (pivots + column).wrapping_add(place);
+                    let first = (pivots + column).wrapping_add(offset);
                     schur.subtract(first, target.len(), &product);
                     continue;
                 }
@@ -271,13 +298,14 @@ impl GroupWork {
                     }
                 }
             }
-            // Later diagonals add nothing to it: updates are with later ones only.
-            schur.subtract(pivots.wrapping_add(place), target.len(), &subtracted[left]);
+            // This diagonal is complete: the updates of later diagonals involve later ones only.
+            schur.subtract(pivots.wrapping_add(offset), target.len(), &subtracted[left]);
         }
     }
 
-    /// Computes the irregular entries of the rows of `U` of a batch, and subtracts the updates of
-    /// its single lanes. Comes after the diagonals.
+    /// Computes the irregular entries of `U` in the rows of `batch`, and subtracts the updates of
+    /// single lanes from the Schur complement. `inverse` holds the inverse pivots of the batch.
+    /// Call this after [`eliminate_diagonals`](Self::eliminate_diagonals).
     #[inline(always)]
     fn eliminate_irregular(
         &mut self,
@@ -285,31 +313,34 @@ impl GroupWork {
         inverse: &SymmetricBlocks<Single>,
         factor: &mut FactorRows<'_>,
     ) {
-        let Self { schur, batch: BatchWork { squares, irregular_squares, .. } } = self;
+        let Self { schur, batch: work } = self;
         let Batch { schedule: LevelSchedule { layout, updates }, run, index, fill } = batch;
-        let own = layout.irregular_of[run.batches + index].clone();
-        let (upper, irregular) = factor.rows_of(run, index, own.clone());
-        irregular_squares.clear();
-        for entry in own.clone() {
+        let entries = layout.irregular_of[run.batches + index].clone();
+        let (upper, irregular) = factor.rows_of(run, index, entries.clone());
+
+        work.irregular_squares.clear();
+        for entry in entries.clone() {
             let block = schur.block_at(run.irregular_address(entry));
             let IrregularEntry { lane, column, .. } = layout.irregular[entry];
-            let scaled = symmetric_times(&lane_of(inverse, lane), &block);
-            let square = Square::new(symmetric_of_product(&block, &scaled), fill);
+            let scaled = symmetric_times(&extract_lane(inverse, lane), &block);
+            let square = Square::new(upper_half_of_product(&block, &scaled), fill);
             schur.subtract_at(layout.pivots[column as usize], &square.blocks);
-            irregular[entry - own.start] = scaled;
-            irregular_squares.push(square);
+            irregular[entry - entries.start] = scaled;
+            work.irregular_squares.push(square);
         }
+
+        // Numbers of blocks below `count` are diagonals, the others irregular entries.
         let count = run.diagonals.len();
         let of_batch = updates.irregular_of[run.batches + index].clone();
         for &IrregularUpdate { lane, left, right, target } in &updates.irregular[of_batch] {
             let [left, right] = [left as usize, right as usize];
             let address = match left.checked_sub(count) {
                 None => run.address(left, batch.first_row() + lane as usize),
-                Some(entry) => run.irregular_address(own.start + entry),
+                Some(entry) => run.irregular_address(entries.start + entry),
             };
             let block = schur.block_at(address);
             let scaled = match right.checked_sub(count) {
-                None => lane_of(&upper[right], lane),
+                None => extract_lane(&upper[right], lane),
                 Some(entry) => irregular[entry],
             };
             match target {
@@ -317,15 +348,11 @@ impl GroupWork {
                     schur.subtract_at(address, &transposed_times(&block, &scaled));
                 }
                 UpdateTarget::Dropped([left_pivot, right_pivot]) => {
-                    let square = |number: usize| match number.checked_sub(count) {
-                        None => squares[number].lane(lane),
-                        Some(entry) => irregular_squares[entry],
-                    };
                     let replacement = fill.replacement(&DroppedUpdate {
                         left: &block,
                         right: &scaled,
-                        left_square: &square(left),
-                        right_square: &square(right),
+                        left_square: &work.square(left, count, lane),
+                        right_square: &work.square(right, count, lane),
                     });
                     schur.subtract_at(left_pivot, &replacement.left);
                     schur.subtract_at(right_pivot, &replacement.right);

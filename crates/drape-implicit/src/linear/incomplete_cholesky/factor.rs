@@ -9,49 +9,50 @@ use crate::linear::level_schedule::part::Group;
 use crate::linear::level_schedule::run::Run;
 use crate::linear::packed_matrix::PackedMatrix;
 
-/// Factor `Uᵀ D U` of a matrix, with `U` unit upper triangular on the matrix's own sparsity.
+/// Factor `Uᵀ D U` of a matrix. `U` is unit upper triangular with the sparsity of the matrix.
 ///
-/// All but the inverse pivots is in single precision: a preconditioner is bound by memory and needs
-/// no more. Both triangular solves use the same `U`, so the product stays symmetric and positive.
+/// All numbers except the inverse pivots are in single precision: memory access limits the speed of
+/// a preconditioner, which does not need more digits. Both triangular solves use one `U`, so the
+/// product is symmetric and positive.
 #[derive(Debug)]
 pub(crate) struct Factor {
-    /// `U` on diagonals, laid out as the packed matrix is.
+    /// Blocks of `U` on diagonals, in the order of the packed matrix.
     pub upper: Vec<Blocks<Single>>,
     /// Irregular entries of `U`.
     pub irregular: Vec<Blocks<f32>>,
-    /// `D⁻¹`, by batch.
+    /// Inverse pivots `D⁻¹`, by batch.
     pub inverse_pivots: Vec<SymmetricBlocks<Double>>,
-    /// Whether `U` is left out.
+    /// Whether the factor is `D` alone, with the identity as `U`.
     pub is_diagonal: bool,
 }
 
-/// Some consecutive rows of a factor.
+/// Consecutive rows of a factor.
 pub(crate) struct FactorRows<'a> {
     upper: &'a mut [Blocks<Single>],
     irregular: &'a mut [Blocks<f32>],
     inverse_pivots: &'a mut [SymmetricBlocks<Double>],
-    /// First of its blocks, irregular entries and batches in the factor.
+    /// Indices of the first block, irregular entry and batch in the whole factor.
     first: [usize; 3],
 }
 
 impl FactorRows<'_> {
-    /// Splits the rows before those of a group from the others.
+    /// Splits the rows into the rows before `group`, and the rows of `group` and after it.
     pub(crate) fn split_before(self, group: &Group) -> (Self, Self) {
         let Self { upper, irregular, inverse_pivots, first } = self;
         let next = [group.blocks.start, group.irregular.start, group.batches.start];
-        let (upper, more_upper) = upper.split_at_mut(next[0] - first[0]);
-        let (irregular, more_irregular) = irregular.split_at_mut(next[1] - first[1]);
-        let (inverse_pivots, more_pivots) = inverse_pivots.split_at_mut(next[2] - first[2]);
-        let rest = Self {
-            upper: more_upper,
-            irregular: more_irregular,
-            inverse_pivots: more_pivots,
+        let (upper, later_upper) = upper.split_at_mut(next[0] - first[0]);
+        let (irregular, later_irregular) = irregular.split_at_mut(next[1] - first[1]);
+        let (inverse_pivots, later_pivots) = inverse_pivots.split_at_mut(next[2] - first[2]);
+        let later = Self {
+            upper: later_upper,
+            irregular: later_irregular,
+            inverse_pivots: later_pivots,
             first: next,
         };
-        (Self { upper, irregular, inverse_pivots, first }, rest)
+        (Self { upper, irregular, inverse_pivots, first }, later)
     }
 
-    /// Inverse pivots of a batch of a run.
+    /// Returns the inverse pivots of `batch`, counted within `run`.
     #[inline(always)]
     pub(crate) fn inverse_pivot_of(
         &mut self,
@@ -61,14 +62,15 @@ impl FactorRows<'_> {
         &mut self.inverse_pivots[run.batches + batch - self.first[2]]
     }
 
-    /// Blocks of a batch of a run on its diagonals.
+    /// Returns the blocks of `batch`, counted within `run`, on the diagonals.
     #[inline(always)]
     pub(crate) fn upper_of(&mut self, run: &Run, batch: usize) -> &mut [Blocks<Single>] {
         let blocks = run.blocks_of(batch);
         &mut self.upper[blocks.start - self.first[0]..blocks.end - self.first[0]]
     }
 
-    /// Blocks of a batch of a run on its diagonals, and some irregular entries.
+    /// Returns the blocks of `batch`, counted within `run`, on the diagonals, and the given range
+    /// of `irregular` entries.
     #[inline(always)]
     pub(crate) fn rows_of(
         &mut self,
@@ -95,13 +97,13 @@ impl Factor {
         }
     }
 
-    /// All rows.
+    /// Returns all rows of the factor.
     pub(crate) fn rows(&mut self) -> FactorRows<'_> {
         let Self { upper, irregular, inverse_pivots, .. } = self;
         FactorRows { upper, irregular, inverse_pivots, first: [0; 3] }
     }
 
-    /// Makes this the factor of the main diagonal of a matrix alone.
+    /// Sets this factor to the factor of the main diagonal of `packed` alone.
     #[inline(always)]
     pub(crate) fn use_diagonal(&mut self, layout: &BatchLayout, packed: &PackedMatrix) {
         self.is_diagonal = true;

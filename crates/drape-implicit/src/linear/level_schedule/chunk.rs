@@ -1,7 +1,8 @@
-//! Chunks: consecutive runs, about equally many rows each, that threads work on side by side.
+//! Chunks: groups of consecutive runs with about equal numbers of rows. Threads process chunks side
+//! by side.
 //!
-//! What is computed for a chunk depends on the chunk alone, and sums over chunks run in their order,
-//! so the number of threads changes no bit.
+//! The result for a chunk depends on the chunk alone, and sums over chunks run in the order of the
+//! chunks. The number of threads therefore changes no bit.
 
 use core::ops::Range;
 
@@ -10,32 +11,33 @@ use core::ops::Range;
 pub(crate) struct Chunk {
     pub index: usize,
     pub runs: Range<usize>,
-    /// Rows of the runs; of the first and the last chunk with the margins.
+    /// Rows of the runs. The first and the last chunk include the margins.
     pub rows: Range<usize>,
     /// Off-diagonal blocks.
     pub blocks: Range<usize>,
     pub irregular: Range<usize>,
-    /// Rows that the diagonals lead to, its own among them.
+    /// Range of the rows of this chunk and of the columns of its diagonals.
     pub window: Range<usize>,
-    /// Irregular entries of other chunks whose columns are rows of this one, ascending.
+    /// Irregular entries of other chunks whose columns are rows of this chunk, ascending.
     pub incoming: Vec<u32>,
 }
 
-/// Other chunks whose diagonals lead to rows of a chunk, and these rows.
+/// Returns the other chunks whose diagonals lead to rows of the chunk `index`, with these rows.
 pub(crate) fn leading_to(
     chunks: &[Chunk],
     index: usize,
 ) -> impl Iterator<Item = (&Chunk, Range<usize>)> {
     let rows = &chunks[index].rows;
-    let shared = |other: &Chunk| rows.start.max(other.window.start)..rows.end.min(other.window.end);
     let others = chunks.iter().filter(move |other| other.index != index);
-    others.map(move |other| (other, shared(other))).filter(|(_, shared)| !shared.is_empty())
+    others
+        .map(|other| (other, rows.start.max(other.window.start)..rows.end.min(other.window.end)))
+        .filter(|(_, shared)| !shared.is_empty())
 }
 
-/// Output that consecutive chunks write, each its own part.
+/// Output of consecutive chunks. Each chunk writes a separate range of the output.
 pub(crate) trait Split: Sized + Send {
-    /// Splits the output of some chunks from that of the others, which follow them.
-    fn split(self, here: &[Chunk]) -> (Self, Self);
+    /// Splits the output into the output of the `first` chunks and the output of all later chunks.
+    fn split(self, first: &[Chunk]) -> (Self, Self);
 }
 
 /// One value per chunk.
@@ -45,7 +47,7 @@ pub(crate) struct PerChunk<'a, T>(pub &'a mut [T]);
 pub(crate) struct PerRow<'a, T, const N: usize>(pub [&'a mut [T]; N]);
 
 impl<'a, T, const N: usize> PerRow<'a, T, N> {
-    pub(crate) fn of(columns: &'a mut [Vec<T>; N]) -> Self {
+    pub(crate) fn new(columns: &'a mut [Vec<T>; N]) -> Self {
         Self(columns.each_mut().map(|column| &mut column[..]))
     }
 }
@@ -57,56 +59,60 @@ pub(crate) struct PerBlock<'a, T>(pub &'a mut [T]);
 pub(crate) struct PerIrregularEntry<'a, T>(pub &'a mut [T]);
 
 impl<T: Send> Split for PerChunk<'_, T> {
-    fn split(self, here: &[Chunk]) -> (Self, Self) {
-        let (own, rest) = self.0.split_at_mut(here.len());
-        (Self(own), Self(rest))
+    fn split(self, first: &[Chunk]) -> (Self, Self) {
+        let (output, later) = self.0.split_at_mut(first.len());
+        (Self(output), Self(later))
     }
 }
 
 impl<T: Send, const N: usize> Split for PerRow<'_, T, N> {
-    fn split(self, here: &[Chunk]) -> (Self, Self) {
-        let rows = here.iter().map(|chunk| chunk.rows.len()).sum();
-        let mut rest = self.0;
-        let own = core::array::from_fn(|axis| rest[axis].split_off_mut(..rows).unwrap_or_default());
-        (Self(own), Self(rest))
+    fn split(self, first: &[Chunk]) -> (Self, Self) {
+        let rows = first.iter().map(|chunk| chunk.rows.len()).sum();
+        let mut later = self.0;
+        let output =
+            core::array::from_fn(|axis| later[axis].split_off_mut(..rows).unwrap_or_default());
+        (Self(output), Self(later))
     }
 }
 
 impl<T: Send> Split for PerBlock<'_, T> {
-    fn split(self, here: &[Chunk]) -> (Self, Self) {
-        let (own, rest) = self.0.split_at_mut(here.iter().map(|chunk| chunk.blocks.len()).sum());
-        (Self(own), Self(rest))
+    fn split(self, first: &[Chunk]) -> (Self, Self) {
+        let blocks = first.iter().map(|chunk| chunk.blocks.len()).sum();
+        let (output, later) = self.0.split_at_mut(blocks);
+        (Self(output), Self(later))
     }
 }
 
 impl<T: Send> Split for PerIrregularEntry<'_, T> {
-    fn split(self, here: &[Chunk]) -> (Self, Self) {
-        let (own, rest) = self.0.split_at_mut(here.iter().map(|chunk| chunk.irregular.len()).sum());
-        (Self(own), Self(rest))
+    fn split(self, first: &[Chunk]) -> (Self, Self) {
+        let entries = first.iter().map(|chunk| chunk.irregular.len()).sum();
+        let (output, later) = self.0.split_at_mut(entries);
+        (Self(output), Self(later))
     }
 }
 
 impl<A: Split, B: Split> Split for (A, B) {
-    fn split(self, here: &[Chunk]) -> (Self, Self) {
-        let (a, more_a) = self.0.split(here);
-        let (b, more_b) = self.1.split(here);
-        ((a, b), (more_a, more_b))
+    fn split(self, first: &[Chunk]) -> (Self, Self) {
+        let (a, later_a) = self.0.split(first);
+        let (b, later_b) = self.1.split(first);
+        ((a, b), (later_a, later_b))
     }
 }
 
 impl<A: Split, B: Split, C: Split> Split for (A, B, C) {
-    fn split(self, here: &[Chunk]) -> (Self, Self) {
-        let (a, more_a) = self.0.split(here);
-        let (rest, more) = (self.1, self.2).split(here);
-        ((a, rest.0, rest.1), (more_a, more.0, more.1))
+    fn split(self, first: &[Chunk]) -> (Self, Self) {
+        let (a, later_a) = self.0.split(first);
+        let ((b, c), (later_b, later_c)) = (self.1, self.2).split(first);
+        ((a, b, c), (later_a, later_b, later_c))
     }
 }
 
-/// Most rows that one thread works on where each costs little: handing over takes longer.
+/// Largest number of rows for one thread in operations that cost little per row. Dividing fewer
+/// rows among threads takes longer than the operation.
 pub(crate) const LIGHT: usize = 4_096;
 
-/// Works on chunks, each with its own part of the output, on several threads if they have more than
-/// `grain` rows. Threads that have done their chunks take over others'.
+/// Calls `work` for each of `chunks` with the chunk's range of `output`. Chunks with more than
+/// `grain` rows together are divided among threads. Idle threads take chunks from busy ones.
 pub(crate) fn for_each<O: Split>(
     chunks: &[Chunk],
     grain: usize,
@@ -118,14 +124,16 @@ pub(crate) fn for_each<O: Split>(
         [chunk] => work(chunk, output),
         [first, .., last] => {
             let rows = last.rows.end - first.rows.start;
-            let (here, there) = chunks.split_at(chunks.len().div_ceil(2));
-            let (own, rest) = output.split(here);
-            let both = (|| for_each(here, grain, own, work), || for_each(there, grain, rest, work));
+            let (early, late) = chunks.split_at(chunks.len().div_ceil(2));
+            let (early_output, late_output) = output.split(early);
             if rows > grain {
-                rayon::join(both.0, both.1);
+                rayon::join(
+                    || for_each(early, grain, early_output, work),
+                    || for_each(late, grain, late_output, work),
+                );
             } else {
-                both.0();
-                both.1();
+                for_each(early, grain, early_output, work);
+                for_each(late, grain, late_output, work);
             }
         }
     }

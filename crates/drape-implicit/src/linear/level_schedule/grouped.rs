@@ -1,15 +1,15 @@
-//! Grouped items: those of each group one after the other.
+//! Grouped items: a flat list of items ordered by group.
 
-/// Items by group, each group in the order in which they are given.
+/// Items by group, in their given order within each group.
 #[derive(Debug)]
 pub(super) struct Grouped<T> {
-    /// First item of each group, and the end of the last.
+    /// Index of the first item of each group, and the end of the last group.
     first: Vec<usize>,
     items: Vec<T>,
 }
 
 impl<T: Copy + Default> Grouped<T> {
-    /// Items with the numbers of their groups, of which there are so many.
+    /// Groups `items`, which are pairs of a group's number and an item. There are `groups` groups.
     pub(super) fn new(groups: usize, items: impl Iterator<Item = (usize, T)> + Clone) -> Self {
         let mut first = vec![0; groups + 1];
         for (group, _) in items.clone() {
@@ -18,6 +18,7 @@ impl<T: Copy + Default> Grouped<T> {
         for group in 0..groups {
             first[group + 1] += first[group];
         }
+
         let mut end = first.clone();
         let mut sorted = vec![T::default(); first[groups]];
         for (group, item) in items {
@@ -27,7 +28,8 @@ impl<T: Copy + Default> Grouped<T> {
         Self { first, items: sorted }
     }
 
-    pub(super) fn of(&self, group: usize) -> &[T] {
+    /// Returns the items of `group`.
+    pub(super) fn group(&self, group: usize) -> &[T] {
         &self.items[self.first[group]..self.first[group + 1]]
     }
 }

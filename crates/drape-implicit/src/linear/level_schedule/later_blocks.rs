@@ -1,22 +1,23 @@
-//! Later blocks: the off-diagonal blocks of each row whose columns are eliminated after it.
+//! Later blocks: the off-diagonal blocks of each row whose columns are eliminated after the row.
 
 use super::grouped::Grouped;
 use super::row_order::RowOrder;
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
 
-/// Mark of a slot whose block is transposed: its column is eliminated before its row.
+/// Bit of a slot whose block is transposed, because the column of the stored block is eliminated
+/// before its row.
 const TRANSPOSED: u32 = 1 << 31;
 
-/// Block of the matrix, or its transpose.
+/// Slot of a block of the matrix, or of its transpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct BlockSlot(u32);
 
 impl BlockSlot {
-    /// No block: a lane with zeros.
+    /// Marker of a lane without a block, which holds zeros.
     pub(crate) const ABSENT: Self = Self(u32::MAX);
 
-    /// Slot of the matrix.
+    /// Returns the slot of the matrix, without the bit of the transpose.
     #[inline(always)]
     pub(crate) fn slot(self) -> usize {
         (self.0 & !TRANSPOSED) as usize
@@ -27,13 +28,13 @@ impl BlockSlot {
         self != Self::ABSENT && self.0 & TRANSPOSED != 0
     }
 
-    /// Block of the matrix, not transposed, or `none`.
+    /// Returns the stored block, not transposed, or `none` for an absent block.
     #[inline(always)]
     pub(crate) fn stored<'a>(self, blocks: &'a [Block], none: &'a Block) -> &'a Block {
         if self == Self::ABSENT { none } else { &blocks[self.slot()] }
     }
 
-    /// Copy of the block.
+    /// Returns the block from `blocks`, transposed if needed.
     #[inline(always)]
     pub(crate) fn copy(self, blocks: &[Block]) -> Block {
         let stored = self.stored(blocks, &block::ZERO);
@@ -41,14 +42,14 @@ impl BlockSlot {
     }
 }
 
-/// Block of a row and its column.
+/// Off-diagonal block of a row, and its column.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LaterBlock {
     pub slot: BlockSlot,
     pub column: usize,
 }
 
-/// Later blocks of each row.
+/// Returns the later blocks of each row of `order`.
 pub(super) fn later_blocks(sparsity: &Sparsity, order: &RowOrder) -> Grouped<LaterBlock> {
     let blocks = (0..sparsity.particles()).flat_map(|particle| {
         let row = order.row_of[particle] as usize;

@@ -1,21 +1,21 @@
-//! Layout of a sparsity in batches: runs, diagonals, and the place of every block.
+//! Layout of a sparsity in batches: runs, diagonals, and the position of every block.
 
 use core::ops::Range;
 
 use super::chunk::Chunk;
 use super::grouped::Grouped;
 use super::later_blocks::{BlockSlot, LaterBlock, later_blocks};
-use super::part::{Group, Part};
+use super::part::{Group, MatrixPart};
 use super::partition::Partition;
 use super::row_order::{ABSENT, RowOrder};
 use super::run::{BlockAddress, Diagonal, IrregularEntry, Run};
 use crate::linear::lanes::LANES;
 use crate::linear::sparsity::Sparsity;
 
-/// Fewest rows of a chunk, so that its work outweighs handing it to a thread.
+/// Least number of rows of a chunk, so that its work outweighs the cost of a thread's task.
 const MIN_ROWS: usize = 1024;
 
-/// Most chunks of a layout.
+/// Largest number of chunks of a layout.
 const MAX_CHUNKS: usize = 64;
 
 /// Layout of a matrix for elimination in batches.
@@ -27,8 +27,8 @@ pub(crate) struct BatchLayout {
     /// Runs in the order of their rows.
     pub runs: Vec<Run>,
     /// Parts, eliminated side by side.
-    pub parts: Vec<Part>,
-    /// Separators, eliminated one after the other once the parts are.
+    pub parts: Vec<MatrixPart>,
+    /// Separators, eliminated one after another after all parts.
     pub separators: Vec<Group>,
     pub chunks: Vec<Chunk>,
     pub diagonals: Vec<Diagonal>,
@@ -47,27 +47,28 @@ pub(crate) struct BatchLayout {
     pub max_diagonals: usize,
     /// Largest number of irregular entries of a batch.
     pub max_irregular: usize,
-    /// Numbers of all parts in the Schur complement; those of the separators follow.
+    /// Count of the parts' numbers in the Schur complement. The separators' numbers follow.
     pub part_numbers: usize,
 }
 
-/// Distance of a block from the main diagonal, and the run of its column.
+/// Distance of a block from the main diagonal, and the run of the block's column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Distance {
-    /// Whether the block couples a part to a separator: such columns are eliminated last.
+    /// Whether the block couples a part to a separator. Columns of separators are eliminated last.
     crosses: bool,
     offset: isize,
     run: u32,
 }
 
-/// Run whose place among all is not known yet.
-struct FoundRun {
+/// Run without a final index.
+struct UnplacedRun {
     start: usize,
     end: usize,
     diagonals: Vec<Distance>,
 }
 
 impl BatchLayout {
+    /// Returns the layout of `sparsity`, divided by `partition`.
     pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
         let order = RowOrder::new(sparsity, partition);
         let later = later_blocks(sparsity, &order);
@@ -89,6 +90,7 @@ impl BatchLayout {
             max_irregular: 0,
             part_numbers: 0,
         };
+
         layout.find_runs(&later);
         layout.extend_margins();
         layout.find_slots(sparsity, &later);
@@ -100,43 +102,20 @@ impl BatchLayout {
         layout
     }
 
-    /// Divides the levels into runs, the last to be eliminated first, because a diagonal names the
-    /// run that its columns lie in.
+    /// Divides the levels into runs of batches with common diagonals.
     fn find_runs(&mut self, later: &Grouped<LaterBlock>) {
-        let mut found: Vec<FoundRun> = Vec::new();
-        // Counted in the order of finding until all are found.
-        let mut run_of_row = vec![0; self.order.particles.len()];
-        let groups = self.order.levels.len();
-        let separators = (1..groups).step_by(2).rev();
-        for group in separators.chain((0..groups).step_by(2).rev()) {
-            for level in self.order.levels[group].windows(2).rev() {
-                let first = found.len();
-                for start in (level[0]..level[1]).step_by(LANES).rev() {
-                    let own = self.shared_distances(later, start, &run_of_row);
-                    let holds = |b: &[Distance], a: &[Distance]| a.iter().all(|x| b.contains(x));
-                    match found[first..].last_mut() {
-                        Some(run) if holds(&run.diagonals, &own) => run.start = start,
-                        Some(run) if holds(&own, &run.diagonals) => {
-                            run.start = start;
-                            run.diagonals = own;
-                        }
-                        _ => {
-                            let end = start + LANES;
-                            found.push(FoundRun { start, end, diagonals: own });
-                        }
-                    }
-                    run_of_row[start..start + LANES].fill(found.len() as u32 - 1);
-                }
-            }
-        }
-        let mut by_rows: Vec<usize> = (0..found.len()).collect();
-        by_rows.sort_unstable_by_key(|&run| found[run].start);
-        let mut place = vec![0; found.len()];
+        let (runs, mut run_of_row) = self.unplaced_runs(later);
+
+        // Runs are numbered in the order of their rows.
+        let mut by_rows: Vec<usize> = (0..runs.len()).collect();
+        by_rows.sort_unstable_by_key(|&run| runs[run].start);
+        let mut final_index = vec![0; runs.len()];
         for (index, &run) in by_rows.iter().enumerate() {
-            place[run] = index as u32;
+            final_index[run] = index as u32;
         }
+
         for run in by_rows {
-            let FoundRun { start, end, ref diagonals } = found[run];
+            let UnplacedRun { start, end, ref diagonals } = runs[run];
             let (first, count) = (self.diagonals.len(), diagonals.len());
             self.runs.push(Run {
                 start,
@@ -153,24 +132,62 @@ impl BatchLayout {
             self.max_diagonals = self.max_diagonals.max(count);
             self.diagonals.extend(diagonals.iter().map(|&Distance { offset, run, .. }| Diagonal {
                 offset,
-                run: place[run as usize],
+                run: final_index[run as usize],
             }));
         }
-        self.run_of_row = run_of_row
-            .into_iter()
-            .map(|run: u32| place.get(run as usize).copied().unwrap_or(0))
-            .collect();
+
+        for run in &mut run_of_row {
+            *run = final_index.get(*run as usize).copied().unwrap_or(0);
+        }
+        self.run_of_row = run_of_row;
     }
 
-    /// Runs of each part and separator.
+    /// Returns the runs, and the run of each row, numbered in the order in which the runs are
+    /// formed.
+    ///
+    /// The runs that are eliminated last come first, because a diagonal names the run of its
+    /// columns.
+    fn unplaced_runs(&self, later: &Grouped<LaterBlock>) -> (Vec<UnplacedRun>, Vec<u32>) {
+        let mut runs: Vec<UnplacedRun> = Vec::new();
+        let mut run_of_row = vec![0; self.order.particles.len()];
+        let groups = self.order.levels.len();
+        let separators = (1..groups).step_by(2).rev();
+        for group in separators.chain((0..groups).step_by(2).rev()) {
+            for level in self.order.levels[group].windows(2).rev() {
+                let first = runs.len();
+                for start in (level[0]..level[1]).step_by(LANES).rev() {
+                    let shared = self.shared_distances(later, start, &run_of_row);
+                    match runs[first..].last_mut() {
+                        Some(run) if contains_all(&run.diagonals, &shared) => run.start = start,
+                        Some(run) if contains_all(&shared, &run.diagonals) => {
+                            run.start = start;
+                            run.diagonals = shared;
+                        }
+                        _ => {
+                            let end = start + LANES;
+                            runs.push(UnplacedRun { start, end, diagonals: shared });
+                        }
+                    }
+                    run_of_row[start..start + LANES].fill(runs.len() as u32 - 1);
+                }
+            }
+        }
+        (runs, run_of_row)
+    }
+
+    /// Returns the runs of each part and separator.
     fn runs_of_groups(&self) -> Vec<Range<usize>> {
-        let before = |row: usize| self.runs.partition_point(|run| run.start < row);
-        let runs = |levels: &Vec<usize>| before(levels[0])..before(levels[levels.len() - 1]);
-        self.order.levels.iter().map(runs).collect()
+        let groups = self.order.levels.iter();
+        let ends = groups.map(|levels| [levels[0], levels[levels.len() - 1]]);
+        ends.map(|ends| {
+            let [first, end] = ends.map(|row| self.runs.partition_point(|run| run.start < row));
+            first..end
+        })
+        .collect()
     }
 
-    /// Distances that at least two rows of the batch from a row on have in common, in the order in
-    /// which their columns are eliminated.
+    /// Returns the distances with a block in at least two rows of the batch that begins at `start`,
+    /// in the order in which the columns are eliminated.
     fn shared_distances(
         &self,
         later: &Grouped<LaterBlock>,
@@ -180,7 +197,7 @@ impl BatchLayout {
         let is_separator = &self.order.is_separator;
         let mut distances = Vec::new();
         for row in start..start + LANES {
-            for block in later.of(row) {
+            for block in later.group(row) {
                 distances.push(Distance {
                     crosses: is_separator[row] != is_separator[block.column],
                     offset: block.column as isize - row as isize,
@@ -189,25 +206,27 @@ impl BatchLayout {
             }
         }
         distances.sort_unstable();
-        let shared = distances.chunk_by(|a, b| a == b).filter(|same| same.len() > 1);
-        shared.map(|same| same[0]).collect()
+        let shared = distances.chunk_by(|a, b| a == b).filter(|equal| equal.len() > 1);
+        shared.map(|equal| equal[0]).collect()
     }
 
-    /// Adds rows at the end: all batches of a run have blocks at all its distances, and blocks of
-    /// zeros may lead beyond the last row.
+    /// Adds rows at the end. Every batch of a run has blocks on all diagonals of the run, and
+    /// blocks of zeros may lead beyond the last row.
     fn extend_margins(&mut self) {
         for run in &self.runs {
             self.rows = self.rows.max(self.rows_of(run).end);
         }
     }
 
-    /// Gives every block of the sparsity its place, on a diagonal if one leads to its column.
+    /// Assigns every block of `sparsity` to a diagonal that leads to the block's column, or to an
+    /// irregular entry.
     fn find_slots(&mut self, sparsity: &Sparsity, later: &Grouped<LaterBlock>) {
         for index in 0..self.runs.len() {
             let run = self.runs[index].clone();
             self.runs[index].blocks = self.slots.len();
             self.runs[index].batches = self.main_slots.len();
             self.runs[index].irregular = self.irregular.len();
+
             for start in (run.start..run.end).step_by(LANES) {
                 let mut main = [ABSENT; LANES];
                 let mut blocks = vec![[BlockSlot::ABSENT; LANES]; run.diagonals.len()];
@@ -218,7 +237,7 @@ impl BatchLayout {
                     if particle != ABSENT {
                         main[lane] = sparsity.row(particle as usize).start as u32;
                     }
-                    for &LaterBlock { slot, column } in later.of(row) {
+                    for &LaterBlock { slot, column } in later.group(row) {
                         match self.diagonal(&run, row, column) {
                             Some(diagonal) => blocks[diagonal][lane] = slot,
                             None => irregular.push(IrregularEntry {
@@ -229,6 +248,7 @@ impl BatchLayout {
                         }
                     }
                 }
+
                 self.main_slots.push(main);
                 self.slots.append(&mut blocks);
                 self.max_irregular = self.max_irregular.max(irregular.len());
@@ -239,7 +259,7 @@ impl BatchLayout {
         }
     }
 
-    /// Diagonal of a run, counted within it, that leads from a row to a column.
+    /// Returns the diagonal of `run`, counted within the run, that leads from `row` to `column`.
     fn diagonal(&self, run: &Run, row: usize, column: usize) -> Option<usize> {
         self.diagonals[run.diagonals.clone()].iter().position(|d| {
             let run = &self.runs[d.run as usize];
@@ -247,7 +267,8 @@ impl BatchLayout {
         })
     }
 
-    /// Assigns each run its range of numbers of the Schur complement. Those of the parts come first.
+    /// Assigns ranges of numbers of the Schur complement to all runs, first of the parts, then of
+    /// the separators. `runs_of` holds the runs of each group.
     fn find_numbers(&mut self, runs_of: &[Range<usize>]) {
         let parts = runs_of.iter().step_by(2).cloned().flatten();
         self.part_numbers = self.number_runs(parts, 0);
@@ -262,7 +283,8 @@ impl BatchLayout {
         }
     }
 
-    /// Assigns runs their ranges of numbers, from a first number on. Returns the end of all.
+    /// Assigns consecutive ranges of numbers to `runs`, beginning at `first`. Returns the end of
+    /// the last range.
     fn number_runs(&mut self, runs: impl Iterator<Item = usize>, first: usize) -> usize {
         let mut numbers = first;
         for index in runs {
@@ -275,46 +297,53 @@ impl BatchLayout {
         numbers
     }
 
+    /// Finds the parts and the separators. `runs_of` holds the runs of each group.
     fn find_parts(&mut self, runs_of: &[Range<usize>]) {
-        let group = |runs: &Range<usize>| Group::new(&self.runs, runs.clone(), &self.irregular_of);
-        let separators: Vec<Group> = runs_of.iter().skip(1).step_by(2).map(group).collect();
-        let parts = runs_of.iter().step_by(2).map(|runs| self.part(group(runs), &separators));
-        self.parts = parts.collect();
+        let groups = runs_of.iter();
+        let mut parts = Vec::new();
+        let mut separators = Vec::new();
+        for (index, runs) in groups.enumerate() {
+            let group = Group::new(&self.runs, runs.clone(), &self.irregular_of);
+            if index % 2 == 0 { parts.push(group) } else { separators.push(group) }
+        }
+        self.parts = parts.into_iter().map(|part| self.part(part, &separators)).collect();
         self.separators = separators;
     }
 
-    /// Part of some runs, with what it changes of the separators.
-    fn part(&self, own: Group, separators: &[Group]) -> Part {
+    /// Returns the part with the runs of `group`, and the `separators` that its elimination
+    /// changes.
+    fn part(&self, group: Group, separators: &[Group]) -> MatrixPart {
         let mut window: Option<Range<usize>> = None;
-        let mut reached = vec![false; separators.len()];
-        for run in &self.runs[own.runs.clone()] {
+        let mut is_reached = vec![false; separators.len()];
+        for run in &self.runs[group.runs.clone()] {
             let diagonals = &self.diagonals[run.diagonals.clone()];
             for diagonal in &diagonals[run.crossing..] {
                 let rows = diagonal.column(run.start)..diagonal.column(run.end);
                 include(window.get_or_insert(rows.clone()), rows);
             }
             for target in self.targets(run) {
-                let holds = |separator: &Group| separator.runs.contains(&target);
-                if let Some(separator) = separators.iter().position(holds) {
-                    reached[separator] = true;
+                for (is_reached, separator) in is_reached.iter_mut().zip(separators) {
+                    *is_reached |= separator.runs.contains(&target);
                 }
             }
         }
-        let reached = || separators.iter().zip(&reached).filter(|pair| *pair.1).map(|pair| pair.0);
+
+        let mut rows = Vec::new();
         let mut numbers: Option<Range<usize>> = None;
-        for separator in reached() {
+        for (separator, _) in separators.iter().zip(is_reached).filter(|pair| pair.1) {
+            rows.push(separator.rows.clone());
             include(window.get_or_insert(separator.rows.clone()), separator.rows.clone());
             include(numbers.get_or_insert(separator.numbers.clone()), separator.numbers.clone());
         }
-        Part {
+        MatrixPart {
             window: window.unwrap_or_default(),
-            separators: reached().map(|separator| separator.rows.clone()).collect(),
+            separators: rows,
             separator_numbers: numbers.unwrap_or_default(),
-            own,
+            group,
         }
     }
 
-    /// Runs that the columns of a run lie in.
+    /// Returns the runs of the columns of `run`, in any order and with repeats.
     fn targets(&self, run: &Run) -> impl Iterator<Item = usize> {
         let diagonals = self.diagonals[run.diagonals.clone()].iter().map(|d| d.run);
         let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
@@ -323,7 +352,7 @@ impl BatchLayout {
         diagonals.chain(columns).map(|target| target as usize)
     }
 
-    /// Rows of a run and those that its diagonals lead to.
+    /// Returns the range of the rows of `run` and of the columns of its diagonals.
     fn rows_of(&self, run: &Run) -> Range<usize> {
         let mut rows = run.start..run.end;
         for diagonal in &self.diagonals[run.diagonals.clone()] {
@@ -332,8 +361,9 @@ impl BatchLayout {
         rows
     }
 
+    /// Finds the look-ahead of each run.
     fn find_look_ahead(&mut self) {
-        let groups = self.parts.iter().map(|part| &part.own).chain(&self.separators);
+        let groups = self.parts.iter().map(|part| &part.group).chain(&self.separators);
         for group in groups.cloned().collect::<Vec<_>>() {
             let mut look_ahead = 0;
             for index in group.runs.clone() {
@@ -358,11 +388,13 @@ impl BatchLayout {
                 first = last + 1;
             }
         }
+
         if let [first, ..] = &mut chunks[..] {
             first.rows.start = 0;
             first.window.start = 0;
         }
         self.chunks = chunks;
+
         for index in 0..self.irregular.len() {
             let target = self.chunk_of(self.irregular[index].column as usize);
             let target = &mut self.chunks[target];
@@ -372,7 +404,7 @@ impl BatchLayout {
         }
     }
 
-    /// Chunk of some runs, without what comes in.
+    /// Returns the chunk of `runs`, without the incoming entries of other chunks.
     fn chunk(&self, runs: Range<usize>) -> Chunk {
         let Group { blocks, irregular, .. } =
             Group::new(&self.runs, runs.clone(), &self.irregular_of);
@@ -385,33 +417,37 @@ impl BatchLayout {
         Chunk { index: 0, rows, blocks, irregular, window, incoming: Vec::new(), runs }
     }
 
-    /// Number of the chunk that a row lies in.
+    /// Returns the index of the chunk of `row`.
     pub(crate) fn chunk_of(&self, row: usize) -> usize {
         self.chunks.partition_point(|chunk| chunk.rows.end <= row)
     }
 
-    /// Number of the chunk that an irregular entry lies in.
+    /// Returns the index of the chunk of the irregular entry `index`.
     pub(crate) fn chunk_of_entry(&self, index: usize) -> usize {
         self.chunks.partition_point(|chunk| chunk.irregular.end <= index)
     }
 
-    /// Address in the Schur complement of the block of a row and a later one, if the sparsity has
-    /// it.
+    /// Returns the address in the Schur complement of the block of `row` and a later `column`, if
+    /// the sparsity has this block.
     pub(crate) fn address(&self, row: usize, column: usize) -> Option<BlockAddress> {
         let run = &self.runs[self.run_of_row[row] as usize];
         if let Some(diagonal) = self.diagonal(run, row, column) {
             return Some(run.address(diagonal, row));
         }
         let range = self.irregular_of[run.batches + (row - run.start) / LANES].clone();
-        let is = |entry: &IrregularEntry| {
+        let index = self.irregular[range.clone()].iter().position(|entry| {
             entry.column as usize == column && entry.lane as usize == row % LANES
-        };
-        let index = self.irregular[range.clone()].iter().position(is)?;
+        })?;
         Some(run.irregular_address(range.start + index))
     }
 }
 
-/// Widens a range so that it includes another.
+/// Returns whether `distances` contain all of `others`.
+fn contains_all(distances: &[Distance], others: &[Distance]) -> bool {
+    others.iter().all(|other| distances.contains(other))
+}
+
+/// Widens `range` so that it includes `other`.
 fn include(range: &mut Range<usize>, other: Range<usize>) {
     *range = range.start.min(other.start)..range.end.max(other.end);
 }

@@ -7,11 +7,12 @@ use crate::linear::sparsity::Sparsity;
 pub(super) struct Levels {
     /// Particles coupled to each particle.
     neighbours: Grouped<u32>,
-    /// Level of each particle of the group in hand, none for all others.
+    /// Level of each particle of the current group, `None` for all other particles.
     level_of: Vec<Option<u32>>,
 }
 
 impl Levels {
+    /// Collects the neighbours of each particle of `sparsity`.
     pub(super) fn new(sparsity: &Sparsity) -> Self {
         let count = sparsity.particles();
         let pairs = (0..count).flat_map(|particle| {
@@ -21,25 +22,27 @@ impl Levels {
         Self { neighbours: Grouped::new(count, pairs), level_of: vec![None; count] }
     }
 
-    /// Particles of each level of a group, ascending. The group is given in the order of elimination;
-    /// couplings to other groups do not count.
-    pub(super) fn of(&mut self, group: &[u32]) -> Vec<Vec<u32>> {
+    /// Returns the particles of each level of `group`, ascending within each level. `group` lists
+    /// its particles in the order of elimination. Couplings to other groups do not count.
+    pub(super) fn levels_of(&mut self, group: &[u32]) -> Vec<Vec<u32>> {
         let Self { neighbours, level_of } = self;
         let mut levels: Vec<Vec<u32>> = Vec::new();
         for &particle in group {
-            let near = neighbours.of(particle as usize).iter();
-            let earlier = near.filter_map(|&other| level_of[other as usize]);
-            let own = earlier.max().map_or(0, |level| level + 1);
-            level_of[particle as usize] = Some(own);
-            if own as usize >= levels.len() {
-                levels.resize(own as usize + 1, Vec::new());
+            let neighbours = neighbours.group(particle as usize).iter();
+            let earlier = neighbours.filter_map(|&neighbour| level_of[neighbour as usize]);
+            let level = earlier.max().map_or(0, |last| last + 1);
+            level_of[particle as usize] = Some(level);
+            if level as usize >= levels.len() {
+                levels.resize(level as usize + 1, Vec::new());
             }
-            levels[own as usize].push(particle);
+            levels[level as usize].push(particle);
         }
+
         for &particle in group {
             level_of[particle as usize] = None;
         }
-        // Else no diagonal would lead from a part that is eliminated backwards to a separator.
+        // Without ascending order no diagonal would lead from a part that is eliminated backwards
+        // to a separator.
         levels.iter_mut().for_each(|level| level.sort_unstable());
         levels
     }

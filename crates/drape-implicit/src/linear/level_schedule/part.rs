@@ -1,4 +1,5 @@
-//! Parts and separators of a layout: consecutive runs, with the rows and numbers that they change.
+//! Parts and separators of a layout: consecutive runs, with the rows and numbers that the runs
+//! change.
 
 use core::ops::Range;
 
@@ -18,49 +19,52 @@ pub(crate) struct Group {
     pub numbers: Range<usize>,
 }
 
-/// Part, and what its elimination changes of separators.
+/// Part of a matrix that is eliminated beside the other parts, and the separators that its
+/// elimination changes.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Part {
-    pub own: Group,
-    /// Range of rows of the separators that it is coupled to, with a margin for blocks of zeros.
+pub(crate) struct MatrixPart {
+    /// Runs of the part.
+    pub group: Group,
+    /// Range of rows of the separators coupled to the part, with a margin for blocks of zeros.
     pub window: Range<usize>,
-    /// Rows of the separators that it is coupled to.
+    /// Rows of each separator coupled to the part.
     pub separators: Vec<Range<usize>>,
-    /// Numbers of these separators in the Schur complement, with those between them.
+    /// Range of numbers in the Schur complement from the first to the last of `separators`.
     pub separator_numbers: Range<usize>,
 }
 
 impl Group {
-    /// Group of some runs, of all of a layout; they may be none. `irregular_of` holds the irregular
-    /// entries of each batch.
+    /// Returns the group of the range `runs` of `all` runs of a layout. The range may be empty.
+    /// `irregular_of` holds the irregular entries of each batch.
     pub(super) fn new(all: &[Run], runs: Range<usize>, irregular_of: &[Range<usize>]) -> Self {
-        let [start, end] = [runs.start, runs.end].map(|run| Place::of(all, run, irregular_of));
-        let own = &all[runs.clone()];
+        let [start, end] = [runs.start, runs.end].map(|run| RunStart::new(all, run, irregular_of));
+        let group = &all[runs.clone()];
         Self {
-            rows: start.row..own.last().map_or(start.row, |last| last.end),
+            rows: start.row..group.last().map_or(start.row, |last| last.end),
             batches: start.batch..end.batch,
             blocks: start.block..end.block,
             irregular: start.irregular..end.irregular,
-            numbers: match own {
+            numbers: match group {
                 [] => 0..0,
-                [first, ..] => first.numbers..own[own.len() - 1].numbers_end,
+                [first, ..] => first.numbers..group[group.len() - 1].numbers_end,
             },
             runs,
         }
     }
 }
 
-/// Place where a run begins, or the last one ends.
+/// First row, batch, block and irregular entry of a run, or their ends after the last run.
 #[derive(Default)]
-struct Place {
+struct RunStart {
     row: usize,
     batch: usize,
     block: usize,
     irregular: usize,
 }
 
-impl Place {
-    fn of(all: &[Run], run: usize, irregular_of: &[Range<usize>]) -> Self {
+impl RunStart {
+    /// Returns the start of the run with the index `run` of `all`, or the end of the last run.
+    fn new(all: &[Run], run: usize, irregular_of: &[Range<usize>]) -> Self {
         if let Some(Run { start, batches, blocks, irregular, .. }) = all.get(run) {
             return Self { row: *start, batch: *batches, block: *blocks, irregular: *irregular };
         }
@@ -70,7 +74,7 @@ impl Place {
                 row: last.end,
                 batch: last.batches + batches,
                 block: last.blocks_of(batches).start,
-                irregular: irregular_of.last().map_or(0, |own| own.end),
+                irregular: irregular_of.last().map_or(0, |entries| entries.end),
             }
         })
     }

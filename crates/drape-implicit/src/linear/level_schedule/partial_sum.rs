@@ -1,14 +1,16 @@
-//! Partial sums: what one chunk adds to its own rows and to others'.
+//! Partial sums: contributions of one chunk to its rows and to the rows of other chunks.
 
 use super::chunk::{Chunk, leading_to};
 use crate::linear::lanes::Double;
 use crate::linear::vector::add_scaled;
 
-/// Sum of what a chunk adds to the rows of its window: its own and those that its diagonals lead to.
+/// Contributions of a chunk to the rows of its window, with `N` numbers per row. The window holds
+/// the rows of the chunk and the columns of its diagonals.
 #[derive(Clone, Debug)]
 pub(crate) struct PartialSum<const N: usize>(pub [Vec<f64>; N]);
 
 impl<const N: usize> PartialSum<N> {
+    /// Allocates zeros for the window of `chunk`.
     pub(crate) fn new(chunk: &Chunk) -> Self {
         Self(core::array::from_fn(|_| vec![0.0; chunk.window.len()]))
     }
@@ -19,8 +21,8 @@ impl<const N: usize> PartialSum<N> {
         }
     }
 
-    /// Adds one number per axis and lane to a batch of rows. The first row is counted within the
-    /// window.
+    /// Adds `batch`, one number per column and lane, to a batch of rows. `first` is the first row,
+    /// counted within the window.
     #[inline(always)]
     pub(crate) fn add_batch(&mut self, first: usize, batch: [Double; N]) {
         for (column, lanes) in self.0.iter_mut().zip(batch) {
@@ -28,7 +30,7 @@ impl<const N: usize> PartialSum<N> {
         }
     }
 
-    /// Adds one number per axis to a row, which is counted within the window.
+    /// Adds `numbers`, one per column, to `row`, counted within the window.
     #[inline(always)]
     pub(crate) fn add(&mut self, row: usize, numbers: [f64; N]) {
         for (column, number) in self.0.iter_mut().zip(numbers) {
@@ -37,10 +39,10 @@ impl<const N: usize> PartialSum<N> {
     }
 }
 
-/// Adds to the rows of a chunk what other chunks add to them, times a factor. `sums` are those of
-/// all chunks.
+/// Adds the contributions of all other chunks to the `rows` of `chunk`, times `factor`. `sums`
+/// returns the partial sums of a chunk.
 #[inline(always)]
-pub(crate) fn add_others<'a, const N: usize>(
+pub(crate) fn add_from_other_chunks<'a, const N: usize>(
     rows: &mut [&mut [f64]; N],
     factor: f64,
     (chunks, chunk): (&[Chunk], &Chunk),
@@ -54,17 +56,19 @@ pub(crate) fn add_others<'a, const N: usize>(
     }
 }
 
-/// Product of a chunk's blocks with a vector.
+/// Contribution of a chunk's blocks to the product of the matrix and a vector.
 #[derive(Debug)]
 pub(crate) struct PartialProduct {
     pub rows: PartialSum<3>,
-    /// What each irregular entry adds to its column, where that is not a row of the chunk.
+    /// Contribution of each irregular entry to the row of its column, if this row is outside the
+    /// chunk.
     pub pushes: Vec<[f64; 3]>,
-    /// Dot product with the vector.
+    /// Dot product of the contribution with the vector.
     pub curvature: f64,
 }
 
 impl PartialProduct {
+    /// Allocates zeros for `chunk`.
     pub(crate) fn new(chunk: &Chunk) -> Self {
         Self {
             rows: PartialSum::new(chunk),

@@ -1,40 +1,42 @@
-//! Partition: particles in parts that are eliminated side by side, with separators between them.
+//! Partition: division of the particles into parts, which are eliminated side by side, and
+//! separators between the parts.
 
 use super::levels::Levels;
 use crate::linear::sparsity::Sparsity;
 
-/// Most particles of a part.
-const PART: usize = 16_000;
+/// Largest number of particles of a part, as long as there are fewer than [`MAX_PARTS`] parts.
+const MAX_PARTICLES: usize = 16_000;
 
-/// Most parts.
+/// Largest number of parts.
 const MAX_PARTS: usize = 16;
 
 /// Parts and separators of a sparsity.
 ///
-/// Consecutive levels of the particles' own order make a part, about equally many particles each. A
-/// separator holds the particles of a part that are coupled to later parts. Without them no two
-/// parts are coupled: this is a dissection \[Geo73\] along one direction. Cuts along levels leave the
-/// diagonals of the runs whole: with cuts across a sheet curtain and swing of 40 000 particles took 1.6
-/// and 1.4 times as long in eight parts as in one, at as many iterations.
+/// A part consists of consecutive levels in the order of the particles' numbers. All parts have
+/// about equally many particles. A separator holds the particles of a part that are coupled to
+/// later parts. Without the separators no two parts are coupled: this is a dissection \[Geo73\]
+/// along one direction. Cuts along levels leave the diagonals of the runs whole. With cuts across a
+/// sheet, a curtain and a swing of 40 000 particles took 1.6 and 1.4 times as long in eight parts
+/// as in one, with equally many iterations.
 ///
-/// Parts are for stabilised factors with a coarse level: in 2, 4 and 8 parts these two took 0 to 10 %
-/// more iterations. With compensated factors those of 10 000 took a quarter more in two parts and
-/// twice as many in four.
+/// Parts suit stabilised factors with a coarse level: in 2, 4 and 8 parts, curtain and swing took 0
+/// to 10 % more iterations. Compensated factors of 10 000 particles took a quarter more iterations
+/// in two parts, and twice as many in four.
 #[derive(Debug)]
 pub(crate) struct Partition {
-    /// Parts and, between them, separators; each with its particles in the order of elimination.
-    /// All parts are eliminated before the first separator.
+    /// Parts, with a separator after each part except the last. Each group lists its particles in
+    /// the order of elimination. All parts are eliminated before the first separator.
     pub groups: Vec<Vec<u32>>,
 }
 
 impl Partition {
-    /// Partition of a large matrix: a function of its sparsity, never of the threads.
+    /// Returns the partition of a large matrix, a function of `sparsity` and never of the threads.
     pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let parts = sparsity.particles().div_ceil(PART).next_power_of_two();
+        let parts = sparsity.particles().div_ceil(MAX_PARTICLES).next_power_of_two();
         Self::into_parts(sparsity, parts.clamp(2, MAX_PARTS))
     }
 
-    /// Partition into a number of parts.
+    /// Returns the partition of `sparsity` into `count` parts.
     pub(crate) fn into_parts(sparsity: &Sparsity, count: usize) -> Self {
         let part_of = parts(sparsity, count);
         let mut separates = vec![false; part_of.len()];
@@ -47,12 +49,14 @@ impl Partition {
                 }
             }
         }
+
         let mut groups = vec![Vec::new(); 2 * count - 1];
         for (particle, &part) in part_of.iter().enumerate() {
             groups[2 * part + usize::from(separates[particle])].push(particle as u32);
         }
-        // Backwards, so that the elimination of a part ends at a separator, and does not begin there:
-        // the factor is better.
+
+        // Elimination backwards ends at a separator instead of beginning there, which gives a
+        // better factor.
         for part in 1..count {
             if part % 2 == 1 || part + 1 == count {
                 groups[2 * part].reverse();
@@ -62,16 +66,17 @@ impl Partition {
     }
 }
 
-/// Part of each particle. A part is a range of levels; all have about equally many particles.
+/// Returns the number of the part of each particle, for `count` parts. A part is a range of levels.
+/// All parts have about equally many particles.
 fn parts(sparsity: &Sparsity, count: usize) -> Vec<usize> {
     let particles = sparsity.particles();
     let all: Vec<u32> = (0..particles as u32).collect();
     let mut part_of = vec![0; particles];
-    let mut before = 0;
-    for level in Levels::new(sparsity).of(&all) {
-        let part = before * count / particles;
+    let mut earlier_particles = 0;
+    for level in Levels::new(sparsity).levels_of(&all) {
+        let part = earlier_particles * count / particles;
         level.iter().for_each(|&particle| part_of[particle as usize] = part);
-        before += level.len();
+        earlier_particles += level.len();
     }
     part_of
 }

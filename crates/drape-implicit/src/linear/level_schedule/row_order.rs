@@ -1,4 +1,4 @@
-//! Rows of the elimination: the particles by level, each level padded to whole batches.
+//! Rows of the elimination: the particles ordered by level, each level padded to whole batches.
 
 use super::levels::Levels;
 use super::partition::Partition;
@@ -8,7 +8,7 @@ use crate::linear::sparsity::Sparsity;
 /// Marker of a row without a particle, a lane without a block, or a block outside the sparsity.
 pub(crate) const ABSENT: u32 = u32::MAX;
 
-/// Rows of the particles: parts and separators one after the other, each by levels.
+/// Rows of the particles: parts and separators one after another, each ordered by level.
 #[derive(Debug)]
 pub(crate) struct RowOrder {
     /// Row of each particle.
@@ -22,12 +22,14 @@ pub(crate) struct RowOrder {
 }
 
 impl RowOrder {
+    /// Returns the rows of the particles of `sparsity`, divided by `partition`.
     pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
         let mut levels = Levels::new(sparsity);
-        let groups = partition.groups.iter().map(|group| levels.of(group));
+        let groups = partition.groups.iter().map(|group| levels.levels_of(group));
         let groups: Vec<Vec<Vec<u32>>> = groups.collect();
-        // The blocks of zeros of a batch may lead as far beyond its target as its run is long. Beside
-        // other groups they must not meet these.
+
+        // The blocks of zeros of a batch may extend beyond the target by the length of the run. The
+        // margin keeps these blocks out of neighbouring groups.
         let longest = groups.iter().flatten().map(Vec::len).max().unwrap_or(0);
         let margin = if groups.len() == 1 { 0 } else { longest.next_multiple_of(LANES) };
         let mut order = Self {
@@ -36,6 +38,7 @@ impl RowOrder {
             levels: Vec::new(),
             is_separator: Vec::new(),
         };
+
         for (index, group) in groups.into_iter().enumerate() {
             order.add_group(group);
             order.particles.resize(order.particles.len() + margin, ABSENT);
@@ -46,6 +49,7 @@ impl RowOrder {
         order
     }
 
+    /// Adds the rows of a group with the given `levels`.
     fn add_group(&mut self, levels: Vec<Vec<u32>>) {
         let mut starts = Vec::with_capacity(levels.len() + 1);
         for level in levels {
@@ -60,7 +64,7 @@ impl RowOrder {
         self.levels.push(starts);
     }
 
-    /// Key that ascends in the order of elimination.
+    /// Returns a key of `row` that ascends in the order of elimination.
     #[inline]
     pub(crate) fn rank(&self, row: usize) -> (bool, usize) {
         (self.is_separator[row], row)

@@ -6,58 +6,63 @@ use core::ops::Range;
 use super::later_blocks::BlockSlot;
 use crate::linear::lanes::LANES;
 
-/// Batches of a level that share their diagonals.
+/// Batches of a level with common diagonals.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
+    /// First row.
     pub start: usize,
+    /// End of the rows.
     pub end: usize,
+    /// Indices of the diagonals.
     pub diagonals: Range<usize>,
-    /// First of these, counted within the run, that leads from a part to a separator.
+    /// First diagonal, counted within the run, that leads from a part to a separator.
     pub crossing: usize,
-    /// First of its off-diagonal blocks, which are ordered by batch, then by diagonal.
+    /// Index of the first off-diagonal block. Blocks are ordered by batch, then by diagonal.
     pub blocks: usize,
-    /// First of its batches.
+    /// Index of the first batch.
     pub batches: usize,
-    /// First of its numbers in the Schur complement: six columns of its rows for the pivots, then
-    /// nine for each diagonal, then nine numbers for each irregular entry.
+    /// Index of the first number in the Schur complement. The pivots have six columns with one
+    /// number per row of the run. Then each diagonal has nine such columns, and each irregular
+    /// entry nine numbers.
     pub numbers: usize,
+    /// End of the numbers in the Schur complement.
     pub numbers_end: usize,
-    /// First of its irregular entries.
+    /// Index of the first irregular entry.
     pub irregular: usize,
-    /// Look-ahead: number of runs, counted from the first of all, that the elimination of this run
-    /// and of those before it in its part reads or changes within the part.
+    /// Look-ahead: end of the runs that the elimination of this run, and of earlier runs of the
+    /// part, reads or changes within the part.
     pub look_ahead: usize,
 }
 
 impl Run {
-    /// Number of rows.
+    /// Returns the number of rows.
     #[inline(always)]
     pub(crate) fn len(&self) -> usize {
         self.end - self.start
     }
 
-    /// Indices of the off-diagonal blocks of a batch.
+    /// Returns the indices of the off-diagonal blocks of `batch`, counted within the run.
     #[inline(always)]
     pub(crate) fn blocks_of(&self, batch: usize) -> Range<usize> {
         let first = self.blocks + batch * self.diagonals.len();
         first..first + self.diagonals.len()
     }
 
-    /// Index in the Schur complement of the first number of a batch on a diagonal, both counted
-    /// within the run.
+    /// Returns the index in the Schur complement of the first number of `batch` on `diagonal`, both
+    /// counted within the run.
     #[inline(always)]
     pub(crate) fn number(&self, diagonal: usize, batch: usize) -> usize {
         self.numbers + (6 + 9 * diagonal) * self.len() + batch * LANES
     }
 
-    /// Address of the block of a row on a diagonal.
+    /// Returns the address of the block of `row` on `diagonal`, counted within the run.
     #[inline(always)]
     pub(crate) fn address(&self, diagonal: usize, row: usize) -> BlockAddress {
         let first = self.number(diagonal, 0) + row - self.start;
         BlockAddress { first: first as u32, stride: self.len() as u32 }
     }
 
-    /// Address of an irregular entry.
+    /// Returns the address of the irregular entry `index`.
     #[inline(always)]
     pub(crate) fn irregular_address(&self, index: usize) -> BlockAddress {
         let first = self.number(self.diagonals.len(), 0) + 9 * (index - self.irregular);
@@ -65,17 +70,17 @@ impl Run {
     }
 }
 
-/// Off-diagonal blocks of the rows of a run, all at one distance from their columns.
+/// Off-diagonal blocks of the rows of a run with one distance between row and column.
 #[derive(Clone, Debug)]
 pub(crate) struct Diagonal {
-    /// Column less row. Negative where a separator lies before the part.
+    /// Column less row, negative if a separator lies before the part.
     pub offset: isize,
-    /// Run that the columns lie in.
+    /// Run of the columns.
     pub run: u32,
 }
 
 impl Diagonal {
-    /// Column of a row.
+    /// Returns the column of the block in `row`.
     #[inline(always)]
     pub(crate) fn column(&self, row: usize) -> usize {
         row.wrapping_add_signed(self.offset)
@@ -85,14 +90,15 @@ impl Diagonal {
 /// Off-diagonal block on no diagonal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IrregularEntry {
-    /// Row, counted within its batch.
+    /// Row, counted within the batch.
     pub lane: u32,
-    /// Row of its column.
+    /// Column, as a row of the layout.
     pub column: u32,
     pub slot: BlockSlot,
 }
 
-/// Place of a single block in the Schur complement: its numbers are a stride apart.
+/// Address of a block in the Schur complement. Its numbers begin at `first` and are a `stride`
+/// apart.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BlockAddress {
     pub first: u32,

@@ -1,4 +1,4 @@
-//! Updates of the elimination: which products of blocks are subtracted from which later blocks.
+//! Updates of the elimination: products of blocks that are subtracted from later blocks.
 
 use core::ops::Range;
 
@@ -9,49 +9,53 @@ use super::run::{BlockAddress, Run};
 use crate::linear::lanes::LANES;
 use crate::linear::sparsity::Sparsity;
 
-/// Updates of all runs, by diagonal, and of single lanes, by batch.
+/// Updates of whole diagonals, and updates of single lanes.
 #[derive(Debug, Default)]
 pub(crate) struct UpdateTable {
+    /// Updates of whole diagonals, ordered by diagonal.
     pub regular: Vec<Update>,
-    /// Updates of each diagonal with the later diagonals of its run. Each block also updates the
-    /// pivots of its column.
+    /// Updates of each diagonal with later diagonals of its run. Each block also updates the pivot
+    /// of its column.
     pub regular_of: Vec<Range<usize>>,
+    /// Updates of single lanes, ordered by batch.
     pub irregular: Vec<IrregularUpdate>,
     /// Updates of single lanes of each batch.
     pub irregular_of: Vec<Range<usize>>,
 }
 
-/// Product of the blocks of a diagonal and those of another one of its run, subtracted from a
-/// third.
+/// Products of the blocks on two diagonals of a run, subtracted from the blocks on a third
+/// diagonal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Update {
-    /// The other diagonal, counted within the run.
+    /// Second diagonal, counted within the run.
     pub right: u32,
-    /// The third diagonal, counted within the run of the first one's columns, or [`ABSENT`].
+    /// Third diagonal, counted within the run of the first diagonal's columns, or [`ABSENT`].
     pub target: u32,
 }
 
-/// Product of two blocks of a lane, subtracted from a third one.
+/// Product of two blocks of a lane, subtracted from a third block.
 ///
-/// Blocks are numbered: the diagonals of the run first, then the irregular entries of the batch.
+/// Blocks are numbered: first the diagonals of the run, then the irregular entries of the batch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IrregularUpdate {
     pub lane: u32,
     /// Block whose column is eliminated first.
     pub left: u32,
+    /// Block whose column is eliminated second.
     pub right: u32,
     pub target: UpdateTarget,
 }
 
-/// Block that an update is subtracted from.
+/// Block from which an update is subtracted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum UpdateTarget {
+    /// Block of the sparsity.
     Block(BlockAddress),
-    /// Pivots of both columns, in place of a block that is not in the sparsity.
+    /// Pivots of both columns, in place of a block outside the sparsity.
     Dropped([BlockAddress; 2]),
 }
 
-/// Off-diagonal block of a lane, numbered as in [`IrregularUpdate`], and its column.
+/// Number of an off-diagonal block of a lane, as in [`IrregularUpdate`], and the block's column.
 #[derive(Clone, Copy)]
 struct LaneBlock {
     number: usize,
@@ -62,6 +66,7 @@ struct LaneBlock {
 type DiagonalPair = [usize; 2];
 
 impl UpdateTable {
+    /// Returns the updates of the elimination of `sparsity` in `layout`.
     pub(crate) fn new(sparsity: &Sparsity, layout: &BatchLayout) -> Self {
         let mut table = Self::default();
         for run in &layout.runs {
@@ -77,8 +82,8 @@ impl UpdateTable {
         table
     }
 
-    /// Adds the updates of pairs of diagonals of a run. Returns the pairs whose product is a block
-    /// of the sparsity on no diagonal, in some lane at least.
+    /// Adds the updates of pairs of diagonals of `run`. Returns the pairs whose product is, in at
+    /// least one lane, a block of `sparsity` on no diagonal.
     fn add_regular(
         &mut self,
         sparsity: &Sparsity,
@@ -88,22 +93,27 @@ impl UpdateTable {
         let particles = &layout.order.particles;
         let first_diagonal = run.diagonals.start;
         let mut by_lane = Vec::new();
+
         for left in run.diagonals.clone() {
             let first = self.regular.len();
             let a = &layout.diagonals[left];
-            let others = &layout.diagonals[layout.runs[a.run as usize].diagonals.clone()];
+            let targets = &layout.diagonals[layout.runs[a.run as usize].diagonals.clone()];
             for right in left + 1..run.diagonals.end {
                 let b = &layout.diagonals[right];
-                let target = others
+                let target = targets
                     .iter()
                     .position(|d| d.run == b.run && a.offset + d.offset == b.offset)
-                    .map_or(ABSENT, |place| place as u32);
-                let coupled = |row: usize| {
-                    let ends = [a.column(row), b.column(row)].map(|row| particles.get(row));
-                    matches!(ends, [Some(&a), Some(&b)] if a != ABSENT && b != ABSENT
-                        && sparsity.slot(a as usize, b as usize).is_some())
-                };
-                if target == ABSENT && (run.start..run.end).any(coupled) {
+                    .map_or(ABSENT, |index| index as u32);
+
+                // Without a diagonal for the product, lanes may still have irregular entries for
+                // it.
+                let has_irregular_target = target == ABSENT
+                    && (run.start..run.end).any(|row| {
+                        let ends = [a.column(row), b.column(row)].map(|row| particles.get(row));
+                        matches!(ends, [Some(&a), Some(&b)] if a != ABSENT && b != ABSENT
+                            && sparsity.slot(a as usize, b as usize).is_some())
+                    });
+                if has_irregular_target {
                     by_lane.push([left - first_diagonal, right - first_diagonal]);
                 } else {
                     self.regular.push(Update { right: (right - first_diagonal) as u32, target });
@@ -114,8 +124,8 @@ impl UpdateTable {
         by_lane
     }
 
-    /// Adds the updates of a row, counted within its run: of the given pairs of diagonals, and of
-    /// all pairs with irregular entries in them.
+    /// Adds the updates of `row`, counted within `run`: the pairs of diagonals in `by_lane`, and
+    /// all pairs with irregular entries.
     fn add_irregular(
         &mut self,
         layout: &BatchLayout,
@@ -127,6 +137,8 @@ impl UpdateTable {
         if layout.order.particles[row] == ABSENT {
             return;
         }
+
+        // Blocks of the row: diagonals first, then irregular entries.
         let count = run.diagonals.len();
         let slots = &layout.slots[run.blocks_of(batch)];
         let diagonals = layout.diagonals[run.diagonals.clone()].iter().zip(slots).enumerate();
@@ -135,13 +147,15 @@ impl UpdateTable {
             .map(|(number, (diagonal, _))| LaneBlock { number, column: diagonal.column(row) })
             .collect();
         let entries = &layout.irregular[layout.irregular_of[run.batches + batch].clone()];
-        let own = entries.iter().enumerate().filter(|(_, entry)| entry.lane as usize == lane);
-        blocks.extend(own.map(|(index, entry)| LaneBlock {
+        let lane_entries =
+            entries.iter().enumerate().filter(|(_, entry)| entry.lane as usize == lane);
+        blocks.extend(lane_entries.map(|(index, entry)| LaneBlock {
             number: count + index,
             column: entry.column as usize,
         }));
-        for (before, &later) in blocks.iter().enumerate() {
-            for &earlier in &blocks[..before] {
+
+        for (index, &later) in blocks.iter().enumerate() {
+            for &earlier in &blocks[..index] {
                 if later.number < count && !by_lane.contains(&[earlier.number, later.number]) {
                     continue;
                 }
