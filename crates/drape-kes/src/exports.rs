@@ -1,4 +1,5 @@
-//! Files of a laboratory made into sheets: a workbook, a folder of exports, an archive in, a commented `sheet.toml` out.
+//! Files of a laboratory made into sheets: a workbook, a folder of exports, an archive in, a
+//! commented `sheet.toml` out.
 //!
 //! ```text
 //! files ─ file (tables) ─┬─ evidence ─ found ─ curve_draft, verified by Sheet ─┐
@@ -7,8 +8,9 @@
 //! ```
 //!
 //! Test and direction are told by titles, headings and names; what was detected is written as keys,
-//! each with its reason. A section that the reader of sheets does not take as it stands is written as
-//! a comment with the reason. The chapter uses `tables`, `sheets`, `curves`, `results`; nothing uses it.
+//! each with its reason. A section that the reader of sheets does not take as it stands is written
+//! as a comment with the reason. The chapter uses `tables`, `sheets`, `curves`, `results`; nothing
+//! uses it.
 //!
 //! * `files`: the files of a folder, of an archive, or one.
 //! * `evidence`: texts near a table, and the test and direction that they name.

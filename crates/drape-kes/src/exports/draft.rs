@@ -69,12 +69,12 @@ impl Places<'_> {
 }
 
 impl SheetDraft {
-    /// Drafts the sheets of a workbook, a table, a zip archive, or all exports in a folder and the folders below: one
-    /// for each fabric. `beside` is the folder where the sheets will lie.
+    /// Drafts the sheets of a workbook, a table, a zip archive, or all exports in a folder and the
+    /// folders below: one for each fabric. `beside` is the folder where the sheets will lie.
     ///
     /// # Errors
-    /// The file or the folder cannot be read, or nothing in it is a curve or a value: each file is named with the
-    /// reason.
+    /// The file or the folder cannot be read, or nothing in it is a curve or a value: each file is
+    /// named with the reason.
     pub fn of(path: &Path, beside: &Path) -> Result<Vec<Self>, Error> {
         let files = Files::of(path)?;
         let parts = Parts::of(&files);
@@ -86,7 +86,8 @@ impl SheetDraft {
         Ok(fabrics.into_iter().map(|fabric| Self::of_fabric(fabric, &files, &places)).collect())
     }
 
-    /// Drafts the sheet of all exports of one fabric in a folder and the folders below, as [`of`](Self::of) does.
+    /// Drafts the sheet of all exports of one fabric in a folder and the folders below, as
+    /// [`of`](Self::of) does.
     ///
     /// # Errors
     /// As for [`of`](Self::of); or the folder holds several fabrics.
@@ -101,11 +102,13 @@ impl SheetDraft {
         Ok(drafts.swap_remove(0))
     }
 
-    /// Reads a sheet, a file or the `sheet.toml` of a folder; or drafts and reads the sheet of a workbook, a table, an
-    /// archive or a folder of exports, that of one `fabric` where they hold several.
+    /// Reads a sheet, a file or the `sheet.toml` of a folder; or drafts and reads the sheet of a
+    /// workbook, a table, an archive or a folder of exports, that of one `fabric` where they hold
+    /// several.
     ///
     /// # Errors
-    /// As for [`Sheet::read`] and [`of`](Self::of); or there are several fabrics, and none of them is named.
+    /// As for [`Sheet::read`] and [`of`](Self::of); or there are several fabrics, and none of them
+    /// is named.
     pub fn sheet(path: &Path, fabric: Option<&str>) -> Result<Sheet, Error> {
         let is_folder = path.is_dir() && !path.join("sheet.toml").exists();
         if !is_folder && !Self::reads(path) {
@@ -138,15 +141,15 @@ impl SheetDraft {
         })
     }
 
-    /// Returns whether a file holds tables, or is an archive of them: a workbook, a text file of one of the usual
-    /// endings, a zip.
+    /// Returns whether a file holds tables, or is an archive of them: a workbook, a text file of
+    /// one of the usual endings, a zip.
     #[must_use]
     pub fn reads(file: &Path) -> bool {
         is_of_tables(file)
     }
 
-    /// Reads the sheet as if it were a file in the folder for which it was drafted; its readings say what each value
-    /// was taken for.
+    /// Reads the sheet as if it were a file in the folder for which it was drafted; its readings
+    /// say what each value was taken for.
     ///
     /// # Errors
     /// As for [`Sheet::from_document`].
@@ -155,7 +158,8 @@ impl SheetDraft {
         self.read_document(document)
     }
 
-    /// Reads a document with the text of the draft, perhaps with values that were set, as [`read`](Self::read) does.
+    /// Reads a document with the text of the draft, perhaps with values that were set, as
+    /// [`read`](Self::read) does.
     ///
     /// # Errors
     /// As for [`Sheet::from_document`].

@@ -166,8 +166,9 @@ impl Evidence {
         }
     }
 
-    /// Returns the text that says that the strip was cut at 45° to its yarns; `None` where there is none, or a nearer
-    /// text of the file says warp or weft. The names of the file and of its folder are equally near.
+    /// Returns the text that says that the strip was cut at 45° to its yarns; `None` where there is
+    /// none, or a nearer text of the file says warp or weft. The names of the file and of its
+    /// folder are equally near.
     pub(crate) fn bias(&self) -> Option<String> {
         for Scope { text, place, .. } in self.scopes.iter().filter(|scope| !scope.is_path) {
             if heading::is_bias(text) {

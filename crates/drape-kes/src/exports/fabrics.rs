@@ -83,8 +83,8 @@ fn of_name(name: &str, names: &[String], parts: &Parts) -> OfFabric {
     OfFabric { name: Some(name.to_owned()), values, parts: own }
 }
 
-/// Joins the values of several tables of one fabric. Tables of one specimen each are averaged; of values that differ
-/// otherwise the first is taken, which is noted.
+/// Joins the values of several tables of one fabric. Tables of one specimen each are averaged; of
+/// values that differ otherwise the first is taken, which is noted.
 fn joined<'v>(
     values: impl Iterator<Item = &'v FileValue>,
     notes: &mut Vec<String>,
@@ -161,7 +161,8 @@ fn si(value: &Averaged) -> f64 {
     value.si().unwrap_or_else(bare)
 }
 
-/// Names values by their tables, where tables without a name hold values that cannot be of one fabric.
+/// Names values by their tables, where tables without a name hold values that cannot be of one
+/// fabric.
 fn name_by_table(parts: &mut Parts) {
     if parts.values.iter().any(|value| value.fabric.is_some()) {
         return;

@@ -7,7 +7,7 @@ use drape_input::{Diagnostic, Quantity, parse_unit, toml_string};
 use crate::curves::curve::Curve;
 use crate::exports::curve_draft::{CurveDraft, Key};
 use crate::exports::evidence::{Evidence, Told};
-use crate::sheets::axis::{AxisKeys, deformations, loads};
+use crate::sheets::axis::{AxisKeys, deformation_quantities, load_quantities};
 use crate::tables::file::TableFile;
 use crate::tables::find::{Request, decimal, every, is_repeat};
 use crate::tables::grid::{Cell, Grid};
@@ -293,9 +293,10 @@ impl Item {
             let heading = series.block.headings.get(column)?;
             Some(parse_unit(heading.unit.as_deref()?, accepted).ok()?.quantity)
         };
-        let of_length =
-            quantity(series.pair.deformation, deformations(*test)) == Some(Quantity::Length);
-        let whole = quantity(series.pair.load, loads(*test)) == Some(loads(*test)[1]);
+        let of_length = quantity(series.pair.deformation, deformation_quantities(*test))
+            == Some(Quantity::Length);
+        let whole =
+            quantity(series.pair.load, load_quantities(*test)) == Some(load_quantities(*test)[1]);
         let mut axes = [Vec::new(), Vec::new()];
         let mut missing = Vec::new();
         let is_open =
@@ -350,8 +351,14 @@ impl Item {
             keys
         };
         [
-            axis(series.pair.deformation, deformations(*test), &assumed[0], GAUGE, "gauge"),
-            axis(series.pair.load, loads(*test), &assumed[1], WIDTH, "width"),
+            axis(
+                series.pair.deformation,
+                deformation_quantities(*test),
+                &assumed[0],
+                GAUGE,
+                "gauge",
+            ),
+            axis(series.pair.load, load_quantities(*test), &assumed[1], WIDTH, "width"),
         ]
     }
 }
@@ -419,7 +426,8 @@ impl Group {
 }
 
 impl Series {
-    /// Returns a remark on the columns of numbers that have no use, other than times and numbers of rows or cycles.
+    /// Returns a remark on the columns of numbers that have no use, other than times and numbers of
+    /// rows or cycles.
     fn unused_columns(&self) -> Vec<String> {
         let Self { block, pair, .. } = self;
         let is_time = |column: usize| {
@@ -487,7 +495,8 @@ impl Series {
         Some(Key { name, why: "of the column".into(), ..self.column_key(column) })
     }
 
-    /// Returns a key that names a column: by its name where that is the only one, else by its number.
+    /// Returns a key that names a column: by its name where that is the only one, else by its
+    /// number.
     fn column_key(&self, column: usize) -> Key {
         let heading = self.block.headings.get(column).filter(|heading| !heading.name.is_empty());
         let number = || Key::new("column", (column + 1).to_string(), "");

@@ -25,8 +25,8 @@ use crate::test::Test;
 
 /// Relative difference of the gauges of two curves from which on they are no repeats.
 const REPEAT_GAUGE: f64 = 0.1;
-/// Rows of a block of numbers that are looked through for values: a longer one is a curve, perhaps with values beside
-/// its beginning.
+/// Rows of a block of numbers that are looked through for values: a longer one is a curve, perhaps
+/// with values beside its beginning.
 const ROWS_OF_VALUES: usize = 1000;
 
 /// Parts of a draft while the files are read.
@@ -166,8 +166,8 @@ impl Parts {
         }));
     }
 
-    /// Joins curves of several files that are alike: the repeats of a laboratory. Arches are no repeats: they
-    /// buckle up or down.
+    /// Joins curves of several files that are alike: the repeats of a laboratory. Arches are no
+    /// repeats: they buckle up or down.
     fn join_repeats(&mut self, folder: &Path) {
         let mut joined: Vec<CurveDraft> = Vec::new();
         for curve in std::mem::take(&mut self.curves) {

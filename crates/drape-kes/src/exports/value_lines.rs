@@ -1,4 +1,5 @@
-//! Values of a draft as lines of a sheet, each with its source; what a sheet does not take is a comment.
+//! Values of a draft as lines of a sheet, each with its source; what a sheet does not take is a
+//! comment.
 
 use std::collections::BTreeMap;
 use std::path::Path;

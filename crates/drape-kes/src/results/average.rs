@@ -9,7 +9,8 @@ use crate::results::label::{Cut, Statistic};
 use crate::results::reading::Reading;
 use crate::test::Direction;
 
-/// Part by which a mean in a table may differ from the mean of its specimens: such means are rounded.
+/// Part by which a mean in a table may differ from the mean of its specimens: such means are
+/// rounded.
 const ROUNDED: f64 = 0.006;
 
 /// Value of a fabric, averaged over its specimens.
@@ -102,7 +103,8 @@ pub(crate) fn averaged(
 /// Item and direction with their readings.
 type Group<'r> = ((Item, Option<Cut>), Vec<&'r Reading>);
 
-/// Joins means and deviations without a direction with the readings of the only direction that their item has.
+/// Joins means and deviations without a direction with the readings of the only direction that
+/// their item has.
 fn join_statistics(groups: &mut Vec<Group<'_>>) {
     let of_statistics = |group: &Group<'_>| {
         let ((item, cut), readings) = group;
@@ -119,8 +121,8 @@ fn join_statistics(groups: &mut Vec<Group<'_>>) {
     *groups = kept;
 }
 
-/// Returns the item and the direction under which a reading is averaged; `None` for one on the bias, which has no use
-/// but as the extension that gives the shear stiffness.
+/// Returns the item and the direction under which a reading is averaged; `None` for one on the
+/// bias, which has no use but as the extension that gives the shear stiffness.
 fn place(
     reading: &Reading,
     given: Option<Cut>,
@@ -226,8 +228,8 @@ fn average(
     Some(averaged)
 }
 
-/// Keeps the readings of the first table where several say different things of the same specimens: before washing and
-/// after it, perhaps.
+/// Keeps the readings of the first table where several say different things of the same specimens:
+/// before washing and after it, perhaps.
 fn of_one_table<'r>(
     readings: Vec<&'r Reading>,
     item: Item,

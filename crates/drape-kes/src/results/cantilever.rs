@@ -6,8 +6,9 @@
 //! B = W g c^3, \qquad B[\mathrm{\mu N\,m}] = 9.81 \times 10^{-6}\, W[\mathrm{g/m^2}]\, c[\mathrm{mm}]^3
 //! ```
 //!
-//! as FAST prints it \[DT94\]. ASTM D1388 \[ASTM14\] has a constant of 1.421e-5 in place of 9.81e-6, which gives 1.45 times
-//! as much; measured against strips of known rigidity it is the one that is off \[LKL14\].
+//! as FAST prints it \[DT94\]. ASTM D1388 \[ASTM14\] has a constant of 1.421e-5 in place of
+//! 9.81e-6, which gives 1.45 times as much; measured against strips of known rigidity it is the one
+//! that is off \[LKL14\].
 
 use drape_input::Quantity;
 
@@ -20,10 +21,11 @@ use crate::test::Direction;
 const GRAVITY: f64 = 9.81;
 /// Constant of ASTM D1388 over that of Peirce.
 const OF_ASTM: f64 = 1.421 / 0.981;
-/// Bending length over the overhang at 45°, the angle of JIS L 1096: there `$wL^3/B$` is 9.2539 for a heavy elastica,
-/// where it is 8.0042 at 41.5°.
+/// Bending length over the overhang at 45°, the angle of JIS L 1096: there `$wL^3/B$` is 9.2539 for
+/// a heavy elastica, where it is 8.0042 at 41.5°.
 const AT_45: f64 = 0.476_3;
-/// Part by which a rigidity of a table may differ from that of its bending length: lengths are rounded.
+/// Part by which a rigidity of a table may differ from that of its bending length: lengths are
+/// rounded.
 const ALIKE: f64 = 0.05;
 /// Part from which on the two are told to differ.
 const APART: f64 = 0.2;
@@ -92,8 +94,8 @@ fn length(values: &Values, direction: Option<Direction>) -> Option<Length> {
     Some(Length { length: factor * one.value.number, deviation, why: why(one) })
 }
 
-/// Returns whether the rigidity of the table is kept: it was measured otherwise, or by the same formula. That of ASTM
-/// D1388 is removed.
+/// Returns whether the rigidity of the table is kept: it was measured otherwise, or by the same
+/// formula. That of ASTM D1388 is removed.
 fn keeps_given(
     values: &mut Values,
     direction: Option<Direction>,

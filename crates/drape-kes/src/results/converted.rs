@@ -1,5 +1,5 @@
-//! Averaged values made into values of a sheet: bare numbers get their units, and values of FAST and of cantilevers
-//! become those of a sheet.
+//! Averaged values made into values of a sheet: bare numbers get their units, and values of FAST
+//! and of cantilevers become those of a sheet.
 
 use drape_input::{Quantity, Unit, figure, parse_unit};
 
@@ -45,7 +45,8 @@ fn spelling(unit: Unit) -> &'static str {
     if unit.factor == own.factor { own.spelling } else { unit.spelling }
 }
 
-/// Gives bare numbers the units that they can only have, and percentages that are ratios their unit.
+/// Gives bare numbers the units that they can only have, and percentages that are ratios their
+/// unit.
 fn give_units(values: &mut Values, converted: &mut Converted) {
     let is_fast = values.is_fast();
     let unit =

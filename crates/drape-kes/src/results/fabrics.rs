@@ -10,8 +10,8 @@ use crate::results::reading::Reading;
 
 /// Largest coefficient of variation of the mass and the thickness of specimens of one fabric.
 const ALIKE: f64 = 0.08;
-/// Largest median coefficient of variation of all values of specimens of one fabric; mechanical values of one fabric
-/// scatter by some 5 to 15 %, those of two fabrics differ by factors.
+/// Largest median coefficient of variation of all values of specimens of one fabric; mechanical
+/// values of one fabric scatter by some 5 to 15 %, those of two fabrics differ by factors.
 const ALIKE_MEDIAN: f64 = 0.15;
 
 /// Readings of one fabric.
@@ -22,7 +22,8 @@ pub(crate) struct OfFabric {
     pub(crate) readings: Vec<Reading>,
 }
 
-/// Parts the readings of a sheet by fabric; adds what was assumed and what was left out to the notes.
+/// Parts the readings of a sheet by fabric; adds what was assumed and what was left out to the
+/// notes.
 pub(crate) fn by_fabric(mut readings: Vec<Reading>, notes: &mut Vec<String>) -> Vec<OfFabric> {
     drop_odd_columns(&mut readings, notes);
     let names = names(&readings);
@@ -90,7 +91,8 @@ fn names(readings: &[Reading]) -> Vec<String> {
     names
 }
 
-/// Leaves out columns with a name that is no fabric's, beside others that have a direction or no name: limits, methods.
+/// Leaves out columns with a name that is no fabric's, beside others that have a direction or no
+/// name: limits, methods.
 fn drop_odd_columns(readings: &mut Vec<Reading>, notes: &mut Vec<String>) {
     let plain: Vec<(Item, Option<Cut>)> = readings
         .iter()
@@ -116,7 +118,8 @@ fn drop_odd_columns(readings: &mut Vec<Reading>, notes: &mut Vec<String>) {
     }));
 }
 
-/// Returns whether names differ by a number or a letter at their ends only: `S1`, `S2`; `A`, `B`; `Sample 1`.
+/// Returns whether names differ by a number or a letter at their ends only: `S1`, `S2`; `A`, `B`;
+/// `Sample 1`.
 fn are_numbered(names: &[String]) -> bool {
     let parts: Vec<(String, String)> = names
         .iter()

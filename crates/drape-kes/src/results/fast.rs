@@ -1,16 +1,18 @@
-//! Values of CSIRO's FAST (Fabric Assurance by Simple Testing) made into values of a sheet \[DT94\].
+//! Values of CSIRO's FAST (Fabric Assurance by Simple Testing) made into values of a sheet
+//! \[DT94\].
 //!
 //! * FAST-1 measures the thickness under 2 and 100 gf/cm².
 //! * FAST-2 is a cantilever ([`cantilever`](crate::results::cantilever)).
-//! * FAST-3 measures the extension E5, E20, E100 at 5, 20 and 100 gf/cm: three points of a loading curve, whose work
-//!   and largest extension are values of a sheet. EB5, the extension on the bias at 5 gf/cm, gives the shear stiffness
+//! * FAST-3 measures the extension E5, E20, E100 at 5, 20 and 100 gf/cm: three points of a loading
+//!   curve, whose work and largest extension are values of a sheet. EB5, the extension on the bias
+//!   at 5 gf/cm, gives the shear stiffness
 //!
 //! ```math
 //! G[\mathrm{N/m}] = \frac{123}{EB5[\%]}
 //! ```
 //!
-//! since a load `$F$` per width on the bias shears by `$\gamma = F/(2G)$` and extends by half of `$\gamma$`: 123 is a
-//! quarter of 5 gf/cm in N/m, in percent.
+//! since a load `$F$` per width on the bias shears by `$\gamma = F/(2G)$` and extends by half of
+//! `$\gamma$`: 123 is a quarter of 5 gf/cm in N/m, in percent.
 
 use crate::results::item::Item;
 use crate::results::sheet_value::{Converted, SheetValue, Sourced, Values, computed, why};
@@ -95,8 +97,8 @@ fn extension(direction: Option<Direction>, points: &[(u32, &Sourced)], converted
 
 /// Returns the area below the monotone cubic curve through points whose abscissae rise \[FC80\].
 ///
-/// The slope at an inner point is the harmonic mean of the slopes on both sides, so that the curve rises where the
-/// points do.
+/// The slope at an inner point is the harmonic mean of the slopes on both sides, so that the curve
+/// rises where the points do.
 fn work(points: &[[f64; 2]]) -> f64 {
     let slopes: Vec<f64> = points
         .windows(2)
@@ -108,7 +110,8 @@ fn work(points: &[[f64; 2]]) -> f64 {
         let weights = [2.0 * width(i) + width(i - 1), width(i) + 2.0 * width(i - 1)];
         (weights[0] + weights[1]) / (weights[0] / left + weights[1] / right)
     };
-    // At an end the slope is that of the parabola through three points, between none and three times the chord.
+    // At an end the slope is that of the parabola through three points, between none and three
+    // times the chord.
     let end = |near: usize, far: usize| {
         let [a, b] = [near, far].map(width);
         let slope = ((2.0 * a + b) * slopes[near] - a * slopes[far]) / (a + b);

@@ -29,7 +29,8 @@ pub(crate) struct Head {
 }
 
 impl<'m> Heads<'m> {
-    /// Finds the rows of heads above an item at a row and a column, whose numbers end before a column.
+    /// Finds the rows of heads above an item at a row and a column, whose numbers end before a
+    /// column.
     pub(crate) fn above(matrix: &'m Matrix, (r, c): (usize, usize), end: usize) -> Self {
         let mut heads = Self { matrix, rows: Vec::new(), columns: (c, end) };
         for k in (0..r).rev() {
@@ -46,8 +47,8 @@ impl<'m> Heads<'m> {
         heads
     }
 
-    /// Returns whether a row heads columns: with directions, specimens, statistics and units, or with names beside a
-    /// cell that says nothing or what they are.
+    /// Returns whether a row heads columns: with directions, specimens, statistics and units, or
+    /// with names beside a cell that says nothing or what they are.
     fn is_head(&self, k: usize) -> bool {
         let (c, end) = self.columns;
         let row = &self.matrix.rows[k];
@@ -78,7 +79,8 @@ impl<'m> Heads<'m> {
         matches!(axis, Axis::Specimen | Axis::Fabric | Axis::Sample).then_some(axis)
     }
 
-    /// Returns what a cell of a row of heads says: a number is that of a specimen, or the name of a fabric.
+    /// Returns what a cell of a row of heads says: a number is that of a specimen, or the name of a
+    /// fabric.
     fn said(&self, k: usize, v: usize) -> Option<Label> {
         let slot = &self.matrix.rows[k][v];
         let side = self.side(k).filter(|axis| *axis != Axis::Specimen);
@@ -122,7 +124,8 @@ impl<'m> Heads<'m> {
         head
     }
 
-    /// Returns what the columns before the item say of its row: the name of its fabric, the number of its specimen.
+    /// Returns what the columns before the item say of its row: the name of its fabric, the number
+    /// of its specimen.
     pub(crate) fn leading(&self, start: usize, r: usize) -> Label {
         let (c, _) = self.columns;
         let mut leading = Label::default();

@@ -1,4 +1,5 @@
-//! Text of a cell beside numbers, taken apart: item, unit, direction, specimen, statistic, face, name.
+//! Text of a cell beside numbers, taken apart: item, unit, direction, specimen, statistic, face,
+//! name.
 
 pub(crate) mod letters;
 mod names;
@@ -111,8 +112,8 @@ impl Label {
         self
     }
 
-    /// Takes the unit: the whole text, behind a sign or a blank, or in brackets. Returns the text without it, and the
-    /// texts in brackets that are no unit.
+    /// Takes the unit: the whole text, behind a sign or a blank, or in brackets. Returns the text
+    /// without it, and the texts in brackets that are no unit.
     fn take_unit(&mut self, text: &str) -> (String, Vec<String>) {
         let (mut outside, mut inside) = (text.trim().to_owned(), Vec::new());
         let is_symbol = |text: &str| Item::of_symbol(text).is_some();
@@ -276,8 +277,8 @@ impl Label {
         };
     }
 
-    /// Takes the symbol of an item: the words together, or one word of several letters among others. A symbol beside a
-    /// name says which of its kind it is.
+    /// Takes the symbol of an item: the words together, or one word of several letters among
+    /// others. A symbol beside a name says which of its kind it is.
     fn take_symbol(&mut self, words: &mut String) {
         let joined: String = words.split_whitespace().collect();
         // Symbols that are words of a language too.
@@ -301,7 +302,8 @@ impl Label {
         }
     }
 
-    /// Takes a text in brackets behind an item for a unit that is not known, where it is none of the words.
+    /// Takes a text in brackets behind an item for a unit that is not known, where it is none of
+    /// the words.
     fn take_unknown_unit(&mut self, words: &str, inside: &[String]) {
         if self.item.is_none() || self.unit.is_some() {
             return;
@@ -315,7 +317,8 @@ impl Label {
         self.unit = unit.map(|text| WrittenUnit { text, is_known: false });
     }
 
-    /// Removes the unit of a load or a pressure at which the item was measured: `Thickness at 2 gf/cm²`.
+    /// Removes the unit of a load or a pressure at which the item was measured:
+    /// `Thickness at 2 gf/cm²`.
     fn drop_condition(&mut self) {
         const CONDITIONS: [Quantity; 3] =
             [Quantity::Pressure, Quantity::ForcePerWidth, Quantity::Angle];
@@ -342,7 +345,8 @@ fn is_plain_symbol(text: &str) -> bool {
     text.split_whitespace().count() <= 2 && text.chars().count() <= 9
 }
 
-/// Returns whether a text is so short, four words at most, that a symbol in it is the symbol of an item.
+/// Returns whether a text is so short, four words at most, that a symbol in it is the symbol of an
+/// item.
 fn is_alone_enough(words: &str) -> bool {
     words.split_whitespace().count() <= 4
 }

@@ -8,9 +8,11 @@ use crate::results::number::is_number;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Heading, Kind};
 
-/// Numbers below each other from which on they may be a curve: a table of results has as many rows as items.
+/// Numbers below each other from which on they may be a curve: a table of results has as many rows
+/// as items.
 const CURVE_LEAST: usize = 16;
-/// Part of the rows of a column of numbers that begin with an item, where the column is one of results.
+/// Part of the rows of a column of numbers that begin with an item, where the column is one of
+/// results.
 const SHARE_OF_ITEMS: f64 = 0.8;
 /// Rows above a column of numbers in which its heading is looked for.
 const HEADING_ROWS: usize = 4;
@@ -47,14 +49,16 @@ impl Slot {
     }
 }
 
-/// Cells of a sheet, each row as long as the others; an empty row stands for lines that are left out.
+/// Cells of a sheet, each row as long as the others; an empty row stands for lines that are left
+/// out.
 #[derive(Clone, Debug)]
 pub(crate) struct Matrix {
     pub(crate) rows: Vec<Vec<Slot>>,
 }
 
 impl Matrix {
-    /// Makes the matrix of a sheet, without the cells of curves and without the lines of other tests.
+    /// Makes the matrix of a sheet, without the cells of curves and without the lines of other
+    /// tests.
     pub(crate) fn of(grid: &Grid, without: &BTreeSet<usize>) -> Self {
         let mut rows: Vec<Row> = Vec::new();
         for row in grid.rows.iter().filter(|row| !without.contains(&row.line)) {
@@ -103,8 +107,8 @@ impl Matrix {
         }
     }
 
-    /// Makes single letters names where they are a list, as in `A, B, C`: a symbol of KES has no A before it. A plus
-    /// beside a minus are the two senses of a test.
+    /// Makes single letters names where they are a list, as in `A, B, C`: a symbol of KES has no A
+    /// before it. A plus beside a minus are the two senses of a test.
     fn name_signs(&mut self) {
         let plain = |slot: &Slot| half_width(&slot.cell.text()).to_uppercase().replace('−', "-");
         for row in &mut self.rows {
@@ -139,8 +143,8 @@ impl Matrix {
         }
     }
 
-    /// Removes the columns of curves: long columns of numbers below a heading of a deformation or a load, and those
-    /// that no items stand beside.
+    /// Removes the columns of curves: long columns of numbers below a heading of a deformation or a
+    /// load, and those that no items stand beside.
     fn clear_curves(&mut self) {
         for c in 0..self.width() {
             let mut r = 0;
@@ -155,7 +159,8 @@ impl Matrix {
         }
     }
 
-    /// Removes the numbers below an item that stand beside those of a deformation or a load, as MIU along a distance.
+    /// Removes the numbers below an item that stand beside those of a deformation or a load, as MIU
+    /// along a distance.
     fn clear_profiles(&mut self) {
         for r in 0..self.rows.len() {
             let below = |matrix: &Self, c: usize| {
@@ -216,8 +221,8 @@ fn is_of_curves(cell: &Cell) -> bool {
     kind.is_some_and(|kind| !matches!(kind, Kind::Specimen | Kind::Other))
 }
 
-/// Parts the cells of a row that hold a key with its value, `W: 21.3 mg/cm2`, where each cell of the row is such a
-/// pair.
+/// Parts the cells of a row that hold a key with its value, `W: 21.3 mg/cm2`, where each cell of
+/// the row is such a pair.
 fn keys_parted(row: &Row) -> Row {
     let pair = |cell: &Cell| -> Option<[Cell; 2]> {
         let Cell::Text(text) = cell else { return None };

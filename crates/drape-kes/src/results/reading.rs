@@ -124,7 +124,8 @@ fn reading(entry: &Entry, cell: CellNumber) -> Result<(Reading, Option<String>),
     Ok((reading, remark))
 }
 
-/// Returns the standard deviation of a standard error; `Err` where the number of specimens is not known.
+/// Returns the standard deviation of a standard error; `Err` where the number of specimens is not
+/// known.
 fn of_error(entry: &Entry, error: f64) -> Result<f64, String> {
     let count = entry.count.filter(|count| *count >= 2.0);
     count.map(|count| error * count.sqrt()).ok_or_else(|| {
@@ -163,8 +164,8 @@ fn unit(entry: &Entry, of_cell: &str) -> Result<(Item, Option<Unit>), String> {
     ))
 }
 
-/// Leaves out extensions without a symbol where nothing else is of the tensile test of KES: they may be those of another
-/// test, such as at break.
+/// Leaves out extensions without a symbol where nothing else is of the tensile test of KES: they
+/// may be those of another test, such as at break.
 fn drop_other_extensions(entries: &mut Vec<Entry>, notes: &mut Vec<String>) {
     const TENSILE: [Item; 3] = [Item::Key("LT"), Item::Key("WT"), Item::Key("RT")];
     if entries.iter().any(|entry| TENSILE.contains(&entry.item)) {
@@ -180,8 +181,8 @@ fn drop_other_extensions(entries: &mut Vec<Entry>, notes: &mut Vec<String>) {
     entries.retain(|entry| !is_open(entry));
 }
 
-/// Gives the digits behind symbols their meaning: 1 and 2 are warp and weft, unless the table names directions or has
-/// a 3.
+/// Gives the digits behind symbols their meaning: 1 and 2 are warp and weft, unless the table names
+/// directions or has a 3.
 fn resolve_suffixes(entries: &mut [Entry]) {
     let open = |entry: &&Entry| entry.cut.is_none() && entry.suffix.is_some();
     let digits: BTreeSet<u32> =

@@ -21,8 +21,8 @@ pub(crate) struct SheetResults {
 
 /// Reads the values of a sheet.
 ///
-/// Lines `without` results, those of curves, are left out. The direction is `given` by the name of the sheet or of the
-/// file; it counts where the table names none.
+/// Lines `without` results, those of curves, are left out. The direction is `given` by the name of
+/// the sheet or of the file; it counts where the table names none.
 pub(crate) fn results(
     grid: &Grid,
     without: &BTreeSet<usize>,

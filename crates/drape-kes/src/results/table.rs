@@ -1,5 +1,5 @@
-//! Numbers of a sheet with the items that they are of: each item rules the numbers behind it, in its row or in its
-//! column.
+//! Numbers of a sheet with the items that they are of: each item rules the numbers behind it, in
+//! its row or in its column.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,8 +49,8 @@ pub(crate) type At = (usize, usize);
 /// Returns the numbers of a sheet with their items.
 pub(crate) fn found(matrix: &Matrix) -> Found {
     let mut matrix = matrix.clone();
-    // A symbol of a row and one of a column may both claim a number: that of the longer list of items is one, the
-    // other is the name of a fabric.
+    // A symbol of a row and one of a column may both claim a number: that of the longer list of
+    // items is one, the other is the name of a fabric.
     for _ in 0..matrix.rows.len().max(1) {
         let lost = lost_claims(&matrix);
         if lost.is_empty() {
@@ -130,8 +130,8 @@ impl<'m> Rows<'m> {
         claims
     }
 
-    /// Returns the column behind the numbers of an item: that of the next item of its row, or the width. Below the
-    /// numbers of a column the names of another table may follow.
+    /// Returns the column behind the numbers of an item: that of the next item of its row, or the
+    /// width. Below the numbers of a column the names of another table may follow.
     fn end(&self, r: usize, c: usize) -> usize {
         let row = &self.matrix.rows[r];
         let is_name = |slot: &Slot| slot.label.as_ref().is_some_and(|label| !label.name.is_empty());
@@ -193,8 +193,8 @@ impl<'m> Rows<'m> {
         columns.into_iter().for_each(|c| self.note_unread(c, found));
     }
 
-    /// Returns the first column of a row below a title that is an item: it says a direction, a specimen or a statistic,
-    /// and numbers follow.
+    /// Returns the first column of a row below a title that is an item: it says a direction, a
+    /// specimen or a statistic, and numbers follow.
     fn is_tagged_row(&self, r: usize, first: usize) -> Option<usize> {
         let row = &self.matrix.rows[r];
         let is_tagged = row[first].label.as_ref().is_some_and(Label::is_tagged);
@@ -202,8 +202,8 @@ impl<'m> Rows<'m> {
         (is_tagged && has_numbers && !self.is_turned).then_some(first)
     }
 
-    /// Returns whether a row without an item goes on with that of the row above: the cell below the item is empty, and
-    /// another one before the numbers says what is different.
+    /// Returns whether a row without an item goes on with that of the row above: the cell below the
+    /// item is empty, and another one before the numbers says what is different.
     fn goes_on(&self, c: usize, r: usize) -> bool {
         let row = &self.matrix.rows[r];
         let Some(first) = (c + 1..row.len()).find(|&v| row[v].is_number) else { return false };
@@ -306,8 +306,8 @@ impl<'m> Rows<'m> {
         self.matrix.rows.iter().any(of_units)
     }
 
-    /// Notes what stands in the table of a column of items and is not read: rows of other items, and cells that hold
-    /// no number.
+    /// Notes what stands in the table of a column of items and is not read: rows of other items,
+    /// and cells that hold no number.
     fn note_unread(&self, c: usize, found: &mut Found) {
         let items: Vec<usize> =
             (0..self.matrix.rows.len()).filter(|&r| self.first_number(r, c).is_some()).collect();
@@ -352,8 +352,8 @@ impl<'m> Rows<'m> {
     }
 }
 
-/// Returns the direction of a column of deviations that names none: that of the column before it, where each direction
-/// of the row has such a column.
+/// Returns the direction of a column of deviations that names none: that of the column before it,
+/// where each direction of the row has such a column.
 fn cut_beside(heads: &Heads<'_>, numbers: &[usize], place: usize) -> Option<Cut> {
     let all: Vec<Label> = numbers.iter().map(|&v| heads.at(v).label).collect();
     let is_deviation = |label: &Label| {

@@ -56,8 +56,8 @@ impl Block {
         }
     }
 
-    /// Returns the text above the block as one label: its last line that is a title, and no key with
-    /// a value.
+    /// Returns the text above the block as one label: its last line that is a title, and no key
+    /// with a value.
     pub(crate) fn title(&self) -> String {
         let title = |row: &&Row| row.filled().count() == 1;
         let row = self.above.iter().rev().find(title);
@@ -318,8 +318,8 @@ const UNKNOWN_UNIT_MAX: usize = 12;
 /// Known units that a row has at least, where others of its units are not known.
 const KNOWN_UNITS_LEAST: usize = 2;
 
-/// Returns whether every cell of a row is a unit. Below a row of names some of the units may be unknown: their
-/// columns are of no use, the others are.
+/// Returns whether every cell of a row is a unit. Below a row of names some of the units may be
+/// unknown: their columns are of no use, the others are.
 fn is_row_of_units(row: &Row, names: Option<&Row>) -> bool {
     let is_known = |cell: &Cell| {
         let text = cell.text();

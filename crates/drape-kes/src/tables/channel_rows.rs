@@ -15,7 +15,8 @@ struct Channel {
     start: usize,
 }
 
-/// Turns the channels of a grid that stand in rows into columns; returns the lines on which they stood.
+/// Turns the channels of a grid that stand in rows into columns; returns the lines on which they
+/// stood.
 ///
 /// ```text
 /// Extension (mm), 0, 0.1, 0.2, …        Extension (mm), Load (N)

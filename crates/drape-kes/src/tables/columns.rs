@@ -1,5 +1,5 @@
-//! Columns of the deformation and of the load in a block: those that the sheet names, or those whose
-//! headings say so.
+//! Columns of the deformation and of the load in a block: those that the sheet names, or those
+//! whose headings say so.
 
 use crate::tables::block::Block;
 use crate::tables::heading::{self, Kind};

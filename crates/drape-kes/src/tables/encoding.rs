@@ -8,7 +8,8 @@ use encoding_rs::{
 
 use crate::tables::heading;
 
-/// Encodings of files that are not Unicode: those whose characters are letters of the words of tables are taken.
+/// Encodings of files that are not Unicode: those whose characters are letters of the words of
+/// tables are taken.
 const CANDIDATES: [&Encoding; 10] = [
     WINDOWS_1252,
     SHIFT_JIS,
@@ -51,7 +52,8 @@ pub(crate) fn by_label(label: &str) -> Option<&'static Encoding> {
     Encoding::for_label(known.as_bytes())
 }
 
-/// Decodes the bytes of a file; `Err` holds the place of the first byte that is not of the encoding.
+/// Decodes the bytes of a file; `Err` holds the place of the first byte that is not of the
+/// encoding.
 pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Result<Decoded, usize> {
     if let Some(encoding) = declared {
         // A byte-order mark stands above a declaration only where both are of one family.
@@ -104,7 +106,8 @@ pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Resul
 /// Bytes by which an encoding is told, at most: the words of a table are few.
 const SAMPLE_MAX: usize = 1 << 16;
 
-/// Returns the first lines that have characters beyond ASCII. No encoding has the end of a line within a character.
+/// Returns the first lines that have characters beyond ASCII. No encoding has the end of a line
+/// within a character.
 fn lines_beyond_ascii(bytes: &[u8]) -> Vec<u8> {
     let lines = bytes.split_inclusive(|&byte| byte == b'\n').filter(|line| !line.is_ascii());
     let mut sample = Vec::new();
@@ -117,8 +120,8 @@ fn lines_beyond_ascii(bytes: &[u8]) -> Vec<u8> {
     sample
 }
 
-/// Returns the encoding in which a text has most letters of known words beyond ASCII; `None` where it has none in
-/// any.
+/// Returns the encoding in which a text has most letters of known words beyond ASCII; `None` where
+/// it has none in any.
 fn by_words(bytes: &[u8]) -> Option<&'static Encoding> {
     let scores = CANDIDATES
         .map(|encoding| strict(encoding, bytes).map_or(0, |text| heading::known_letters(&text)));
@@ -163,8 +166,8 @@ fn unmarked_utf_16(bytes: &[u8]) -> Option<&'static Encoding> {
 
 /// Returns whether bytes are Shift_JIS: two-byte characters that stand side by side.
 ///
-/// A Western letter followed by another is a valid two-byte character too, but it stands alone among
-/// the letters of its word.
+/// A Western letter followed by another is a valid two-byte character too, but it stands alone
+/// among the letters of its word.
 fn is_japanese(bytes: &[u8]) -> bool {
     strict(SHIFT_JIS, bytes).is_some_and(|text| is_of_words(&text))
 }

@@ -1,4 +1,5 @@
-//! A file, or a member of an archive, made into grids: spreadsheet or text, its encoding and its separator.
+//! A file, or a member of an archive, made into grids: spreadsheet or text, its encoding and its
+//! separator.
 
 pub(crate) mod archive;
 

@@ -23,7 +23,7 @@ const FEW_ROWS: usize = 12;
 
 /// Series of a test with what was found on the way.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct FoundSeries {
     pub(crate) series: Vec<Series>,
     /// Reading, in words.
     pub(crate) reading: Vec<String>,
@@ -53,7 +53,7 @@ pub(crate) fn find(
     file: &TableFile,
     layout: &Layout,
     request: &Request<'_>,
-) -> Result<Found, Diagnostics> {
+) -> Result<FoundSeries, Diagnostics> {
     let mut found = every(path, file, layout, request)?;
     choose(path, layout, request, &mut found)?;
     for series in &mut found.series {
@@ -64,14 +64,15 @@ pub(crate) fn find(
     Ok(found)
 }
 
-/// Finds every series of a test in one file, whatever its direction, in the order that `table` counts.
+/// Finds every series of a test in one file, whatever its direction, in the order that `table`
+/// counts.
 pub(crate) fn every(
     path: &Path,
     file: &TableFile,
     layout: &Layout,
     request: &Request<'_>,
-) -> Result<Found, Diagnostics> {
-    let mut found = Found { reading: file.reading.clone(), ..Found::default() };
+) -> Result<FoundSeries, Diagnostics> {
+    let mut found = FoundSeries { reading: file.reading.clone(), ..FoundSeries::default() };
     let tables = tables(path, file, layout, &mut found)?;
     let mut refused: Option<(usize, NoColumns)> = None;
     for Table { block, around } in tables {
@@ -143,7 +144,7 @@ fn tables(
     path: &Path,
     file: &TableFile,
     layout: &Layout,
-    found: &mut Found,
+    found: &mut FoundSeries,
 ) -> Result<Vec<Table>, Diagnostics> {
     let grids: Vec<_> = match &layout.sheet {
         None => file.grids.iter().collect(),
@@ -231,7 +232,7 @@ fn tables(
 }
 
 /// Leaves out a last row with fewer cells than the first, where the text ends within a line.
-fn drop_broken_end(block: &mut Block, path: &Path, found: &mut Found) {
+fn drop_broken_end(block: &mut Block, path: &Path, found: &mut FoundSeries) {
     if let [first, .., last] = block.rows.as_slice()
         && last.cells.len() < first.cells.len()
     {
@@ -299,7 +300,7 @@ fn choose(
     path: &Path,
     layout: &Layout,
     request: &Request<'_>,
-    found: &mut Found,
+    found: &mut FoundSeries,
 ) -> Result<(), Diagnostics> {
     let all = found.series.len();
     if let Take::These(numbers) = &layout.table {
@@ -360,8 +361,8 @@ fn choose(
     Ok(())
 }
 
-/// Returns whether labels are those of repeats: what they do not share are numbers of specimens, or says
-/// nothing but test and direction.
+/// Returns whether labels are those of repeats: what they do not share are numbers of specimens, or
+/// says nothing but test and direction.
 pub(crate) fn is_repeat(labels: &[&str]) -> bool {
     let parts: Vec<Vec<&str>> = labels.iter().map(|label| label.split(", ").collect()).collect();
     let shared = |part: &&str| parts.iter().all(|other| other.contains(part));
@@ -476,7 +477,7 @@ fn cycle_of_each_row(series: &Series) -> Result<Vec<Option<usize>>, Diagnostics>
 }
 
 /// Adds what was found about header, decimal sign and repeats.
-fn describe(found: &mut Found, layout: &Layout) {
+fn describe(found: &mut FoundSeries, layout: &Layout) {
     let Some(first) = found.series.first() else { return };
     let mut reading = Vec::new();
     let block = &first.block;

@@ -73,8 +73,8 @@ impl Cell {
     }
 }
 
-/// Parts a cell into its number and the unit behind it: `0.5 mm`, `12 %`. A text that is anything else
-/// stays whole, with an empty unit.
+/// Parts a cell into its number and the unit behind it: `0.5 mm`, `12 %`. A text that is anything
+/// else stays whole, with an empty unit.
 fn parted(text: &str) -> (&str, &str) {
     let is_figure = |letter: char| letter.is_numeric() && !"²³¹".contains(letter);
     let starts =
@@ -86,7 +86,8 @@ fn parted(text: &str) -> (&str, &str) {
     if !starts || !text.contains(of_unit) || number::evidence(text).is_some() {
         return (text, "");
     }
-    // Units have digits too, and an exponent has a letter: the shortest unit behind a number is taken.
+    // Units have digits too, and an exponent has a letter: the shortest unit behind a number is
+    // taken.
     let ends = text.char_indices().filter(|&(_, letter)| is_figure(letter) || letter == '.');
     let split = |(place, letter): (usize, char)| {
         let (number, unit) = text.split_at(place + letter.len_utf8());
@@ -109,8 +110,8 @@ impl Row {
         self.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty())
     }
 
-    /// Returns the number of cells that hold numbers. A number with a unit counts where the row holds
-    /// numbers only; elsewhere it is a setting, such as `Gauge length; 50 mm`.
+    /// Returns the number of cells that hold numbers. A number with a unit counts where the row
+    /// holds numbers only; elsewhere it is a setting, such as `Gauge length; 50 mm`.
     pub(crate) fn numbers(&self) -> usize {
         let filled = self.filled().count();
         let numbers: Vec<&Cell> =

@@ -1,4 +1,5 @@
-//! Numbers as they are written: decimal point or comma, digits in groups, exponents; with their scatter.
+//! Numbers as they are written: decimal point or comma, digits in groups, exponents; with their
+//! scatter.
 
 pub(crate) mod scattered;
 

@@ -88,8 +88,8 @@ impl Series {
         Diagnostic::new(&self.path, message).on_line(row.line).help(help)
     }
 
-    /// Returns the times of the points in the unit of their column, where there is such a column and
-    /// its cells are numbers.
+    /// Returns the times of the points in the unit of their column, where there is such a column
+    /// and its cells are numbers.
     pub(crate) fn times(&self) -> Option<Vec<f64>> {
         let is_time = |heading: &Heading| {
             let name = normal(&heading.name);
@@ -110,8 +110,8 @@ impl Series {
         self.around.stated(&self.block.title(), words)
     }
 
-    /// Returns the column of the gauge or the width: its heading is one of some names, and all its rows hold
-    /// the same length.
+    /// Returns the column of the gauge or the width: its heading is one of some names, and all its
+    /// rows hold the same length.
     pub(crate) fn size_column(&self, words: Words) -> Option<usize> {
         let column = size_column(&self.block, &[self.pair.deformation, self.pair.load], words)?;
         let is_one = |all: Vec<f64>| all.iter().all(|length| *length > 0.0 && *length == all[0]);

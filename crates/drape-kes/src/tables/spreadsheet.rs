@@ -20,7 +20,8 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
 
 /// Reads the sheets of a spreadsheet; `Err` holds the reason why it cannot be read.
 ///
-/// Only `.xlsx` files tell which numbers are shown in percent. A date is a text, since it is no number of a test.
+/// Only `.xlsx` files tell which numbers are shown in percent. A date is a text, since it is no
+/// number of a test.
 #[cfg(feature = "spreadsheets")]
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
     use calamine::{Data, Reader, SheetType};

@@ -48,7 +48,8 @@ pub(crate) struct Around {
 }
 
 impl Around {
-    /// Returns the length that goes by one of some names; `None` where there is none, or two that differ.
+    /// Returns the length that goes by one of some names; `None` where there is none, or two that
+    /// differ.
     ///
     /// In a table of several specimens the rows with the `title` of the curve decide.
     pub(crate) fn stated(&self, title: &str, words: Words) -> Option<Stated> {
@@ -84,8 +85,8 @@ fn of_table(block: &Block, title: &str, words: Words) -> Vec<Stated> {
     rows.into_iter().filter_map(of_row).collect()
 }
 
-/// Returns the column of lengths whose heading is one of some names, other than the columns of the curve; `None`
-/// where there is none, or several.
+/// Returns the column of lengths whose heading is one of some names, other than the columns of the
+/// curve; `None` where there is none, or several.
 pub(crate) fn size_column(block: &Block, of_curve: &[usize], words: Words) -> Option<usize> {
     let of_length = |heading: &Heading| {
         let unit = heading.unit.as_deref();

@@ -36,7 +36,8 @@ pub(crate) fn numbers(text: &str) -> Vec<f64> {
     numbers
 }
 
-/// Returns a text with its letters, digits and signs of full width in half width, and digits below the line on it.
+/// Returns a text with its letters, digits and signs of full width in half width, and digits below
+/// the line on it.
 pub(crate) fn half_width(text: &str) -> String {
     let letter = |letter: char| match letter {
         '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),

@@ -1,5 +1,5 @@
-//! Names of items, and the words beside them, in small letters, a line for each language: English, German, French,
-//! Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
+//! Names of items, and the words beside them, in small letters, a line for each language: English,
+//! German, French, Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
 
 use crate::results::item::Item;
 use crate::tables::heading::words::Words;
@@ -224,7 +224,8 @@ pub(super) const ITEMS: [(Item, Words); 25] = [
     ),
 ];
 
-/// Words of other tests than those of KES, FAST and cantilevers: to the break, or of a body that does not slide yet.
+/// Words of other tests than those of KES, FAST and cantilevers: to the break, or of a body that
+/// does not slide yet.
 pub(super) const OTHER_TESTS: Words = &[
     "break, breaking, rupture, at maximum force, tear, tearing, static, bruch, reiß, höchstzugkraft",
     "weiterreiß, haft, haftreibung, à la rupture, déchirure, statique, rottura, rotura, ruptura",

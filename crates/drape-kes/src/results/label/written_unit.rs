@@ -11,7 +11,8 @@ pub(crate) struct WrittenUnit {
 }
 
 impl WrittenUnit {
-    /// Returns the unit that a text is; `None` where it is none. Within brackets an unknown one may be a unit too.
+    /// Returns the unit that a text is; `None` where it is none. Within brackets an unknown one may
+    /// be a unit too.
     pub(crate) fn of(text: &str, is_bracketed: bool) -> Option<Self> {
         const ALL: [Quantity; 13] = [
             Quantity::Ratio,

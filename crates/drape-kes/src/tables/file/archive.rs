@@ -1,4 +1,5 @@
-//! Members of zip archives, which a path names as if the archive were a folder: `exports.zip/warp/tensile.csv`.
+//! Members of zip archives, which a path names as if the archive were a folder:
+//! `exports.zip/warp/tensile.csv`.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +12,8 @@ pub(crate) fn is_archive(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("zip"))
 }
 
-/// Splits a path into an archive that is there and the name of a member; `None` where it leads to none.
+/// Splits a path into an archive that is there and the name of a member; `None` where it leads to
+/// none.
 pub(crate) fn split(path: &Path) -> Option<(PathBuf, String)> {
     let archive = path.ancestors().skip(1).find(|place| is_archive(place) && place.is_file())?;
     let member = path.strip_prefix(archive).ok()?;
@@ -43,7 +45,8 @@ pub(crate) fn members(path: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// Reads a member of an archive of at most some bytes; `Err` holds the reason why it cannot be read.
+/// Reads a member of an archive of at most some bytes; `Err` holds the reason why it cannot be
+/// read.
 #[cfg(feature = "archives")]
 pub(crate) fn read(path: &Path, name: &str, most: u64) -> Result<Vec<u8>, String> {
     use std::io::Read;

@@ -1,5 +1,6 @@
-//! Words by which the headings and titles of tables are understood, in small letters, a line for each language:
-//! English, German, French, Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
+//! Words by which the headings and titles of tables are understood, in small letters, a line for
+//! each language: English, German, French, Italian, Spanish, Portuguese, Turkish, Japanese and
+//! Chinese.
 
 use crate::test::{Direction, Test};
 

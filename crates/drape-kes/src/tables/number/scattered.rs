@@ -20,7 +20,8 @@ pub(crate) enum Spread {
     Percent,
     /// Percent of the first number, or in its unit where that is percent too.
     PercentOrUnit,
-    /// A whole number behind one with a fraction, as in `0.112 (3)`: last digits, or something else.
+    /// A whole number behind one with a fraction, as in `0.112 (3)`: last digits, or something
+    /// else.
     Unclear,
 }
 
