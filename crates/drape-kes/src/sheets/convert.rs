@@ -16,7 +16,7 @@ use crate::sheets::axis::{AxisKeys, Zero, deformation_quantities, load_quantitie
 use crate::sheets::checks::suspect::AsWritten;
 use crate::sheets::findings::Findings;
 use crate::sheets::section::ColumnOrLength;
-use crate::tables::columns::named;
+use crate::tables::columns::find_named;
 use crate::tables::heading::words::Words;
 use crate::tables::heading::{self, Kind};
 use crate::tables::series::Series;
@@ -315,7 +315,7 @@ fn sizes(
     match &axis.size {
         None => Ok(None),
         Some(ColumnOrLength::Length(length)) => Ok(Some(vec![*length; series.block.rows.len()])),
-        Some(ColumnOrLength::Column(column)) => match named(&series.block, column) {
+        Some(ColumnOrLength::Column(column)) => match find_named(&series.block, column) {
             Ok(columns) => lengths(series, columns[0], findings).map(Some),
             Err(reason) => {
                 let finding = Diagnostic::new(&series.path, reason.message).help(reason.help);

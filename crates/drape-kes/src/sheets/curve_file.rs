@@ -224,7 +224,7 @@ impl CurveKeys {
         let mut points = 0;
         let mut curves = Vec::new();
         for (index, mut series) in series.into_iter().enumerate() {
-            series.trim();
+            series.drop_empty_rows();
             points += series.block.rows.len();
             let (name, scales) = self.curve(&series, findings)?;
             if index == 0 {

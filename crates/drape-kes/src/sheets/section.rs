@@ -324,9 +324,9 @@ impl<'t> Section<'t> {
             DeValue::Array(items) => {
                 let numbers: Option<Vec<usize>> =
                     items.iter().map(|item| parse_whole(item.get_ref())).collect();
-                numbers.filter(|numbers| !numbers.is_empty()).map(Take::These)
+                numbers.filter(|numbers| !numbers.is_empty()).map(Take::Numbers)
             }
-            value => parse_whole(value).map(|number| Take::These(vec![number])),
+            value => parse_whole(value).map(|number| Take::Numbers(vec![number])),
         };
         if take.is_none() {
             self.report_wrong_type(
