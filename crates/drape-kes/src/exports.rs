@@ -2,9 +2,9 @@
 //! a commented `sheet.toml`.
 //!
 //! ```text
-//! files ─ file (tables) ─┬─ evidence ─ found ─ curve_draft, verified by Sheet ─┐
-//!                        ├─ compression ───────────────────────────────────────┼─ parts ─ fabrics ─ draft: TOML, notes
-//!                        └─ results ─ value_lines ─────────────────────────────┘
+//! files ─ file (tables) ─┬─ evidence ─ file_curves ─ curve_draft ─┐
+//!                        ├─ compression ──────────────────────────┼─ contents ─ fabrics ─ draft
+//!                        └─ results ─ value_lines ────────────────┘
 //! ```
 //!
 //! Titles, headings and names tell test and direction. Everything detected is written as a key with

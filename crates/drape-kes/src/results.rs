@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! grid ─ matrix ─ table (label, heads) ─ reading (number) ─ fabrics ─ average ┐
-//!                                          several sheets and files ──────────┴ converted (cantilever, fast)
+//!                                          several sheets and files ──────────┴ converted
 //! ```
 //!
 //! A cell beside numbers is split by words of nine languages into an item, a unit, a direction, a

@@ -20,10 +20,11 @@ const DATE_HELP: &str =
 /// use drape_input::Document;
 /// use drape_kes::Sheet;
 ///
-/// let text = "name = \"poplin\"\ncustomer = \"Mill & Co\"\ndate = 2026-03-14\nspecimens = 5\nW = 12\n";
+/// let text = "name = \"poplin\"\ncustomer = \"Mill & Co\"\ndate = 2026-03-14\nspecimens = 5\n";
 /// let record = Sheet::from_document(&Document::new("sheet.toml", text))?.record;
 /// assert_eq!(record.customer.as_deref(), Some("Mill & Co"));
-/// assert_eq!((record.date.as_deref(), record.specimens.as_deref()), (Some("2026-03-14"), Some("5")));
+/// assert_eq!(record.date.as_deref(), Some("2026-03-14"));
+/// assert_eq!(record.specimens.as_deref(), Some("5"));
 /// assert_eq!(record.article, None);
 /// # Ok::<(), drape_kes::Error>(())
 /// ```

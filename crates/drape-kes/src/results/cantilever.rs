@@ -3,7 +3,8 @@
 //! The bending length `$c$` is half of the overhang, and with the mass per area `$W$` \[Pei30\]
 //!
 //! ```math
-//! B = W g c^3, \qquad B[\mathrm{\mu N\,m}] = 9.81 \times 10^{-6}\, W[\mathrm{g/m^2}]\, c[\mathrm{mm}]^3
+//! B = W g c^3, \qquad
+//! B[\mathrm{\mu N\,m}] = 9.81 \times 10^{-6}\, W[\mathrm{g/m^2}]\, c[\mathrm{mm}]^3
 //! ```
 //!
 //! in the units that FAST prints \[DT94\]. ASTM D1388 \[ASTM14\] has a constant of 1.421e-5 in

@@ -133,7 +133,7 @@ fn area_below(points: &[[f64; 2]]) -> f64 {
 }
 
 /// Returns the slope at an end of the curve: the slope of the parabola through three points,
-/// between zero and three times the nearest chord. `widths` and `chords` are those of the nearest
+/// between zero and three times the nearest chord. `widths` and `chords` belong to the nearest
 /// and the next interval.
 fn end_slope(widths: [f64; 2], chords: [f64; 2]) -> f64 {
     let [a, b] = widths;

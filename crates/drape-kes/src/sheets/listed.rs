@@ -132,7 +132,8 @@ impl Sheet {
     ///
     /// let mut sheet = Sheet::default();
     /// sheet.w = Some(11.0);
-    /// let [least, most] = sheet.usual_range("G", None).map(|range| [*range.start(), *range.end()]).expect("known");
+    /// let range = sheet.usual_range("G", None).expect("known");
+    /// let [least, most] = [*range.start(), *range.end()];
     /// // 0.18 to 1.6 gf/(cm·deg).
     /// assert!((least - 9.9).abs() < 0.1 && (most - 87.2).abs() < 0.1);
     /// assert_eq!(sheet.usual_range("MMD", None), None);

@@ -76,7 +76,7 @@ fn split_by_specimen(series: Series, layout: &Layout) -> Vec<Series> {
 }
 
 /// Returns the runs of equal values in a `column` of `block`, with their rows. Returns `None` if
-/// the values are not those of several specimens: a run is short, or a value returns.
+/// the values do not belong to several specimens: a run is short, or a value returns.
 fn specimen_runs(block: &Block, column: usize) -> Option<Vec<(String, Vec<Row>)>> {
     /// Least number of rows of a specimen.
     const ROWS_OF_SPECIMEN: usize = 3;
