@@ -1,8 +1,8 @@
 //! One law from one kind of test: tensile, bending, shear, loop bending.
 //!
-//! All fits have the same stages: features read off the curve, initial guesses by linear
-//! least squares on a grid of the nonlinear parameters, candidate laws with a forward model each,
-//! and from there the regression. The laws are
+//! All fits have the same stages: features of the curve, initial guesses by linear least squares on
+//! a grid of the nonlinear parameters, candidate laws with a forward model each, and the
+//! regression. The laws are
 //!
 //! ```math
 //! F(q) = F_0 + k\,q + F_r(q) \quad\text{(bending, shear)}, \qquad
@@ -13,16 +13,17 @@
 //! \[NB04, eqs. 3–5\]. The chapter turns curves of drape-kes into laws of drape-fabric; it knows no
 //! KES values and no sheet.
 //!
-//! * `features`: what is read off a curve before any fit.
-//! * `loop_form`, `loop_start`, `piecewise`: the models of bending and shear loops.
-//! * `bending`, `shear`, `loop_bending`: their fits.
-//! * `value_estimate`: KES values of a fitted law with their intervals; `remark`: what a reader should
-//!   know of a fit.
+//! * `features`: features of a curve before any fit.
+//! * `loop_form`, `loop_start`, `loop_fit`, `piecewise`: the models of bending and shear loops, and
+//!   their fits.
+//! * `bending`, `shear`, `loop_bending`: laws from these fits.
+//! * `value_estimate`: KES values of a fitted law with their intervals; `remark`: remarks on a fit.
 //! * `tensile_form`, `tensile_start`, `prediction`, `tensile`: the tensile fit.
 
 pub(crate) mod bending;
 pub(crate) mod features;
 pub(crate) mod loop_bending;
+pub(crate) mod loop_fit;
 pub(crate) mod loop_form;
 pub(crate) mod loop_start;
 pub(crate) mod piecewise;

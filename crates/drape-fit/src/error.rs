@@ -6,15 +6,15 @@ use drape_kes::Test;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Curve of another test: choose a curve of the right one.
-    #[error("{name}: a {} curve was given where a {} curve is needed", found.name(), wanted.name())]
+    /// Curve of another test: choose a curve of the needed test.
+    #[error("{name}: a {} curve was given where a {} curve is needed", given.name(), needed.name())]
     WrongTest {
         /// Name of the curve.
         name: String,
         /// Test of the curve.
-        found: Test,
+        given: Test,
         /// Test that is needed.
-        wanted: Test,
+        needed: Test,
     },
     /// Load that never changes: check the column and the clamps.
     #[error(
@@ -32,7 +32,8 @@ pub enum Error {
         /// Name of the curve.
         name: String,
     },
-    /// Curve without a later cycle that goes further than those before it: measure one.
+    /// Curve without a later cycle that goes further than the cycles before it: measure such a
+    /// cycle.
     #[error(
         "{name}: the last cycle is not a second one that goes further; there is nothing to predict"
     )]
@@ -77,8 +78,8 @@ pub enum Error {
         /// RT, in percent.
         percent: f64,
     },
-    /// Linearity that is not between 0 and 2: the work under a rising curve is less than twice that
-    /// of a straight line.
+    /// Linearity that is not between 0 and 2. The work under a rising curve is less than twice the
+    /// work of a straight line.
     #[error(
         "{name}: LT is {linearity:.3}, {origin}; a rising curve has more than 0 and less than 2; check LT, WT and EM"
     )]

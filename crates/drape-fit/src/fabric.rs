@@ -1,8 +1,9 @@
 //! The whole fabric from a sheet, and many fabrics at once.
 //!
-//! Curves come before values, values before defaults; what is missing of one direction is taken
-//! from the other, and every default is named in the result. [`identify`](identify::identify) runs
-//! the fits of `curves` in parallel, fills the rest from `values`, and checks the fabric.
+//! Curves come before values, and values before defaults. A law that is missing in one direction is
+//! taken from the other direction, and every default is named in the result.
+//! [`identify`](identify::identify) runs the fits of `curves` in parallel, fills the rest from
+//! `values`, and checks the fabric.
 //!
 //! * `laws`: each law from curves or values, with notes.
 //! * `keys`, `scatter`, `measured_range`: provenance: standard errors by key, from curves and from

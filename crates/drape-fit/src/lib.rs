@@ -2,7 +2,7 @@
 //!
 //! # Tour
 //!
-//! [`identify`] turns a sheet into a [`Fit`]. Its chapters, each using only those above it:
+//! [`identify`] identifies a [`Fit`] from a sheet. Each chapter uses only the chapters above it:
 //!
 //! * `settings`: which laws are fitted, and how.
 //! * `forward`: the loads of a law along a measured history of deformations.

@@ -6,14 +6,14 @@
 //! r_i(p) = \frac{F(q_1 \dots q_i;\,p) - F_i}{\Delta F}, \qquad p^* = \arg\min_p \sum_i w_i r_i^2
 //! ```
 //!
-//! `curves` hands over candidate laws with initial guesses and a forward model each, and gets back
-//! a [`CurveFit`](crate::CurveFit). The minimiser is drape-lm; the chapter knows no law of a
-//! fabric.
+//! `curves` passes candidate laws, each with initial guesses and a forward model, and receives a
+//! [`CurveFit`](crate::CurveFit). The minimiser is drape-lm. The chapter knows no law of a fabric.
 //!
 //! * `linear`: linear least squares for the initial guesses, with the nonlinear parameters on a
 //!   grid.
 //! * `residuals`: forward model and residuals, as a problem of drape-lm.
-//! * `functional`: areas and means that a fit meets beside its points; `noise`: the noise of a load.
+//! * `functional`: areas and means that a fit meets beside its points; `noise`: the noise of a
+//!   load.
 //! * `search`: the minimiser from several starts.
 //! * `candidate`, `selection`: which of several laws the data support, by Akaike's criterion, their
 //!   misfits and their predictions.

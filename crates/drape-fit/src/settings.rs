@@ -1,9 +1,9 @@
 //! Settings of an identification: the laws to fit, the weights of the points, the intervals, and
 //! the evaluation points of KES values.
 //!
-//! Every function that identifies something takes a [`FitSettings`]. A law that is not set is the one
-//! that the sheet asks for, or is selected by Akaike's criterion. The chapter knows the curves of
-//! drape-kes, and no law.
+//! Every function that identifies something takes a [`FitSettings`]. A law that is not set is the
+//! one that the sheet asks for, or is selected by Akaike's criterion. The chapter knows the curves
+//! of drape-kes, and no law.
 //!
 //! * `model`: the laws to choose from.
 //! * `weighting`: the weights of the points of a curve.
@@ -53,7 +53,8 @@ pub struct FitSettings {
 }
 
 impl FitSettings {
-    /// Returns the settings with the bending and shear laws of a sheet where they are not set.
+    /// Returns the settings with the law `model` of a sheet for bending and shear, where no law is
+    /// set.
     pub(crate) fn with_default_model(self, model: Option<Model>) -> Self {
         let model = model.map(|model| match model {
             Model::FirstOrder => LoopModel::Linear(FrictionOrder::First),
@@ -65,7 +66,7 @@ impl FitSettings {
         Self { bending: self.bending.or(model), shear: self.shear.or(model), ..self }
     }
 
-    /// Returns the evaluation points of a sheet's KES values.
+    /// Returns the evaluation points of the KES values of `sheet`.
     #[must_use]
     pub fn evaluation_points(&self, sheet: &Sheet) -> EvaluationPoints {
         EvaluationPoints {

@@ -1,21 +1,22 @@
 //! Laws from KES values alone, and KES values from laws.
 //!
-//! B, 2HB, G, 2HG, 2HG5, EM, LT, WT and RT of a sheet stand in for curves that were not measured. A
-//! law is made such that a simulated KES test of it returns the values \[Kaw80\]:
+//! B, 2HB, G, 2HG, 2HG5, EM, LT, WT and RT of a sheet replace curves that were not measured. A
+//! simulated KES test of a law returns these values \[Kaw80\]:
 //!
 //! ```math
 //! LT = \frac{WT}{\tfrac12 F_m\,EM}, \qquad RT = \frac{WT'}{WT}, \qquad
 //! 2HB = F_\uparrow(\kappa_1) - F_\downarrow(\kappa_1)
 //! ```
 //!
-//! `fabric` uses the chapter where a sheet has no curve; `fabric_values` and `compare_values` are
-//! for reports. It uses laws, the minimiser and `forward::friction_path`, and no measured curve but
-//! in `comparison`.
+//! `fabric` uses the chapter if a sheet has no curve. `fabric_values` and `compare_values` are for
+//! reports. The chapter uses laws, the minimiser and `forward::friction_path`. Only `comparison`
+//! uses measured curves.
 //!
 //! * `assumed`: defaults for values that a sheet does not have.
 //! * `matched`: a law with its deviation, or with notes on what was assumed.
 //! * `bending`, `traction`, `shear`: laws from values; `completion`: missing tensile values.
-//! * `of_law`: the values of one law; `simulated`: those of a fabric; `comparison`: sheet, curve and law side by side.
+//! * `of_law`: the values of one law; `simulated`: the values of a fabric; `comparison`: the values
+//!   of sheet, curve and law side by side.
 
 pub(crate) mod assumed;
 pub(crate) mod bending;

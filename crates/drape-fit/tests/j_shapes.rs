@@ -1,8 +1,9 @@
 //! Tensile curves of the shapes that laboratories measure: the law has the values of the curve, and
 //! their intervals hold them.
 //!
-//! The curves come from formulas that are none of the laws. `cargo test --release -p drape-fit --test
-//! j_shapes -- --ignored --nocapture` prints the whole study.
+//! The curves come from formulas that are none of the laws.
+//! `cargo test --release -p drape-fit --test j_shapes -- --ignored --nocapture` prints the whole
+//! study.
 
 #![allow(clippy::print_stdout, reason = "a study prints its figures")]
 

@@ -1,5 +1,5 @@
-//! Loops of bending and shear that are none of the laws: stiffness that changes along the test, faces
-//! that differ, offsets, and limits other than the standard's.
+//! Loops of bending and shear that are none of the laws: stiffness that changes along the test,
+//! faces that differ, offsets, and limits other than the standard's.
 
 mod random;
 

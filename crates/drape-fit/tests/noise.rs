@@ -1,6 +1,7 @@
 //! Curves whose deformation is noisy: the values of the law, and what their intervals say.
 //!
-//! `cargo test --release -p drape-fit --test noise -- --ignored --nocapture` prints the whole study.
+//! `cargo test --release -p drape-fit --test noise -- --ignored --nocapture` prints the whole
+//! study.
 
 #![allow(clippy::print_stdout, reason = "a study prints its figures")]
 

@@ -5,6 +5,7 @@ use drape_input::Diagnostics;
 /// Reason why a sheet or a curve cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+/// Mistakes in the sheet or in a table file of the sheet. All mistakes are listed: correct them.
 pub enum Error {
     /// Mistakes in the sheet or in a file that it names, all that were found: correct them.
     #[error(transparent)]
@@ -39,23 +40,23 @@ pub enum Error {
         /// Deformation, in SI.
         deformation: f64,
     },
-    /// Repeat with another history than the first: average those that are alike.
-    #[error("repeat {repeat} has {found} branches where the first has {wanted}")]
+    /// Repeat whose history differs from the first curve: average only curves of one history.
+    #[error("repeat {repeat} has {branches} branches where the first has {expected}")]
     UnlikeRepeats {
         /// Number of the repeat, from 1.
         repeat: usize,
-        /// Number of its branches.
-        found: usize,
-        /// Number of the branches of the first.
-        wanted: usize,
+        /// Number of branches of the repeat.
+        branches: usize,
+        /// Number of branches of the first curve.
+        expected: usize,
     },
-    /// Curve of another test than the value: choose a curve of the right one.
-    #[error("a {found} curve was given where a {wanted} curve is needed")]
+    /// Curve of another test than the value: choose a curve of the needed test.
+    #[error("a {given} curve was given where a {needed} curve is needed")]
     WrongTest {
         /// Test of the curve.
-        found: &'static str,
-        /// Test that is needed.
-        wanted: &'static str,
+        given: &'static str,
+        /// Test that the value needs.
+        needed: &'static str,
     },
     /// Evaluation point without a rising and a falling branch: measure further, or move the point.
     #[error("the curve has no loop at a deformation of {deformation}; it spans {low} to {high}")]
@@ -67,16 +68,17 @@ pub enum Error {
         /// Highest deformation measured, in SI.
         high: f64,
     },
-    /// Slack strip, whose tensile values have no zero of strain: measure one under pretension.
+    /// Slack strip, whose tensile values have no zero of strain: measure a strip under pretension.
     #[error("the strip hung slack, so that its strain has no zero of its own")]
     SlackStrip,
-    /// Largest load that is not that of the tensile values: give the largest load of the test (FM).
-    #[error("the curve ends at {reached:.1} N/m, and the value is that of {wanted:.1} N/m")]
+    /// Largest load that differs from the largest load of the tensile values: give the largest load
+    /// of the test (FM).
+    #[error("the curve ends at {reached:.1} N/m, and the value is that of {fm:.1} N/m")]
     OtherMaximumTension {
         /// Largest load of the first loading branch, in N/m.
         reached: f64,
         /// FM, in N/m.
-        wanted: f64,
+        fm: f64,
     },
     /// Tensile curve that ends at its largest load: measure the recovery too.
     #[error("the curve has no way back")]

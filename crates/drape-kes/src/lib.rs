@@ -5,13 +5,15 @@
 //! [`Sheet::read`] reads a laboratory's sheet with its [`Curve`]s and [`Values`];
 //! [`Curve::values`] computes KES values from a curve.
 //!
-//! * `test`, `symbol`, `values`, `scatter`: the KES values of one direction, in laboratory units and
-//!   in SI, and their standard deviations.
-//! * `test_record`: [`TestRecord`], for whom, when and where a fabric was tested.
-//! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
-//! * `tables`: the files of instruments and spreadsheets, made into columns of numbers.
-//! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
-//! * `exports`: [`SheetDraft`], a folder of files made into a sheet.
+//! * `test`, `symbol`, `values`, `scatter`: the KES values of one direction, in laboratory units
+//!   and in SI, and the standard deviations of the values.
+//! * `test_record`: [`TestRecord`], the customer, date and laboratory of a test.
+//! * `curves`: [`Curve`], its branches, and the KES values that are read from a curve at
+//!   [`EvaluationPoints`].
+//! * `tables`: reads files of instruments and spreadsheets into columns of numbers.
+//! * `results`: reads tables of KES values, as laboratories and publications print them.
+//! * `sheets`: [`Sheet`], its TOML and table files, and the checks of values and curves.
+//! * `exports`: [`SheetDraft`], a sheet drafted from a folder of exported files.
 
 mod error;
 // Tests, and the values that they give.

@@ -4,7 +4,7 @@ use crate::symbol::Symbol;
 use crate::test::Direction;
 use drape_input::{NumberWithUnit, Quantity, UnitError, parse_quantity};
 
-/// Standard deviation of a value, as the sheet states it.
+/// Standard deviation of a value that a law uses, as the sheet states it.
 ///
 /// ```
 /// use drape_input::Document;
@@ -31,7 +31,7 @@ pub struct Scatter {
 pub struct OtherScatter {
     /// Symbol of the value, such as `T` or `MIU`.
     pub symbol: &'static str,
-    /// Direction of the value, where it has one.
+    /// Direction of the value; `None` for a value without a direction.
     pub direction: Option<Direction>,
     /// Standard deviation, in the laboratory's unit.
     pub deviation: f64,
@@ -40,59 +40,73 @@ pub struct OtherScatter {
 /// Signs between a value and its standard deviation.
 const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
 
-/// Value and standard deviation of a text.
-pub(crate) struct Parted {
+/// Value and standard deviation that one text states.
+pub(crate) struct ValueWithDeviation {
     pub(crate) value: NumberWithUnit,
     /// Standard deviation, in SI.
     pub(crate) deviation: f64,
 }
 
-/// Parses a value with its standard deviation; `None` for a text without one.
+/// Parses a value of `quantity` with its standard deviation. Returns `None` if `text` states no
+/// standard deviation.
 ///
 /// ```text
 /// 0.118 ± 0.006    0.118 ± 0.006 gf.cm2/cm    (0.118 ± 0.006) gf.cm2/cm    1.2e-5 N.m ± 5 %
 /// ```
-pub(crate) fn parse(text: &str, quantity: Quantity) -> Option<Result<Parted, UnitError>> {
+pub(crate) fn parse(
+    text: &str,
+    quantity: Quantity,
+) -> Option<Result<ValueWithDeviation, UnitError>> {
     let (value, deviation) = split(text)?;
-    Some(parted(value, deviation, quantity))
+    Some(parse_parts(value, deviation, quantity))
 }
 
-/// Returns whether a text has numbers and no unit.
+/// Returns whether `text` has numbers and no unit.
 pub(crate) fn is_bare(text: &str) -> bool {
     let (value, deviation) = split(text).unwrap_or((text, "0"));
     is_number(value) && is_number(deviation)
 }
 
-/// Splits a text at the sign between a value and its standard deviation.
+/// Splits `text` at the sign between a value and its standard deviation.
 fn split(text: &str) -> Option<(&str, &str)> {
     SIGNS.iter().find_map(|sign| text.split_once(sign))
 }
 
-/// Returns whether a text is a number without a unit, in brackets or not.
+/// Returns whether `text` is a number without a unit, in brackets or not.
 fn is_number(text: &str) -> bool {
     text.trim_matches(['(', ')', ' ']).parse::<f64>().is_ok()
 }
 
-fn parted(value: &str, deviation: &str, quantity: Quantity) -> Result<Parted, UnitError> {
-    let [bare_value, bare_deviation] = [value, deviation].map(is_number);
-    // One pair of brackets, around both numbers.
+/// Parses a `value` of `quantity` and the `deviation` behind it. A percentage is a share of the
+/// value, except where `quantity` is itself a ratio.
+fn parse_parts(
+    value: &str,
+    deviation: &str,
+    quantity: Quantity,
+) -> Result<ValueWithDeviation, UnitError> {
+    let [value_is_bare, deviation_is_bare] = [value, deviation].map(is_number);
+    // One pair of brackets may stand around both numbers.
     let value = value.trim().trim_start_matches('(').trim();
     let deviation = deviation.replacen(')', " ", usize::from(!deviation.contains('(')));
+
     let mut value = parse_quantity(value, quantity)?;
+
+    // A standard deviation in percent is relative to the value.
     let share =
         deviation.trim().strip_suffix('%').and_then(|share| share.trim().parse::<f64>().ok());
     if let Some(percent) = share.filter(|_| quantity != Quantity::Ratio) {
         let deviation = 0.01 * percent * value.number * value.unit.factor;
-        return Ok(Parted { value, deviation });
+        return Ok(ValueWithDeviation { value, deviation });
     }
+
     let mut deviation = parse_quantity(&deviation, quantity)?;
-    // A unit behind one of the numbers is the unit of both.
-    if bare_value {
+    // A unit behind only one of the numbers is the unit of both.
+    if value_is_bare {
         value.unit = deviation.unit;
-    } else if bare_deviation {
+    } else if deviation_is_bare {
         deviation.unit = value.unit;
     }
-    Ok(Parted { value, deviation: deviation.number * deviation.unit.factor })
+    Ok(ValueWithDeviation { value, deviation: deviation.number * deviation.unit.factor })
 }
 
 #[cfg(test)]

@@ -5,17 +5,18 @@
 //!                       └─ [[curve]] ─ axis ─ (tables) ─ convert ─ checks ─ Curve ─ Sheet
 //! ```
 //!
-//! Units are converted here and nowhere later. Whatever is wrong is collected, not returned at the
-//! first mistake: each finding has file, line, value and remedy. The chapter uses `unit`, `values`,
-//! `curves` and `tables`; nothing in the crate uses it.
+//! Units are converted here and nowhere later. All mistakes are collected: each finding has file,
+//! line, value and remedy. The chapter uses `values`, `curves` and `tables`. The chapter `exports`
+//! uses this one.
 //!
 //! * `findings`: the list of errors and warnings.
 //! * `section`: typed access to a TOML table.
-//! * `spelling`, `value_keys`: the values; `compression`: what those of KES-FB3 give together;
-//!   `listed`: all of them, with their use.
-//! * `schema`: JSON Schema of all that.
+//! * `spelling`, `value_keys`: the values; `compression`: values that follow from other values of
+//!   KES-FB3; `listed`: all values, with their use.
+//! * `schema`: JSON Schema of the sheet and its curves.
 //! * `checks`: values and curves that cannot be right, and the load of the tensile test.
-//! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `repeats`: curves of specimens.
+//! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `repeats`: curves of
+//!   specimens.
 //! * `model`, `sheet`: the sheet.
 
 pub(crate) mod axis;

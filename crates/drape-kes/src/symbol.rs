@@ -46,7 +46,8 @@ impl Symbol {
         Self::Em,
     ];
 
-    /// Returns the symbol as it is written, which is its key in a sheet.
+    /// Returns the symbol as laboratories write it: `"2HB"` for [`Symbol::TwoHb`]. The name is also
+    /// the key in a sheet.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -62,7 +63,7 @@ impl Symbol {
         }
     }
 
-    /// Returns the laboratory's unit; LT has none.
+    /// Returns the laboratory's unit, such as `"gf·cm²/cm"` for `B`. The unit of `LT` is empty.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -76,7 +77,7 @@ impl Symbol {
         }
     }
 
-    /// Returns the test that the value is read from.
+    /// Returns the test that gives the value: [`Test::Bending`] for `B` and `2HB`.
     #[must_use]
     pub fn test(self) -> Test {
         match self {
@@ -86,7 +87,8 @@ impl Symbol {
         }
     }
 
-    /// Returns the size of the laboratory's unit in SI.
+    /// Returns the size of the laboratory's unit in SI: a value times this factor is in SI. The
+    /// factor of `LT` is 1.
     #[must_use]
     pub fn factor(self) -> f64 {
         let quantity = match self {

@@ -21,7 +21,7 @@ pub enum Test {
 }
 
 impl Test {
-    /// Returns the name used in sheets and messages.
+    /// Returns the name in sheets and messages: `"bending"` for [`Test::Bending`].
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -37,8 +37,8 @@ impl Test {
     /// Largest angle of the standard shear test (KES-FB1), in rad: 8°.
     pub const LARGEST_ANGLE: f64 = 8.0 * std::f64::consts::PI / 180.0;
 
-    /// Returns the largest deformation of the standard test to each side. `None` where the test ends
-    /// at a load, or no standard test exists.
+    /// Returns the largest deformation of the standard test to each side, in SI. Returns `None` for
+    /// a test that ends at a load, and for [`Test::LoopBending`], which has no standard.
     ///
     /// ```
     /// assert_eq!(drape_kes::Test::Bending.standard_deformation(), Some(250.0));
@@ -52,8 +52,7 @@ impl Test {
         }
     }
 
-    /// Returns a deformation of the test in the unit in which laboratories print it: percent, degrees
-    /// or 1/cm.
+    /// Returns `deformation`, in SI, as a text in the laboratory's unit: percent, degrees or 1/cm.
     ///
     /// ```
     /// assert_eq!(drape_kes::Test::Bending.describe(250.0), "2.50 1/cm");
@@ -78,7 +77,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// Returns the name used in sheets and messages.
+    /// Returns the name in sheets and messages: `"warp"` or `"weft"`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

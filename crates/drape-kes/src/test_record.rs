@@ -1,5 +1,4 @@
-//! Record of a test, for the head of a report: for whom, of which article, when, where, on how many
-//! specimens.
+//! Record of a test for the head of a report: customer, article, laboratory, date and specimens.
 
 use drape_input::{Diagnostic, Diagnostics};
 
@@ -7,23 +6,25 @@ use drape_input::{Diagnostic, Diagnostics};
 pub(crate) const RECORD_KEYS: [&str; 5] =
     ["customer", "article", "laboratory", "date", "specimens"];
 
-/// Remedy for a text that says nothing.
-const REMOVE: &str = "write it, or remove the line: what is not known stays blank";
+/// Remedy for an empty text.
+const EMPTY_HELP: &str = "write it, or remove the line: what is not known stays blank";
 
-/// Remedy for a date in another order.
-const ORDER: &str =
+/// Remedy for a date in another format.
+const DATE_HELP: &str =
     "write year, month and day as 2026-03-14, or as much of it as is known: 2026-03 or 2026";
 
-/// Record of a test: what a laboratory writes above its results. Nothing here changes a number.
+/// Record of a test: what a laboratory writes above its results. The record does not change any
+/// number.
 ///
 /// ```
 /// use drape_input::Document;
 /// use drape_kes::Sheet;
 ///
-/// let text = "name = \"poplin\"\ncustomer = \"Mill & Co\"\ndate = 2026-03-14\nspecimens = 5\nW = 12\n";
+/// let text = "name = \"poplin\"\ncustomer = \"Mill & Co\"\ndate = 2026-03-14\nspecimens = 5\n";
 /// let record = Sheet::from_document(&Document::new("sheet.toml", text))?.record;
 /// assert_eq!(record.customer.as_deref(), Some("Mill & Co"));
-/// assert_eq!((record.date.as_deref(), record.specimens.as_deref()), (Some("2026-03-14"), Some("5")));
+/// assert_eq!(record.date.as_deref(), Some("2026-03-14"));
+/// assert_eq!(record.specimens.as_deref(), Some("5"));
 /// assert_eq!(record.article, None);
 /// # Ok::<(), drape_kes::Error>(())
 /// ```
@@ -33,29 +34,28 @@ pub struct TestRecord {
     pub customer: Option<String>,
     /// Article: the customer's number or name of the fabric.
     pub article: Option<String>,
-    /// Laboratory that tested it.
+    /// Laboratory that tested the fabric.
     pub laboratory: Option<String>,
     /// Date of the tests: `2026-03-14`, `2026-03` or `2026`.
     pub date: Option<String>,
-    /// Specimens: their number, or a text such as `3 of 20 cm × 20 cm`.
+    /// Specimens: the number of specimens, or a text such as `3 of 20 cm × 20 cm`.
     pub specimens: Option<String>,
 }
 
 impl TestRecord {
-    /// Sets a line of the record by its key in a sheet, in place of what the sheet says.
+    /// Sets the line that has `key` in a sheet to `text`, and replaces the line of the sheet.
     ///
     /// # Errors
-    /// There is no such key, the text is empty or not in one line, a date is none, or there are no
-    /// specimens.
+    /// `key` is unknown, `text` is empty or has several lines, a date is not a date, or the number
+    /// of specimens is less than one.
     pub fn set(&mut self, key: &str, text: &str) -> Result<(), Diagnostics> {
-        let fault = |Fault { message, help }| {
+        self.set_line(key, text).map_err(|Fault { message, help }| {
             Diagnostic::new(format!("--{key}"), format!("{text}: {message}")).help(help).into()
-        };
-        self.put(key, text).map_err(fault)
+        })
     }
 
-    /// Sets a line of the record by its key; a key that there is not is a fault, too.
-    pub(crate) fn put(&mut self, key: &str, text: &str) -> Result<(), Fault> {
+    /// Sets the line that has `key` to `text`. An unknown `key` is a fault, too.
+    pub(crate) fn set_line(&mut self, key: &str, text: &str) -> Result<(), Fault> {
         let text = checked(key, text)?;
         let line = match key {
             "customer" => &mut self.customer,
@@ -72,7 +72,7 @@ impl TestRecord {
         Ok(())
     }
 
-    /// Returns the lines with their titles, in the order of a report; what is not known is `None`.
+    /// Returns the lines with their titles, in the order of a report. An unknown line is `None`.
     #[must_use]
     pub fn lines(&self) -> [(&'static str, Option<&str>); 5] {
         [
@@ -91,17 +91,17 @@ pub(crate) struct Fault {
     pub(crate) help: &'static str,
 }
 
-/// Returns the text of a line without blanks at its ends, checked.
+/// Checks the `text` of the line `key`, and returns the text without blanks at its ends.
 fn checked(key: &str, text: &str) -> Result<String, Fault> {
     let text = text.trim();
     if text.is_empty() {
-        return Err(Fault { message: "is empty", help: REMOVE });
+        return Err(Fault { message: "is empty", help: EMPTY_HELP });
     }
     if text.contains(char::is_control) {
         return Err(Fault { message: "is not one line of text", help: "write it in one line" });
     }
     match key {
-        "date" if !is_date(text) => Err(Fault { message: "is not a date", help: ORDER }),
+        "date" if !is_date(text) => Err(Fault { message: "is not a date", help: DATE_HELP }),
         "specimens" if text.parse::<f64>().is_ok_and(|count| !is_count(count)) => Err(Fault {
             message: "is not a number of specimens",
             help: "write how many were tested, such as 5, or a text such as \"3 of 20 cm × 20 cm\"",
@@ -110,26 +110,31 @@ fn checked(key: &str, text: &str) -> Result<String, Fault> {
     }
 }
 
-/// Returns whether a number counts specimens.
+/// Returns whether `count` is a whole number of at least one specimen.
 fn is_count(count: f64) -> bool {
     count >= 1.0 && count.fract() == 0.0
 }
 
-/// Days of the months of a leap year.
-const DAYS: [u32; 12] = [31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
-
-/// Returns whether a text is a year, a month of a year or a day of the calendar, as ISO 8601 writes them.
+/// Returns whether `text` is a year, a month of a year or a day of the calendar, in the form of ISO
+/// 8601.
 fn is_date(text: &str) -> bool {
+    /// Days of the months of a leap year.
+    const DAYS: [u32; 12] = [31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    /// Number of digits of year, month and day.
+    const LENGTHS: [usize; 3] = [4, 2, 2];
+
+    // Signs and blanks, which `parse` may accept, are refused here.
     let parts: Vec<&str> = text.split('-').collect();
-    let lengths = [4, 2, 2];
-    let are_digits = |(part, length): (&&str, usize)| {
+    let have_digits = parts.iter().zip(LENGTHS).all(|(part, length)| {
         part.len() == length && part.bytes().all(|byte| byte.is_ascii_digit())
-    };
-    if parts.len() > lengths.len() || !parts.iter().zip(lengths).all(are_digits) {
+    });
+    if parts.len() > LENGTHS.len() || !have_digits {
         return false;
     }
-    let number = |index: usize| parts.get(index).map_or(1, |part| part.parse().unwrap_or(0));
-    let [year, month, day] = [0, 1, 2].map(number);
+
+    // A missing month or day counts as the first.
+    let [year, month, day] =
+        [0, 1, 2].map(|index| parts.get(index).map_or(1, |part| part.parse().unwrap_or(0)));
     let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
     let days = (month as usize).checked_sub(1).and_then(|index| DAYS.get(index));
     days.is_some_and(|&days| {

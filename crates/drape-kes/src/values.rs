@@ -43,67 +43,68 @@ pub struct Values {
 }
 
 impl Values {
-    /// Returns B: bending rigidity per width, in N·m.
+    /// Returns `B`: bending rigidity per width, in N·m.
     #[must_use]
     pub fn bending_rigidity(&self) -> Option<f64> {
         si(self.b, Quantity::BendingRigidity)
     }
 
-    /// Returns 2HB: width of the bending loop, moment per width, in N.
+    /// Returns `2HB`: width of the bending loop, moment per width, in N.
     #[must_use]
     pub fn bending_loop_width(&self) -> Option<f64> {
         si(self.two_hb, Quantity::MomentPerWidth)
     }
 
-    /// Returns G: shear stiffness, in N/(m·rad).
+    /// Returns `G`: shear stiffness, in N/(m·rad).
     #[must_use]
     pub fn shear_stiffness(&self) -> Option<f64> {
         si(self.g, Quantity::ShearStiffness)
     }
 
-    /// Returns 2HG: width of the shear loop at 0.5°, in N/m.
+    /// Returns `2HG`: width of the shear loop at 0.5°, in N/m.
     #[must_use]
     pub fn shear_loop_width(&self) -> Option<f64> {
         si(self.two_hg, Quantity::ForcePerWidth)
     }
 
-    /// Returns 2HG5: width of the shear loop at 5°, in N/m.
+    /// Returns `2HG5`: width of the shear loop at 5°, in N/m.
     #[must_use]
     pub fn shear_loop_width_at_five_degrees(&self) -> Option<f64> {
         si(self.two_hg5, Quantity::ForcePerWidth)
     }
 
-    /// Returns LT: work to the maximum load over the work of a straight line to it, a ratio.
+    /// Returns `LT`: work to the maximum load over the work of a straight line to the maximum load,
+    /// a ratio.
     #[must_use]
     pub fn tensile_linearity(&self) -> Option<f64> {
         self.lt
     }
 
-    /// Returns WT: work per area to the maximum load, in J/m².
+    /// Returns `WT`: work per area to the maximum load, in J/m².
     #[must_use]
     pub fn tensile_work(&self) -> Option<f64> {
         si(self.wt, Quantity::WorkPerArea)
     }
 
-    /// Returns RT: work recovered over work spent, a ratio.
+    /// Returns `RT`: work recovered over work spent, a ratio.
     #[must_use]
     pub fn tensile_resilience(&self) -> Option<f64> {
         si(self.rt, Quantity::Ratio)
     }
 
-    /// Returns EM: strain at the maximum load, a ratio.
+    /// Returns `EM`: strain at the maximum load, a ratio.
     #[must_use]
     pub fn tensile_extension(&self) -> Option<f64> {
         si(self.em, Quantity::Ratio)
     }
 
-    /// Returns whether no value is given.
+    /// Returns whether all values are `None`.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Returns a value by its symbol, in the laboratory's unit.
+    /// Returns the value of `symbol`, in the laboratory's unit.
     #[must_use]
     pub fn get(&self, symbol: Symbol) -> Option<f64> {
         match symbol {
@@ -119,7 +120,7 @@ impl Values {
         }
     }
 
-    /// Returns a mutable reference to a value by its symbol.
+    /// Returns a mutable reference to the value of `symbol`.
     pub fn get_mut(&mut self, symbol: Symbol) -> &mut Option<f64> {
         match symbol {
             Symbol::B => &mut self.b,
@@ -135,6 +136,7 @@ impl Values {
     }
 }
 
+/// Converts `value` from the laboratory's unit of `quantity` to SI.
 fn si(value: Option<f64>, quantity: Quantity) -> Option<f64> {
     value.map(|value| value * quantity.laboratory().factor)
 }

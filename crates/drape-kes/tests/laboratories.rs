@@ -1,5 +1,5 @@
-//! Tables as laboratories of many countries write them: languages, encodings, decimal signs, units, orientations,
-//! footers, specimens. Each is read right, or answered with the reason.
+//! Tables as laboratories of many countries write them: languages, encodings, decimal signs, units,
+//! orientations, footers, specimens. Each is read right, or answered with the reason.
 
 use drape_kes::SheetDraft;
 

@@ -270,9 +270,10 @@ fn a_sheet_may_ask_for_a_law() {
     assert_eq!(help(&found), "did you mean \"breen-1994\"?");
 }
 
-/// Denim D of table 5 of "Regenerated Cellulose-Based Denim Fabric for Tropical Regions", Journal of
-/// Textiles, vol. 2016, article 4614168 (Hindawi, CC BY): one value for both directions, as printed,
-/// in the paper's order and with its EMT. Its MIU and W are those of the table, unusual as they are.
+/// Denim D of table 5 of "Regenerated Cellulose-Based Denim Fabric for Tropical Regions", Journal
+/// of Textiles, vol. 2016, article 4614168 (Hindawi, CC BY): one value for both directions, as
+/// printed, in the paper's order and with its EMT. Its MIU and W are those of the table, unusual as
+/// they are.
 const PUBLISHED: &str = "name = \"denim D\"\nsource = \"J. Textiles 2016, 4614168, table 5\"\n\
     EMT = 5.135\nLT = 0.676\nWT = 8.675\nRT = 52.450\nB = 0.147\n2HB = 0.141\nG = 1.613\n2HG = 3.513\n\
     2HG5 = 6.412\nMIU = 1.788\nMMD = 0.715\nSMD = 3.462\nLC = 0.255\nWC = 0.307\nRC = 29.483\nT = 1.040\n\

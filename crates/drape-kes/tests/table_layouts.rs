@@ -1,5 +1,6 @@
-//! Layouts in which laboratories keep the values of one fabric, each as `.csv` and as a workbook, alone and in a folder,
-//! under names that say something else. All of them give the same sheet, and several fabrics across give one each.
+//! Layouts in which laboratories keep the values of one fabric, each as `.csv` and as a workbook,
+//! alone and in a folder, under names that say something else. All of them give the same sheet, and
+//! several fabrics across give one each.
 //!
 //! The tables are made here from one list of values; those of FAST are in `fast.rs`.
 

@@ -4,18 +4,15 @@ use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine};
 use drape_kes::{BendingPoints, Curve, Test};
 
 use crate::curves::features::{check, largest};
+use crate::curves::loop_fit::{LoopFamily, LoopFit, fit_loop};
 use crate::curves::loop_form::{LoopBackbone, LoopForm, LoopLaw};
-use crate::curves::loop_start::MeasuredLoop;
-use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::curves::piecewise::{fit_first_branch, piecewise_backbone};
 use crate::curves::remark::remarks;
 use crate::curves::value_estimate::value_estimates;
 use crate::error::Error;
-use crate::forward::friction_path::FrictionPath;
 use crate::forward::loop_drive::drive_loop;
-use crate::regression::curve_fit::{COMPARED_POINTS, FitOptions, Identified, fit_curve};
-use crate::regression::functional::loop_functionals;
+use crate::regression::curve_fit::Identified;
 use crate::regression::repeats::with_scatter;
-use crate::regression::selection::{CandidateModel, select};
 use crate::settings::FitSettings;
 use crate::settings::model::{LoopModel, Plateau};
 use crate::values::of_law::bending_values;
@@ -23,9 +20,9 @@ use crate::values::of_law::bending_values;
 /// Identifies the bending law of one direction from a bending curve.
 ///
 /// A line, or a rigidity that changes along the test, is fitted with friction to the whole history.
-/// The zero of the moment is fitted too: it absorbs the offset of the instrument, and the difference between the two sides of the
-/// fabric, which the law does not have. A [`LoopModel::Piecewise`] is fitted to the first loading
-/// branch.
+/// The zero of the moment is fitted too. It contains the offset of the instrument and the
+/// difference between the two sides of the fabric, which the law does not have. A
+/// [`LoopModel::Piecewise`] is fitted to the first loading branch.
 ///
 /// ```
 /// use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
@@ -38,7 +35,8 @@ use crate::values::of_law::bending_values;
 ///     friction: BlimanSorine::first_order(6e-4, 4.0),
 /// };
 /// // The KES cycle, in 1/m.
-/// let curvature: Vec<f64> = (0..=125).chain((-125..125).rev()).map(|i| 2.0 * f64::from(i)).collect();
+/// let steps = (0..=125).chain((-125..125).rev());
+/// let curvature: Vec<f64> = steps.map(|i| 2.0 * f64::from(i)).collect();
 /// let moment = drive(&law, law.virgin(), &curvature);
 /// let curve = Curve::new(Test::Bending, Direction::Weft, curvature, moment).expect("it moves");
 ///
@@ -58,7 +56,7 @@ pub fn identify_bending(
     let curvature = curve.deformation();
     if settings.bending == Some(LoopModel::Piecewise) {
         let law = |p: &[f64]| BendingLaw {
-            backbone: BendingBackbone::Piecewise(backbone(p)),
+            backbone: BendingBackbone::Piecewise(piecewise_backbone(p)),
             rest_curvature: 0.0,
             friction: BlimanSorine::none(),
         };
@@ -68,19 +66,17 @@ pub fn identify_bending(
         let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, settings)?.fit));
         return Ok(Identified { law: law(&fit.parameter_values()), fit });
     }
-    let compared = &*curve.thinned(COMPARED_POINTS);
-    let measured = MeasuredLoop::new(compared, "rigidity", compared.deformation())?;
-    let forms = LoopForm::admitted(settings.bending, &[Plateau::Constant]);
-    let model = |form: &LoopForm| measured.model(*form, form.name());
-    let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
-    let weights = settings.weighting.weights(curve, 0.0);
+
     let BendingPoints { slope, width } = settings.bending_points;
-    let functionals = loop_functionals(curve, slope, &[width]);
-    let options = FitOptions { weights, functionals, intervals: settings.intervals };
-    let path = FrictionPath::new(curvature);
-    let forward = |chosen: usize| forms[chosen].forward(curvature, &path);
-    let mut fit = fit_curve(curve, select(compared, &models), forward, options);
-    let form = forms[fit.chosen];
+    let forms = LoopForm::admitted(settings.bending, &[Plateau::Constant]);
+    let family = LoopFamily {
+        stiffness: "rigidity",
+        deformation: |curvature| curvature,
+        forms: forms.into_iter().map(|form| (form, form.name())).collect(),
+        slope,
+        widths: &[width],
+    };
+    let LoopFit { mut fit, form } = fit_loop(curve, &family, settings)?;
     let (points, largest) = (settings.bending_points, largest(curvature));
     fit.values =
         value_estimates(curve, &fit, settings, |p| bending_values(&law(form, p), &points, largest));
@@ -90,7 +86,7 @@ pub fn identify_bending(
     Ok(Identified { law: law(form, &fit.parameter_values()), fit })
 }
 
-/// Returns the law of a form with some parameters.
+/// Returns the law of `form` with the `parameters` of a fit.
 fn law(form: LoopForm, parameters: &[f64]) -> BendingLaw {
     let LoopLaw { backbone, friction, .. } = form.law(parameters);
     let backbone = match backbone {

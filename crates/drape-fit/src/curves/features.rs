@@ -1,15 +1,15 @@
-//! Features read off a curve before any fit: its test, its slope, its size.
+//! Features of a curve before any fit: its test, its slope, its size.
 
 use drape_kes::{Curve, Test};
 use drape_lm::Parameter;
 
 use crate::error::Error;
 
-/// Checks that a curve is of the right test and has a load that changes.
-pub(crate) fn check(curve: &Curve, wanted: Test) -> Result<(), Error> {
+/// Checks that `curve` is of the test `needed`, and has a load that changes.
+pub(crate) fn check(curve: &Curve, needed: Test) -> Result<(), Error> {
     let name = curve.name.clone();
-    if curve.test != wanted {
-        return Err(Error::WrongTest { name, found: curve.test, wanted });
+    if curve.test != needed {
+        return Err(Error::WrongTest { name, given: curve.test, needed });
     }
     let load = curve.load_range();
     if load.low == load.high {
@@ -18,12 +18,12 @@ pub(crate) fn check(curve: &Curve, wanted: Test) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns the error of a curve whose load does not rise.
+/// Returns the error of a `curve` whose load does not rise.
 pub(crate) fn falling(curve: &Curve) -> Error {
     Error::FallingLoad { name: curve.name.clone() }
 }
 
-/// Returns the largest size of a deformation.
+/// Returns the largest magnitude of a `deformation`.
 pub(crate) fn largest(deformation: &[f64]) -> f64 {
     deformation.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()))
 }
@@ -36,7 +36,7 @@ pub(crate) struct StraightLine {
 }
 
 impl StraightLine {
-    /// Fits a line to points `[x, y]` by least squares; `None` where all have one `x`.
+    /// Fits a line to `points`, each `[x, y]`, by least squares; `None` if all have one `x`.
     pub(crate) fn through(points: impl Iterator<Item = [f64; 2]> + Clone) -> Option<Self> {
         let count = points.clone().count() as f64;
         let [sx, sy] = points.clone().fold([0.0, 0.0], |[sx, sy], [x, y]| [sx + x, sy + y]);
@@ -48,16 +48,18 @@ impl StraightLine {
     }
 }
 
-/// Returns the slope of the line through all points.
+/// Returns the slope of the line through all points of `curve`.
 ///
-/// It is the stiffness of the backbone: friction hardly changes it, because it has both signs.
+/// The slope is the stiffness of the backbone. Friction hardly changes it, because friction has
+/// both signs.
 pub(crate) fn mean_slope(curve: &Curve) -> Result<f64, Error> {
     let points = curve.deformation().iter().zip(curve.load()).map(|(q, load)| [*q, *load]);
     let slope = StraightLine::through(points).map(|line| line.slope);
     slope.filter(|slope| *slope > 0.0).ok_or_else(|| falling(curve))
 }
 
-/// Returns the unknown zero of the load, at most half of the load range away.
+/// Returns the unknown zero of the load of `curve` as a parameter, at most half of the load range
+/// away.
 pub(crate) fn zero(curve: &Curve) -> Parameter {
     let load = curve.load_range().span();
     Parameter::new(0.0).with_scale(load).between(-0.5 * load, 0.5 * load)

@@ -1,7 +1,7 @@
 //! Bending law from strips that buckle between approaching clamps.
 //!
-//! All strips of one direction are fitted together, so this fit has residuals of its own and calls
-//! search and uncertainty directly. `fabric` uses it where no bending loop was measured.
+//! All strips of one direction are fitted together. Therefore the fit has special residuals, and
+//! calls search and uncertainty directly. `fabric` uses the fit if no bending loop was measured.
 
 use drape_fabric::{BendingBackbone, BendingLaw};
 use drape_kes::{Curve, Test};
@@ -19,7 +19,7 @@ use crate::regression::search::{multistart, refine};
 use crate::regression::uncertainty::{FitEnd, uncertainty};
 use crate::settings::FitSettings;
 
-/// Least shortening of the strip that is used, over its length.
+/// Least shortening of a strip at points that are used, over the length of the strip.
 ///
 /// Below it the arch is so flat that the clamp distance hardly determines its height: an error of
 /// 0.1 mm in the length of a strip of 2 cm is a quarter of this.
@@ -31,9 +31,9 @@ const LENGTH_STARTS: [f64; 3] = [0.01, 0.06, 0.3];
 /// Number of parameters that all strips share: rigidity, plateau, length.
 const SHARED: usize = 3;
 /// Number of parameters of each strip: zero, drift, state.
-const OWN: usize = 3;
+const PER_STRIP: usize = 3;
 
-/// Identifies rigidity and friction of bending from the loop-bending curves of one direction.
+/// Identifies rigidity and friction of bending from the loop-bending `curves` of one direction.
 ///
 /// Each strip is an arch of an inextensible elastica. Its friction is an element of first order
 /// that slips with the mean curvature `$\bar\kappa$` of the arch, so that the work lost at the
@@ -44,16 +44,16 @@ const OWN: usize = 3;
 /// ```
 ///
 /// with the compressive force `$P$` and the largest slope angle `$\theta_{max}$` of the arch and
-/// the shortening `$\Delta$` of the clamp distance. All strips share one law. Each has its own zero
-/// `$F_0$` of the force, a steady drift `$F_d$` of that zero over the test (`$t$` from 0 to 1), and
+/// the shortening `$\Delta$` of the clamp distance. All strips share one law. Each strip has a zero
+/// `$F_0$` of the force, a steady drift `$F_d$` of the zero over the test (`$t$` from 0 to 1), and
 /// a state of the friction at the start, over its plateau, because the strip was bent by hand
 /// before.
 ///
-/// Weight is neglected. It loads a strip of 0.1 kg/m² and 2 cm with 3 % of its bending force, and
-/// one of 8 cm with more than all of it: use short strips, and arches up as well as down, whose
-/// errors have opposite signs.
+/// Weight is neglected. Weight loads a strip of 0.1 kg/m² and 2 cm with 3 % of its bending force,
+/// and a strip of 8 cm with more than its whole bending force. Use short strips, and arches up as
+/// well as down, whose errors have opposite signs.
 ///
-/// Each curve comes back with its fit, in the order given; the law is the same in all.
+/// Each curve is returned with its fit, in the given order. The law is equal in all.
 ///
 /// # Errors
 /// A curve is of another test, has no load or no gauge, or its strip is hardly bent.
@@ -76,21 +76,23 @@ pub fn identify_loop_bending(
         rest_curvature: 0.0,
         friction: friction(&p[1..SHARED]),
     };
+
     let mut first = 0;
     let identified = problem.0.iter().enumerate().map(|(index, strip)| {
-        let own = SHARED + OWN * index;
+        let first_own = SHARED + PER_STRIP * index;
         let mut out = vec![0.0; strip.load.len()];
-        strip.residuals(p, &p[own..own + OWN], &mut out);
+        strip.residuals(p, &p[first_own..first_own + PER_STRIP], &mut out);
         let squares: f64 = out.iter().map(|residual| residual * residual).sum();
         let residuals = first..first + out.len();
         first = residuals.end;
-        let part = uncertainty.part((0..SHARED).chain(own..own + OWN), residuals);
+        let part =
+            uncertainty.select((0..SHARED).chain(first_own..first_own + PER_STRIP), residuals);
         let mut band = vec![0.0; strip.curve.load().len()];
         for (&index, width) in strip.used.iter().zip(&part.band) {
             band[index] = width / strip.scale;
         }
         let mut fit = CurveFit::new(strip.curve, result.clone(), part, strip.all_loads(&out));
-        // Points at which the arch is too flat are not used, and do not count.
+        // Points at which the arch is too flat are not used, and are not counted.
         fit.misfit = (squares / out.len() as f64).sqrt();
         fit.rms = fit.misfit / strip.scale;
         fit.band = band;
@@ -100,14 +102,14 @@ pub fn identify_loop_bending(
     Ok(identified.collect())
 }
 
-/// One strip, with its arches where it is bent enough.
+/// One strip, with the arches of the points at which it is bent enough.
 struct Strip<'a> {
     curve: &'a Curve,
     /// Indices of the points that are used.
     used: Vec<usize>,
-    /// Arch of each of them.
+    /// Arch of each used point.
     arches: Vec<Arch>,
-    /// Load of each of them.
+    /// Load of each used point.
     load: Vec<f64>,
     /// Reciprocal range of the loads.
     scale: f64,
@@ -120,25 +122,27 @@ struct Extremes {
 }
 
 impl<'a> Strip<'a> {
+    /// Computes the arches of `curve`. Fails if its gauge is missing, or if it is hardly bent.
     fn new(curve: &'a Curve) -> Result<Self, Error> {
         check(curve, Test::LoopBending)?;
-        let name = || curve.name.clone();
-        let length = curve.gauge.ok_or_else(|| Error::MissingGauge { name: name() })?;
+        let name = curve.name.clone();
+        let Some(length) = curve.gauge else { return Err(Error::MissingGauge { name }) };
         let strain = curve.deformation();
-        let bent = |&i: &usize| -strain[i] >= LEAST_SHORTENING;
-        let used: Vec<usize> = (0..strain.len()).filter(bent).collect();
-        if used.len() <= SHARED + OWN {
-            return Err(Error::FlatArch { name: name(), needed: 100.0 * LEAST_SHORTENING });
+        let used: Vec<usize> =
+            (0..strain.len()).filter(|&i| -strain[i] >= LEAST_SHORTENING).collect();
+        if used.len() <= SHARED + PER_STRIP {
+            return Err(Error::FlatArch { name, needed: 100.0 * LEAST_SHORTENING });
         }
         let arches = used.iter().map(|&i| Arch::new(length, -strain[i])).collect();
         let load = used.iter().map(|&i| curve.load()[i]).collect();
         Ok(Self { curve, used, arches, load, scale: 1.0 / curve.load_range().span() })
     }
 
-    /// Writes the loads of the law less the measured ones, over their range.
-    fn residuals(&self, shared: &[f64], own: &[f64], out: &mut [f64]) {
+    /// Writes the loads of the law less the measured loads, over their range, to `out`. The law has
+    /// the parameters `shared`, and the strip the other parameters.
+    fn residuals(&self, shared: &[f64], parameters: &[f64], out: &mut [f64]) {
         let (rigidity, friction) = (shared[0], friction(&shared[1..SHARED]));
-        let [zero, drift, state] = *own else { return };
+        let [zero, drift, state] = *parameters else { return };
         let last = (self.curve.load().len() - 1) as f64;
         let mut moments = [state * friction.plateau(), 0.0];
         let mut before = self.arches[0].curvature;
@@ -152,8 +156,8 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// Returns the loads of the law at all points of the curve; the measured ones where the arch is
-    /// too flat.
+    /// Returns the loads of the law at all points of the curve. Where the arch is too flat, the
+    /// measured load is returned.
     fn all_loads(&self, residuals: &[f64]) -> Vec<f64> {
         let mut loads = self.curve.load().to_vec();
         for (&index, residual) in self.used.iter().zip(residuals) {
@@ -162,10 +166,13 @@ impl<'a> Strip<'a> {
         loads
     }
 
+    /// Returns the smallest and the largest `value` of the arches.
     fn extremes(&self, value: fn(&Arch) -> f64) -> Extremes {
-        let start = Extremes { low: f64::INFINITY, high: 0.0 };
-        let extend = |e: Extremes, v: f64| Extremes { low: e.low.min(v), high: e.high.max(v) };
-        self.arches.iter().map(value).fold(start, extend)
+        let mut extremes = Extremes { low: f64::INFINITY, high: 0.0 };
+        for value in self.arches.iter().map(value) {
+            extremes = Extremes { low: extremes.low.min(value), high: extremes.high.max(value) };
+        }
+        extremes
     }
 
     /// Returns the rigidity with which the arch alone gives half of the load range.
@@ -174,8 +181,8 @@ impl<'a> Strip<'a> {
         0.5 / (self.scale * (high - low))
     }
 
-    /// Returns the initial guess of the parameters of this strip.
-    fn own(&self) -> [NamedParameter; OWN] {
+    /// Returns the initial guess of the parameters of the strip.
+    fn strip_start(&self) -> [NamedParameter; PER_STRIP] {
         let load = 1.0 / self.scale;
         let mean = self.load.iter().sum::<f64>() / self.load.len() as f64;
         let zero = mean + self.rigidity() * self.extremes(|arch| arch.force).low;
@@ -191,27 +198,33 @@ impl<'a> Strip<'a> {
 struct Strips<'a>(Vec<Strip<'a>>);
 
 impl Strips<'_> {
+    /// Returns the initial guesses of all parameters, for several friction lengths.
     fn starts(&self) -> Vec<Vec<NamedParameter>> {
-        let mean = |value: &dyn Fn(&Strip<'_>) -> f64| {
-            self.0.iter().map(value).sum::<f64>() / self.0.len() as f64
-        };
-        let rigidity = mean(&|strip| strip.rigidity());
+        let rigidity = self.mean(|strip| strip.rigidity());
         let bounded = Parameter::new(rigidity).between(1e-3 * rigidity, 1e2 * rigidity);
         let rigidity = NamedParameter::new("rigidity", bounded);
         let moment =
-            mean(&|strip| 1.0 / (strip.scale * strip.extremes(|arch| arch.rotation_rate).low));
-        let curvature = mean(&|strip| strip.extremes(|arch| arch.curvature).high);
-        let own: Vec<NamedParameter> = self.0.iter().flat_map(Strip::own).collect();
+            self.mean(|strip| 1.0 / (strip.scale * strip.extremes(|arch| arch.rotation_rate).low));
+        let curvature = self.mean(|strip| strip.extremes(|arch| arch.curvature).high);
+        let strip_starts: Vec<NamedParameter> =
+            self.0.iter().flat_map(Strip::strip_start).collect();
         let plateau =
             Parameter::new(0.1 * moment).with_scale(0.01 * moment).between(0.0, 2.0 * moment);
         let plateau = NamedParameter::new("plateau", plateau);
-        let start = |part: f64| {
-            let length =
-                Parameter::new(part * curvature).between(LEAST_LENGTH * curvature, 5.0 * curvature);
-            let shared = [rigidity, plateau, NamedParameter::new("length", length)];
-            [&shared, own.as_slice()].concat()
-        };
-        LENGTH_STARTS.map(start).into()
+
+        LENGTH_STARTS
+            .map(|part| {
+                let length = Parameter::new(part * curvature)
+                    .between(LEAST_LENGTH * curvature, 5.0 * curvature);
+                let shared = [rigidity, plateau, NamedParameter::new("length", length)];
+                [&shared, strip_starts.as_slice()].concat()
+            })
+            .into()
+    }
+
+    /// Returns the mean of a `value` over all strips.
+    fn mean(&self, value: impl Fn(&Strip<'_>) -> f64) -> f64 {
+        self.0.iter().map(value).sum::<f64>() / self.0.len() as f64
     }
 }
 
@@ -223,11 +236,12 @@ impl Problem for Strips<'_> {
     }
 
     fn residuals(&self, p: &[f64], out: &mut [f64]) {
-        let (shared, own) = p.split_at(SHARED);
+        let (shared, strip_parameters) = p.split_at(SHARED);
         let mut rest = out;
-        for (strip, own) in self.0.iter().zip(own.chunks_exact(OWN)) {
+        for (strip, strip_parameters) in self.0.iter().zip(strip_parameters.chunks_exact(PER_STRIP))
+        {
             let (now, later) = rest.split_at_mut(strip.load.len());
-            strip.residuals(shared, own, now);
+            strip.residuals(shared, strip_parameters, now);
             rest = later;
         }
     }
@@ -275,12 +289,12 @@ mod tests {
     fn one_law_is_recovered_from_two_strips_through_drift_and_unknown_zeros() {
         let (rigidity, plateau, slip) = (1.1e-5, 8e-5, 20.0);
         let friction = BlimanSorine::first_order(plateau, slip);
-        let own = [[0.7, 0.2, -0.4], [-0.3, 0.1, 0.6]];
-        let curves = own.map(|own| strip(rigidity, &friction, own));
+        let strip_start = [[0.7, 0.2, -0.4], [-0.3, 0.1, 0.6]];
+        let curves = strip_start.map(|strip_start| strip(rigidity, &friction, strip_start));
         let found =
             identify_loop_bending(&[&curves[0], &curves[1]], &FitSettings::default()).unwrap();
-        for (found, own) in found.iter().zip(own) {
-            let exact = [rigidity, plateau, slip].into_iter().chain(own);
+        for (found, strip_start) in found.iter().zip(strip_start) {
+            let exact = [rigidity, plateau, slip].into_iter().chain(strip_start);
             for (estimate, exact) in found.fit.parameters.iter().zip(exact) {
                 let (name, value) = (estimate.name, estimate.value);
                 let error = (value / exact - 1.0).abs();

@@ -1,12 +1,12 @@
-//! Backbone with friction along a hysteresis loop, for bending and shear: its parameters, its law and
-//! its loads.
+//! Backbone with friction along a hysteresis loop, for bending and shear: its parameters, its law
+//! and its loads.
 //!
 //! ```math
 //! F = F_0 + F_e(q) + P\,[u(\eta x) + w\,u(x)], \qquad u = c + \gamma g
 //! ```
 //!
-//! with the elastic load `$F_e$`, a line or a [`Varying`] stiffness, the fast plateau `$P$`, the slow
-//! one `$wP$`, the lengths `$\eta x$` and `$x$`, and the unit friction `$u$` of
+//! with the elastic load `$F_e$`, a line or a [`Varying`] stiffness, the fast plateau `$P$`, the
+//! slow plateau `$wP$`, the lengths `$\eta x$` and `$x$`, and the unit friction `$u$` of
 //! `forward::friction_path` with the growth `$\gamma$` of the plateau. One element has `$w = 0$`,
 //! `$\eta = 1$`. `loop_start` builds the candidates of `bending` and `shear` from these forms.
 
@@ -52,8 +52,8 @@ pub(crate) struct LoopLaw {
 }
 
 impl LoopForm {
-    /// Returns the forms that a setting admits with some kinds of `plateaus`, in the order of
-    /// preference: a stiffness that changes comes after every line, with one friction element.
+    /// Returns the forms that the law `model` admits with the given `plateaus`, in the order of
+    /// preference. A stiffness that changes comes after every line, with one friction element.
     pub(crate) fn admitted(model: Option<LoopModel>, plateaus: &[Plateau]) -> Vec<Self> {
         let lines = FrictionOrder::ALL.map(|order| (Elastic::Line, order));
         let forms = lines.into_iter().chain([(Elastic::Varying, FrictionOrder::First)]);
@@ -62,13 +62,14 @@ impl LoopForm {
             Some(LoopModel::Varying) => *elastic == Elastic::Varying,
             Some(LoopModel::Piecewise) | None => true,
         });
-        let with_plateaus = |(elastic, order): (Elastic, FrictionOrder)| {
-            plateaus.iter().map(move |&plateau| Self { elastic, order, plateau })
-        };
-        wanted.flat_map(with_plateaus).collect()
+        wanted
+            .flat_map(|(elastic, order)| {
+                plateaus.iter().map(move |&plateau| Self { elastic, order, plateau })
+            })
+            .collect()
     }
 
-    /// Returns the model that admits this form and no other, but for its plateau.
+    /// Returns the model that admits this form and no other, except forms with another `plateau`.
     pub(crate) fn model(self) -> LoopModel {
         match self.elastic {
             Elastic::Line => LoopModel::Linear(self.order),
@@ -76,7 +77,7 @@ impl LoopForm {
         }
     }
 
-    /// Returns the name of elastic load and friction used in reports.
+    /// Returns the name of elastic load and friction in reports.
     pub(crate) fn name(self) -> String {
         let order = self.order.name();
         match self.elastic {
@@ -85,16 +86,17 @@ impl LoopForm {
         }
     }
 
-    pub(crate) fn grows(self) -> bool {
+    /// Returns whether the `plateau` grows.
+    pub(crate) fn has_growth(self) -> bool {
         self.plateau == Plateau::Growing
     }
 
-    /// Number of parameters of the elastic load.
+    /// Returns the number of parameters of the elastic load.
     fn elastic_count(self) -> usize {
         if self.elastic == Elastic::Line { 1 } else { 3 }
     }
 
-    /// Returns the loads of the form along a history.
+    /// Returns the forward model of the form along `history`, whose friction path is `path`.
     pub(crate) fn forward<'a>(
         self,
         history: &'a [f64],
@@ -103,8 +105,9 @@ impl LoopForm {
         Box::new(LoopForward { history, path, form: self })
     }
 
-    /// Returns the law with the parameters `p`, in the order of `MeasuredLoop::starts`: the parameters
-    /// of the elastic load, the zero, the growth if there is one, and the parameters of the friction.
+    /// Returns the law with the parameters `p`, in the order of `MeasuredLoop::starts`: the
+    /// parameters of the elastic load, the zero, the growth if there is one, and the parameters of
+    /// the friction.
     pub(crate) fn law(self, p: &[f64]) -> LoopLaw {
         let (elastic, rest) = p.split_at(self.elastic_count());
         let backbone = match *elastic {
@@ -114,11 +117,12 @@ impl LoopForm {
             _ => LoopBackbone::Line(elastic[0]),
         };
         let (zero, rest) = (rest[0], &rest[1..]);
-        let (growth, rest) = if self.grows() { (rest[0], &rest[1..]) } else { (0.0, rest) };
+        let (growth, rest) = if self.has_growth() { (rest[0], &rest[1..]) } else { (0.0, rest) };
         LoopLaw { backbone, zero, growth, friction: friction(rest) }
     }
 }
 
+/// Returns the elastic load at the deformation `q`.
 impl LoopBackbone {
     fn load(&self, q: f64) -> f64 {
         match self {
@@ -128,8 +132,8 @@ impl LoopBackbone {
     }
 }
 
-/// Returns the friction with the parameters plateau and length, and for two elements the slow
-/// plateau over the fast one and the fast length over the slow one.
+/// Returns the friction with the parameters `p`: plateau and length. Two elements add the slow
+/// plateau over the fast plateau, and the fast length over the slow length.
 pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
     match *p {
         [plateau, length] => BlimanSorine::first_order(plateau, length),
@@ -140,14 +144,13 @@ pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
     }
 }
 
-/// Returns the parts of the load of a [`Varying`] stiffness at `q` with the initial and the final
-/// stiffness of one.
+/// Returns the parts of the load of a [`Varying`] stiffness at `q` that belong to an initial and to
+/// a final stiffness of one.
 pub(crate) fn varying_parts(q: f64, transition: f64) -> [f64; 2] {
-    let unit = |initial_stiffness: f64| {
+    [1.0, 0.0].map(|initial_stiffness| {
         let final_stiffness = 1.0 - initial_stiffness;
         Varying { initial_stiffness, final_stiffness, transition }.respond(q).load
-    };
-    [unit(1.0), unit(0.0)]
+    })
 }
 
 /// Forward model of a loop along a history.
@@ -163,7 +166,19 @@ struct Element {
     unit: UnitFriction,
 }
 
+impl Element {
+    /// Returns load, slope by the length, and growing load of a unit plateau with the given
+    /// `growth`, at the point `i`.
+    fn derivatives(&self, i: usize, growth: f64) -> [f64; 3] {
+        let unit = &self.unit;
+        let load = unit.constant[i] + growth * unit.growing[i];
+        let slope = unit.constant_slope[i] + growth * unit.growing_slope[i];
+        [load, slope, unit.growing[i]]
+    }
+}
+
 impl LoopForward<'_> {
+    /// Returns the friction elements of `law` with their unit loads.
     fn elements(&self, law: &LoopLaw) -> Vec<Element> {
         let present = law.friction.elements.into_iter();
         // The second element of the first order is absent; it has no parameters either.
@@ -177,7 +192,7 @@ impl LoopForward<'_> {
             .collect()
     }
 
-    /// Writes the derivatives by the parameters of the elastic load.
+    /// Writes the derivatives by the parameters of the elastic load of `law` to `out`.
     fn elastic_jacobian(&self, law: &LoopLaw, out: &mut DMatrix<f64>) {
         for (i, &q) in self.history.iter().enumerate() {
             match law.backbone {
@@ -217,24 +232,20 @@ impl ForwardModel for LoopForward<'_> {
 
         let elements = self.elements(&law);
         let zero = self.form.elastic_count();
-        let first = if self.form.grows() { zero + 2 } else { zero + 1 };
+        let first = if self.form.has_growth() { zero + 2 } else { zero + 1 };
         let (plateau, length) = (p[first], p[first + 1]);
         let (slow, ratio) = match elements.len() {
             2 => (p[first + 2], p[first + 3]),
             _ => (0.0, 1.0),
         };
         for i in 0..self.history.len() {
-            let unit = |e: usize| {
-                let unit = &elements[e].unit;
-                let load = unit.constant[i] + law.growth * unit.growing[i];
-                let slope = unit.constant_slope[i] + law.growth * unit.growing_slope[i];
-                [load, slope, unit.growing[i]]
+            let fast = elements[0].derivatives(i, law.growth);
+            let [slow_load, slow_slope, slow_growing] = match elements.get(1) {
+                Some(element) => element.derivatives(i, law.growth),
+                None => [0.0; 3],
             };
-            let fast = unit(0);
-            let [slow_load, slow_slope, slow_growing] =
-                if elements.len() == 2 { unit(1) } else { [0.0; 3] };
             out[(i, zero)] = 1.0;
-            if self.form.grows() {
+            if self.form.has_growth() {
                 out[(i, zero + 1)] = plateau * (fast[2] + slow * slow_growing);
             }
             out[(i, first)] = fast[0] + slow * slow_load;
@@ -262,7 +273,7 @@ mod tests {
                 Elastic::Line => vec![30.0, 0.1],
                 Elastic::Varying => vec![20.0, 60.0, 0.05, 0.1],
             };
-            p.extend(form.grows().then_some(6.0));
+            p.extend(form.has_growth().then_some(6.0));
             p.extend([0.6, 0.03]);
             match form.order {
                 FrictionOrder::First => {}

@@ -1,5 +1,5 @@
-//! Initial guesses of the fit of a loop, by linear least squares on a grid of friction lengths and of
-//! places where the stiffness changes.
+//! Initial guesses of the fit of a loop, by linear least squares on a grid of friction lengths and
+//! of places where the stiffness changes.
 //!
 //! For given lengths and a given transition the load is linear in stiffnesses, zero and plateaus.
 //! `bending` and `shear` build their candidates here.
@@ -16,7 +16,7 @@ use crate::regression::residuals::NamedParameter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::model::FrictionOrder;
 
-/// Shortest friction length over the largest deformation: below it friction is a step at any
+/// Shortest friction length over the largest deformation. A shorter friction is a step at any
 /// sampling.
 pub(crate) const LEAST_LENGTH: f64 = 1e-4;
 /// Number of friction lengths to start from.
@@ -75,7 +75,8 @@ struct Start {
 }
 
 impl<'a> MeasuredLoop<'a> {
-    /// Prepares a loop along a history of the law's deformation.
+    /// Prepares a loop along the `history` of the law's deformation. `name` is the name of the
+    /// stiffness.
     pub(crate) fn new(
         curve: &'a Curve,
         name: &'static str,
@@ -86,6 +87,7 @@ impl<'a> MeasuredLoop<'a> {
         let path = FrictionPath::new(history);
         let [from, to] = LENGTH_RANGE;
         let lengths = geometric_grid(from * largest, to * largest);
+
         // Columns: the history, one, then for each length the friction with a constant plateau of
         // one, and its growth by one over the largest deformation.
         let mut columns = vec![history.to_vec(), vec![1.0; history.len()]];
@@ -96,14 +98,14 @@ impl<'a> MeasuredLoop<'a> {
         }
         // Then for each transition the part of the load with an initial stiffness of one.
         for transition in TRANSITIONS {
-            let part = |q: &f64| varying_parts(*q, transition * largest)[0];
-            columns.push(history.iter().map(part).collect());
+            columns
+                .push(history.iter().map(|q| varying_parts(*q, transition * largest)[0]).collect());
         }
         let fit = LinearFit::new(&columns, curve.load());
         Ok(Self { curve, history, path, name, slope, largest, lengths, fit })
     }
 
-    /// Returns the candidate of one form.
+    /// Returns the candidate of `form`, with its `name` in reports.
     pub(crate) fn model(&self, form: LoopForm, name: String) -> CandidateModel<'_> {
         CandidateModel {
             name,
@@ -113,6 +115,7 @@ impl<'a> MeasuredLoop<'a> {
         }
     }
 
+    /// Returns the best initial guesses of `form`.
     fn starts(&self, form: LoopForm) -> Vec<Vec<NamedParameter>> {
         let mut starts = match form.elastic {
             Elastic::Line => self.single(form),
@@ -129,102 +132,117 @@ impl<'a> MeasuredLoop<'a> {
                 }
             }
         }
+
         starts.sort_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum));
         starts.truncate(STARTS);
         if starts.is_empty() {
             starts.push(self.fallback(form));
         }
-        starts.iter().map(|start| self.named(form, start)).collect()
+        starts.iter().map(|start| self.named_parameters(form, start)).collect()
     }
 
-    /// Returns guesses with one friction element, at the local minima over its length.
+    /// Returns guesses of `form` with one friction element, at the local minima over its length.
     fn single(&self, form: LoopForm) -> Vec<Start> {
-        let start = |i: usize| {
+        let mut starts: Vec<Option<Start>> = Vec::with_capacity(LENGTHS);
+        for (i, &length) in self.lengths.iter().enumerate() {
             let mut columns = vec![0, 1, 2 + 2 * i];
-            columns.extend(form.grows().then_some(3 + 2 * i));
-            let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
-            let growth = c.get(3).map_or(0.0, |added| added / c[2] / self.largest);
-            (c[2] > 0.0).then(|| Start {
-                residual_sum,
-                elastic: vec![c[0]],
-                zero: c[1],
-                growth,
-                friction: vec![c[2], self.lengths[i]],
-            })
-        };
-        let all: Vec<Option<Start>> = (0..LENGTHS).map(start).collect();
-        // Neighbours of a minimum lead to the same end.
-        let sum = |i: usize| all[i].as_ref().map_or(f64::INFINITY, |start| start.residual_sum);
-        let minimum: Vec<bool> = (0..LENGTHS)
-            .map(|i| (i == 0 || sum(i) < sum(i - 1)) && (i + 1 == LENGTHS || sum(i) <= sum(i + 1)))
+            columns.extend(form.has_growth().then_some(3 + 2 * i));
+            let start = self.fit.solve(&columns).and_then(|solution| {
+                let Solution { coefficients: c, residual_sum } = solution;
+                let growth = c.get(3).map_or(0.0, |added| added / c[2] / self.largest);
+                (c[2] > 0.0).then(|| Start {
+                    residual_sum,
+                    elastic: vec![c[0]],
+                    zero: c[1],
+                    growth,
+                    friction: vec![c[2], length],
+                })
+            });
+            starts.push(start);
+        }
+
+        // The neighbours of a minimum would lead to one end.
+        let sums: Vec<f64> = starts
+            .iter()
+            .map(|start| start.as_ref().map_or(f64::INFINITY, |start| start.residual_sum))
             .collect();
-        let kept = all.into_iter().zip(minimum);
-        kept.filter_map(|(start, minimum)| start.filter(|_| minimum)).collect()
+        let mut minima = Vec::new();
+        for (i, start) in starts.into_iter().enumerate() {
+            let is_minimum =
+                (i == 0 || sums[i] < sums[i - 1]) && (i + 1 == LENGTHS || sums[i] <= sums[i + 1]);
+            minima.extend(start.filter(|_| is_minimum));
+        }
+        minima
     }
 
-    /// Returns guesses with a stiffness that changes and one friction element, the best length for
-    /// each transition.
+    /// Returns guesses of `form` with a stiffness that changes and one friction element, with the
+    /// best length for each transition.
     fn varying(&self, form: LoopForm) -> Vec<Start> {
-        let start = |length: usize, transition: usize| {
-            let mut columns = vec![0, 1, 2 + 2 * length, 2 + 2 * LENGTHS + transition];
-            columns.extend(form.grows().then_some(3 + 2 * length));
-            let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
-            // The load is k_f q + (k_i − k_f) s(q) with the part s of the initial stiffness.
-            let (last, initial) = (c[0], c[0] + c[3]);
-            let growth = c.get(4).map_or(0.0, |added| added / c[2] / self.largest);
-            (last > 0.0 && initial > 0.0 && c[2] > 0.0).then(|| Start {
-                residual_sum,
-                elastic: vec![initial, last, TRANSITIONS[transition] * self.largest],
-                zero: c[1],
-                growth,
-                friction: vec![c[2], self.lengths[length]],
-            })
-        };
-        let best_of = |transition: usize| {
-            let starts = (0..LENGTHS).filter_map(|length| start(length, transition));
-            starts.min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
-        };
-        (0..TRANSITIONS.len()).filter_map(best_of).collect()
+        let mut best = Vec::new();
+        for (index, transition) in TRANSITIONS.into_iter().enumerate() {
+            let mut starts = Vec::new();
+            for (i, &length) in self.lengths.iter().enumerate() {
+                let mut columns = vec![0, 1, 2 + 2 * i, 2 + 2 * LENGTHS + index];
+                columns.extend(form.has_growth().then_some(3 + 2 * i));
+                let Some(solution) = self.fit.solve(&columns) else { continue };
+                let Solution { coefficients: c, residual_sum } = solution;
+                // The load is k_f q + (k_i − k_f) s(q) with the part s of the initial stiffness.
+                let (last, initial) = (c[0], c[0] + c[3]);
+                let growth = c.get(4).map_or(0.0, |added| added / c[2] / self.largest);
+                if last > 0.0 && initial > 0.0 && c[2] > 0.0 {
+                    starts.push(Start {
+                        residual_sum,
+                        elastic: vec![initial, last, transition * self.largest],
+                        zero: c[1],
+                        growth,
+                        friction: vec![c[2], length],
+                    });
+                }
+            }
+            best.extend(
+                starts.into_iter().min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum)),
+            );
+        }
+        best
     }
 
-    /// Returns guesses with two friction elements, for each pair of lengths.
+    /// Returns guesses of `form` with two friction elements, for each pair of lengths.
     fn pairs(&self, form: LoopForm) -> Vec<Start> {
-        let start = |fast: usize, slow: usize| {
-            let mut columns = vec![0, 1, 2 + 2 * fast, 2 + 2 * slow];
-            if form.grows() {
-                columns.extend([3 + 2 * fast, 3 + 2 * slow]);
-            }
-            let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
-            let part = c[3] / c[2];
-            let admitted = match form.order {
-                FrictionOrder::Second => part < 0.0 && part > -LARGEST_REDUCTION,
-                _ => part > 0.0 && part < LARGEST_ADDITION,
-            };
-            // Both elements grow alike: their mean.
-            let growth = match c.get(4..6) {
-                Some(added) => (added[0] + added[1]) / (c[2] + c[3]) / self.largest,
-                None => 0.0,
-            };
-            (c[2] > 0.0 && admitted).then(|| Start {
-                residual_sum,
-                elastic: vec![c[0]],
-                zero: c[1],
-                growth,
-                friction: vec![
-                    c[2],
-                    self.lengths[slow],
-                    part,
-                    self.lengths[fast] / self.lengths[slow],
-                ],
-            })
-        };
         (0..LENGTHS)
             .flat_map(|slow| (0..slow).map(move |fast| (fast, slow)))
-            .filter_map(|(fast, slow)| start(fast, slow))
+            .filter_map(|(fast, slow)| self.pair(form, fast, slow))
             .collect()
     }
 
-    /// Returns the guess for a curve for which the linear fit has no solution.
+    /// Returns the guess of `form` with the lengths of the indices `fast` and `slow`; `None` if the
+    /// best pair of elements is not admitted.
+    fn pair(&self, form: LoopForm, fast: usize, slow: usize) -> Option<Start> {
+        let mut columns = vec![0, 1, 2 + 2 * fast, 2 + 2 * slow];
+        if form.has_growth() {
+            columns.extend([3 + 2 * fast, 3 + 2 * slow]);
+        }
+        let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
+        let part = c[3] / c[2];
+        let is_admitted = match form.order {
+            FrictionOrder::Second => part < 0.0 && part > -LARGEST_REDUCTION,
+            _ => part > 0.0 && part < LARGEST_ADDITION,
+        };
+
+        // Both elements have one growth, which is their mean.
+        let growth = match c.get(4..6) {
+            Some(added) => (added[0] + added[1]) / (c[2] + c[3]) / self.largest,
+            None => 0.0,
+        };
+        (c[2] > 0.0 && is_admitted).then(|| Start {
+            residual_sum,
+            elastic: vec![c[0]],
+            zero: c[1],
+            growth,
+            friction: vec![c[2], self.lengths[slow], part, self.lengths[fast] / self.lengths[slow]],
+        })
+    }
+
+    /// Returns the guess of `form` for a curve whose linear fit has no solution.
     fn fallback(&self, form: LoopForm) -> Start {
         let mut friction = vec![0.05 * self.curve.load_range().span(), 0.05 * self.largest];
         match form.order {
@@ -239,7 +257,8 @@ impl<'a> MeasuredLoop<'a> {
         Start { residual_sum: 0.0, elastic, zero: 0.0, growth: 0.0, friction }
     }
 
-    fn named(&self, form: LoopForm, start: &Start) -> Vec<NamedParameter> {
+    /// Returns the parameters of `form` with the values of `start`.
+    fn named_parameters(&self, form: LoopForm, start: &Start) -> Vec<NamedParameter> {
         let (slope, load) = (self.slope, self.curve.load_range().span());
         let largest = self.largest;
         let stiffness = |value: f64| Parameter::new(value).between(1e-3 * slope, 10.0 * slope);
@@ -257,14 +276,16 @@ impl<'a> MeasuredLoop<'a> {
             }
             _ => vec![NamedParameter::new(self.name, stiffness(start.elastic[0]))],
         };
+
         let zero = Parameter { start: start.zero, ..zero(self.curve) };
         named.push(NamedParameter::new("zero", zero));
-        if form.grows() {
+        if form.has_growth() {
             let growth = Parameter::new(start.growth.max(0.0))
                 .with_scale(1.0 / largest)
                 .between(0.0, LARGEST_GROWTH);
             named.push(NamedParameter::new("growth", growth));
         }
+
         let plateau =
             Parameter::new(start.friction[0]).with_scale(0.01 * load).between(0.0, 2.0 * load);
         let length =

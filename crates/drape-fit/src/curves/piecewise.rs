@@ -18,7 +18,7 @@ const OUTER: f64 = 0.6;
 /// Ends of the parabola to start from, over the largest deformation.
 const KNOTS: [f64; 3] = [0.1, 0.3, 0.6];
 
-/// Fits the first branch of a curve, along a history of the law's deformation.
+/// Fits the first branch of `curve`, along the `history` of the law's deformation.
 ///
 /// `drive` writes the loads of the law with the given parameters along a history.
 pub(crate) fn fit_first_branch(
@@ -40,6 +40,8 @@ pub(crate) fn fit_first_branch(
     let functionals = Vec::new();
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
     let mut fit = fit_curve(&first, select(&first, &[model]), |_| forward(), options);
+
+    // The fitted law is continued along the whole curve.
     let points = curve.load().len();
     fit.load.resize(points, 0.0);
     drive(&fit.parameter_values(), history, &mut fit.load);
@@ -49,7 +51,8 @@ pub(crate) fn fit_first_branch(
     Ok(fit)
 }
 
-/// Returns initial guesses: the line through the outer part, and a few ends of the parabola.
+/// Returns initial guesses for the branch `first`: the line through the outer part, and several
+/// ends of the parabola.
 fn starts(first: &Curve) -> Result<Vec<Vec<NamedParameter>>, Error> {
     let top = largest(first.deformation());
     let points = first.deformation().iter().zip(first.load()).map(|(q, load)| [*q, *load]);
@@ -57,7 +60,7 @@ fn starts(first: &Curve) -> Result<Vec<Vec<NamedParameter>>, Error> {
     let StraightLine { slope, intercept } =
         outer.filter(|line| line.slope > 0.0).ok_or_else(|| falling(first))?;
     let load = first.load_range().span();
-    let start = |knot: f64| {
+    let starts = KNOTS.map(|knot| {
         let knot = knot * top;
         let intercept = Parameter::new(intercept).with_scale(load).between(-load, load);
         vec![
@@ -65,16 +68,16 @@ fn starts(first: &Curve) -> Result<Vec<Vec<NamedParameter>>, Error> {
             NamedParameter::new("intercept", intercept),
             NamedParameter::new("knot", Parameter::new(knot).between(1e-3 * top, top)),
         ]
-    };
-    Ok(KNOTS.map(start).into())
+    });
+    Ok(starts.into())
 }
 
-/// Returns the backbone with the parameters of [`starts`].
-pub(crate) fn backbone(p: &[f64]) -> Piecewise {
+/// Returns the backbone with the parameters `p` of [`starts`].
+pub(crate) fn piecewise_backbone(p: &[f64]) -> Piecewise {
     Piecewise { slope: p[0], intercept: p[1], knot: p[2] }
 }
 
-/// Returns the first branch of a curve, which must rise.
+/// Returns the first branch of `curve`, which must rise.
 fn first_branch(curve: &Curve) -> Result<Curve, Error> {
     let branches = curve.branches();
     let branch = branches.first().filter(|branch| branch.rising);

@@ -13,7 +13,8 @@ use crate::regression::search::{multistart, refine};
 use crate::regression::selection::CandidateModel;
 use crate::settings::FitSettings;
 
-/// Least relative excess of the last cycle over all before it for its prediction to be a test.
+/// Least relative excess of the last cycle over all cycles before it, with which its prediction is
+/// a test.
 const EXCESS: f64 = 0.05;
 
 /// Last cycle of a tensile curve, predicted by a law that was fitted to the cycles before it.
@@ -32,10 +33,11 @@ pub struct Prediction {
     pub load: Vec<f64>,
 }
 
-/// Fits each traction law to all but the last cycle of a tensile curve, and predicts that cycle.
+/// Fits each traction law to all cycles of a tensile `curve` except the last, and predicts the last
+/// cycle.
 ///
-/// The last cycle stretches the strip more than any before it, so this is extrapolation: the test
-/// that a law with the right curvature alone does not pass.
+/// The last cycle stretches the strip more than any cycle before it. The prediction is an
+/// extrapolation, and a law with only the right curvature fails it.
 ///
 /// # Errors
 /// The curve is of another test, does not rise, or its last cycle is the first or does not go
@@ -45,11 +47,11 @@ pub fn predict_last_cycle(curve: &Curve, settings: &FitSettings) -> Result<Vec<P
     let curve = &*curve.prepared();
     let last = last_cycle(curve).ok_or_else(|| Error::SingleCycle { name: curve.name.clone() })?;
     // A second cycle follows a recovery.
-    let strip = StripKind { zeros: FittedZeros::of(curve), recovers: true };
+    let strip = StripKind { zeros: FittedZeros::from_curve(curve), recovers: true };
     predict(curve, last, &TensileForm::admitted(strip, settings))
 }
 
-/// Predicts the cycle that begins at a point, with each of some forms.
+/// Predicts the cycle that begins at the point `last`, with each of `forms`.
 pub(crate) fn predict(
     curve: &Curve,
     last: usize,
@@ -60,20 +62,18 @@ pub(crate) fn predict(
     let mut earlier = earlier.expect("the earlier cycles move");
     (earlier.name, earlier.slack) = (curve.name.clone(), curve.slack);
     let guess = InitialGuess::new(&earlier)?;
-    let of = |form: &TensileForm| {
+    let mut predictions = Vec::with_capacity(forms.len());
+    for form in forms {
         let CandidateModel { name, starts, forward, .. } = guess.model(*form, &earlier);
         let problem = Residuals::new(&earlier, &*forward);
         let report = refine(&problem, multistart(&problem, &starts)).report;
         let parameters = &report.parameters;
         let whole = form.forward(curve);
-        let fitted = Fitted {
-            forward: &*whole,
-            parameters,
-            zero: if curve.slack { parameters[1] } else { 0.0 },
-        };
-        prediction(name, curve, last, &fitted)
-    };
-    Ok(forms.iter().map(of).collect())
+        let zero = if curve.slack { parameters[1] } else { 0.0 };
+        let fitted = Fitted { forward: &*whole, parameters, zero };
+        predictions.push(prediction(name, curve, last, &fitted));
+    }
+    Ok(predictions)
 }
 
 /// Law fitted to the earlier cycles, as a forward model along the whole curve.
@@ -84,31 +84,34 @@ struct Fitted<'a> {
     zero: f64,
 }
 
+/// Returns the prediction of `curve` from the point `last` by the law with the name `law`.
 fn prediction(law: String, curve: &Curve, last: usize, fitted: &Fitted<'_>) -> Prediction {
     let mut load = vec![0.0; curve.load().len()];
     fitted.forward.loads(fitted.parameters, &mut load);
     let span = curve.load_range().span();
     let error: Vec<f64> = load.iter().zip(curve.load()).map(|(a, b)| a - b).collect();
-    let rms =
-        |error: &[f64]| (error.iter().map(|r| r * r).sum::<f64>() / error.len() as f64).sqrt();
+    let [before, after] = [&error[..last], &error[last..]]
+        .map(|error| (error.iter().map(|r| r * r).sum::<f64>() / error.len() as f64).sqrt());
     let largest = (last..load.len()).max_by(|&i, &j| curve.load()[i].total_cmp(&curve.load()[j]));
     let peak = largest.expect("a cycle has points");
     Prediction {
         law,
-        fitted: rms(&error[..last]) / span,
-        error: rms(&error[last..]) / span,
+        fitted: before / span,
+        error: after / span,
         peak_error: error[peak] / (curve.load()[peak] - fitted.zero),
         load,
     }
 }
 
-/// Returns the point at which the last cycle begins, if it goes further than those before it.
+/// Returns the point at which the last cycle of `curve` begins, if it goes further than the cycles
+/// before it.
 pub(crate) fn last_cycle(curve: &Curve) -> Option<usize> {
     let branches = curve.branches();
     let last = branches.iter().rposition(|branch| branch.rising).filter(|&last| last >= 2)?;
     let start = branches[last].points.start + 1;
-    let top = |q: &[f64]| q.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (before, after) = curve.deformation().split_at(start);
+    let [before, after] =
+        [before, after].map(|q| q.iter().copied().fold(f64::NEG_INFINITY, f64::max));
     let bottom = curve.deformation_range().low;
-    (top(after) - bottom > (1.0 + EXCESS) * (top(before) - bottom)).then_some(start)
+    (after - bottom > (1.0 + EXCESS) * (before - bottom)).then_some(start)
 }

@@ -1,4 +1,4 @@
-//! What a reader should know of a fit, in sentences: of its curve, of its law, of its parameters.
+//! Remarks on a fit in sentences: on its curve, its law and its parameters.
 
 use drape_kes::{Curve, Test};
 
@@ -9,14 +9,14 @@ use crate::settings::FitSettings;
 
 /// Number of parts of a branch whose residuals are compared.
 const PARTS: usize = 5;
-/// Relative difference between the two sides of a loop that is told.
+/// Relative difference between the two sides of a loop that is reported.
 ///
 /// The two faces of a fabric differ by a few per cent as a rule.
 const SIDES_DIFFER: f64 = 0.1;
-/// Offset of a loop over its range of loads that is told.
+/// Offset of a loop over its range of loads that is reported.
 const OFFSET: f64 = 0.03;
 
-/// Returns the remarks on a fit, a sentence each, without a full stop.
+/// Returns the remarks on the `fit` of `curve`, one sentence each, without a full stop.
 pub(crate) fn remarks(curve: &Curve, fit: &CurveFit, settings: &FitSettings) -> Vec<String> {
     let mut remarks = curve.remarks();
     if fit.misfit > Candidate::FOLLOWS {
@@ -30,7 +30,8 @@ pub(crate) fn remarks(curve: &Curve, fit: &CurveFit, settings: &FitSettings) -> 
     remarks
 }
 
-/// Returns where a law that does not follow its curve departs most from it.
+/// Returns the place where a law that does not follow its curve departs most from it, for the
+/// `fit`.
 fn departure(fit: &CurveFit) -> String {
     let (least, most) = fit
         .measured
@@ -38,20 +39,22 @@ fn departure(fit: &CurveFit) -> String {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), f| (low.min(*f), high.max(*f)));
     let span = most - least;
     let branch_count = fit.branches.last().map_or(1, |last| last + 1);
-    let mut worst = Part { branch: 0, from: 0.0, to: 0.0, departure: 0.0 };
+
+    let mut worst = BranchPart { branch: 0, from: 0.0, to: 0.0, departure: 0.0 };
     for branch in 0..branch_count {
         let points: Vec<usize> =
             (0..fit.branches.len()).filter(|&i| fit.branches[i] == branch).collect();
         for part in points.chunks(points.len().div_ceil(PARTS).max(1)) {
-            let residual = |&i: &usize| fit.load[i] - fit.measured[i];
-            let mean = part.iter().map(residual).sum::<f64>() / part.len() as f64;
+            let mean = part.iter().map(|&i| fit.load[i] - fit.measured[i]).sum::<f64>()
+                / part.len() as f64;
             if mean.abs() > worst.departure.abs() {
                 let (from, to) = (fit.deformation[part[0]], fit.deformation[part[part.len() - 1]]);
-                worst = Part { branch, from, to, departure: mean };
+                worst = BranchPart { branch, from, to, departure: mean };
             }
         }
     }
-    let Part { branch, from, to, departure } = worst;
+
+    let BranchPart { branch, from, to, departure } = worst;
     let side = if departure > 0.0 { "above" } else { "below" };
     format!(
         "no law of the set follows this curve to {:.0} %; the law departs most on branch {}, between {} \
@@ -65,7 +68,7 @@ fn departure(fit: &CurveFit) -> String {
 }
 
 /// Part of a branch with the mean distance of the law from it.
-struct Part {
+struct BranchPart {
     branch: usize,
     /// Deformation at its first point.
     from: f64,
@@ -75,7 +78,7 @@ struct Part {
     departure: f64,
 }
 
-/// Returns what it means that a parameter lies at its bound.
+/// Returns the meaning of an `estimate` at its bound; `None` for an estimate within its bounds.
 fn at_bound(estimate: &Estimate) -> Option<String> {
     let Err(Undetermined::AtBound(bound)) = &estimate.interval else { return None };
     let is_zero = *bound == 0.0;
@@ -114,26 +117,26 @@ fn at_bound(estimate: &Estimate) -> Option<String> {
     })
 }
 
-/// Returns how the two sides of a loop differ, if they do.
+/// Returns the difference of the two sides of a loop, if it is large.
 fn sides(curve: &Curve, settings: &FitSettings) -> Option<String> {
     let (name, slope) = match curve.test {
         Test::Bending => ("B", settings.bending_points.slope),
         _ => ("G", settings.shear_points.slope),
     };
-    let [one, other] = curve.side_slopes(slope)?;
-    let mean = 0.5 * (one + other);
-    let part = (one - other).abs() / mean;
+    let [positive, negative] = curve.side_slopes(slope)?;
+    let mean = 0.5 * (positive + negative);
+    let part = (positive - negative).abs() / mean;
     (part > SIDES_DIFFER).then(|| {
         format!(
             "the two sides of the fabric differ: {name} is {:+.0} % of the mean to the one side and \
              {:+.0} % to the other; the law has the mean",
-            100.0 * (one / mean - 1.0),
-            100.0 * (other / mean - 1.0)
+100.0 * (positive / mean - 1.0),
+100.0 * (negative / mean - 1.0)
         )
     })
 }
 
-/// Returns by how much a loop is offset, if it is.
+/// Returns the offset of a loop `curve`, if it is large.
 fn offset(curve: &Curve, fit: &CurveFit) -> Option<String> {
     let zero = fit.parameters.iter().find(|estimate| estimate.name == "zero")?.value;
     let part = zero / curve.load_range().span();

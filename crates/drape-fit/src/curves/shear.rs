@@ -4,18 +4,15 @@ use drape_fabric::{BlimanSorine, Locking, ShearBackbone, ShearLaw};
 use drape_kes::{Curve, ShearPoints, Test};
 
 use crate::curves::features::{check, largest};
+use crate::curves::loop_fit::{LoopFamily, LoopFit, fit_loop};
 use crate::curves::loop_form::{LoopBackbone, LoopForm, LoopLaw};
-use crate::curves::loop_start::MeasuredLoop;
-use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::curves::piecewise::{fit_first_branch, piecewise_backbone};
 use crate::curves::remark::remarks;
 use crate::curves::value_estimate::value_estimates;
 use crate::error::Error;
-use crate::forward::friction_path::FrictionPath;
 use crate::forward::loop_drive::drive_loop;
-use crate::regression::curve_fit::{COMPARED_POINTS, FitOptions, Identified, fit_curve};
-use crate::regression::functional::loop_functionals;
+use crate::regression::curve_fit::Identified;
 use crate::regression::repeats::with_scatter;
-use crate::regression::selection::{CandidateModel, select};
 use crate::settings::FitSettings;
 use crate::settings::model::{LoopModel, Plateau};
 use crate::values::of_law::shear_values;
@@ -24,8 +21,9 @@ use crate::values::of_law::shear_values;
 ///
 /// The deformation of the law is the sine of the measured angle, to which the measured force is
 /// conjugate \[BHW94, eq. 5.7\]. A line, or a stiffness that changes along the test, is fitted with
-/// friction to the whole history, and the zero of the force is fitted too. A [`LoopModel::Piecewise`] is fitted to the first
-/// loading branch. The KES test does not measure locking: it begins where the curve ends.
+/// friction to the whole history. The zero of the force is fitted too. A [`LoopModel::Piecewise`]
+/// is fitted to the first loading branch. The KES test does not measure locking: locking begins
+/// where the curve ends.
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
@@ -37,10 +35,10 @@ pub fn identify_shear(
     let curve = &*curve.prepared();
     let angles = curve.deformation().iter();
     let sines: Vec<f64> = angles.map(|angle| angle.sin()).collect();
-    let found = match settings.shear {
+    let identified = match settings.shear {
         Some(LoopModel::Piecewise) => {
             let law = |p: &[f64]| ShearLaw {
-                backbone: ShearBackbone::Piecewise(backbone(p)),
+                backbone: ShearBackbone::Piecewise(piecewise_backbone(p)),
                 friction: BlimanSorine::none(),
                 growth: 0.0,
                 locking: None,
@@ -51,44 +49,39 @@ pub fn identify_shear(
             let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, settings)?.fit));
             Identified { law: law(&fit.parameter_values()), fit }
         }
-        _ => linear(curve, &sines, settings)?,
+        _ => fit_whole_loop(curve, settings)?,
     };
+
+    // Locking begins beyond the measured angles.
     let default = Locking::default();
     let onset = default.onset.max(largest(&sines));
     let locking = (onset < default.limit).then_some(Locking { onset, ..default });
-    Ok(Identified { law: ShearLaw { locking, ..found.law }, ..found })
+    Ok(Identified { law: ShearLaw { locking, ..identified.law }, ..identified })
 }
 
-/// Fits a linear backbone with friction.
-fn linear(
-    curve: &Curve,
-    sines: &[f64],
-    settings: &FitSettings,
-) -> Result<Identified<ShearLaw>, Error> {
-    let compared = &*curve.thinned(COMPARED_POINTS);
-    let compared_sines: Vec<f64> = compared.deformation().iter().map(|q| q.sin()).collect();
-    let measured = MeasuredLoop::new(compared, "stiffness", &compared_sines)?;
+/// Fits a linear or varying backbone with friction to the whole history of `curve`.
+fn fit_whole_loop(curve: &Curve, settings: &FitSettings) -> Result<Identified<ShearLaw>, Error> {
     let plateaus: Vec<Plateau> = match settings.plateau {
         Some(plateau) => vec![plateau],
         None => vec![Plateau::Constant, Plateau::Growing],
     };
-    let forms = LoopForm::admitted(settings.shear, &plateaus);
-    let model = |form: &LoopForm| {
+    let mut forms = Vec::new();
+    for form in LoopForm::admitted(settings.shear, &plateaus) {
         let plateau = match form.plateau {
             Plateau::Constant => "constant plateau",
             Plateau::Growing => "growing plateau",
         };
-        measured.model(*form, format!("{}, {plateau}", form.name()))
-    };
-    let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
-    let weights = settings.weighting.weights(curve, 0.0);
+        forms.push((form, format!("{}, {plateau}", form.name())));
+    }
     let ShearPoints { slope, width, wide } = settings.shear_points;
-    let functionals = loop_functionals(curve, slope, &[width, wide]);
-    let options = FitOptions { weights, functionals, intervals: settings.intervals };
-    let path = FrictionPath::new(sines);
-    let forward = |chosen: usize| forms[chosen].forward(sines, &path);
-    let mut fit = fit_curve(curve, select(compared, &models), forward, options);
-    let form = forms[fit.chosen];
+    let family = LoopFamily {
+        stiffness: "stiffness",
+        deformation: f64::sin,
+        forms,
+        slope,
+        widths: &[width, wide],
+    };
+    let LoopFit { mut fit, form } = fit_loop(curve, &family, settings)?;
     let (points, largest) = (settings.shear_points, largest(curve.deformation()));
     fit.values =
         value_estimates(curve, &fit, settings, |p| shear_values(&law(form, p), &points, largest));
@@ -99,7 +92,7 @@ fn linear(
     Ok(Identified { law: law(form, &fit.parameter_values()), fit })
 }
 
-/// Returns the law of a form with some parameters, without locking.
+/// Returns the law of `form` with the `parameters` of a fit, without locking.
 fn law(form: LoopForm, parameters: &[f64]) -> ShearLaw {
     let LoopLaw { backbone, growth, friction, .. } = form.law(parameters);
     let backbone = match backbone {

@@ -17,19 +17,19 @@ use crate::regression::selection::{CandidateModel, select};
 use crate::settings::FitSettings;
 use crate::values::of_law::tensile_values;
 
-/// Identifies the traction law of one direction from a tensile curve, along its whole history.
+/// Identifies the traction law of one direction from a tensile `curve`, along its whole history.
 ///
-/// Points after a break are left out, and the path of the strain is freed from noise
+/// Points after a break are removed, and the path of the strain is freed from noise
 /// ([`Curve::prepared`]). For a strip that hung slack, the strain at which it becomes taut and the
 /// zero of the force are fitted too. For a test that begins under a pretension, the strain at which
-/// the strip carries nothing is fitted. A curve without recovery determines neither friction nor how the fabric changes once
-/// it has been stretched: the law then has no friction, and a toe that does not move.
+/// the strip carries no load is fitted. A curve without recovery determines neither friction nor
+/// changes of the stretched fabric: its law has no friction, and a toe that does not move.
 ///
-/// Where the last cycle goes further than those before it, a law is selected only if it also
-/// predicts that cycle better than the laws of higher preference
-/// ([`predict_last_cycle`](fn@crate::curves::prediction::predict_last_cycle)): a toe that moves
+/// If the last cycle goes further than the cycles before it, a law is selected only if it also
+/// predicts the last cycle better than the laws of higher preference
+/// ([`predict_last_cycle`](fn@crate::curves::prediction::predict_last_cycle)). A toe that moves
 /// fits any two cycles better, because it compensates for the constant stiffness of the line, and
-/// may then miss the third by more.
+/// may then miss the third cycle by more.
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
@@ -41,14 +41,18 @@ pub fn identify_tensile(
     let curve = &*curve.prepared();
     let compared = &*curve.thinned(COMPARED_POINTS);
     let guess = InitialGuess::new(compared)?;
-    let strip = StripKind { zeros: FittedZeros::of(curve), recovers: guess.recovers };
+    let strip = StripKind { zeros: FittedZeros::from_curve(curve), recovers: guess.recovers };
     let forms = TensileForm::admitted(strip, settings);
     let predicted = prediction_errors(compared, &forms);
-    let model = |(form, prediction): (&TensileForm, &Option<f64>)| CandidateModel {
-        prediction: *prediction,
-        ..guess.model(*form, compared)
-    };
-    let models: Vec<CandidateModel<'_>> = forms.iter().zip(&predicted).map(model).collect();
+    let models: Vec<CandidateModel<'_>> = forms
+        .iter()
+        .zip(&predicted)
+        .map(|(form, prediction)| CandidateModel {
+            prediction: *prediction,
+            ..guess.model(*form, compared)
+        })
+        .collect();
+
     let weights = settings.weighting.weights(curve, guess.zero.strain);
     let functionals = tensile_functionals(curve);
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
@@ -60,7 +64,7 @@ pub fn identify_tensile(
     Ok(Identified { law: form.law(&fit.parameter_values()), fit })
 }
 
-/// Returns a fit with the KES values of its law and with remarks.
+/// Returns `fit` with the KES values of its law and with remarks.
 fn with_values(
     curve: &Curve,
     mut fit: CurveFit,
@@ -73,7 +77,7 @@ fn with_values(
     fit
 }
 
-/// Returns the fit of one form to one of several repeats.
+/// Returns the fit of `form` to one of several repeats.
 fn identify_form(
     curve: &Curve,
     form: TensileForm,
@@ -89,11 +93,11 @@ fn identify_form(
     Ok(with_values(curve, fit, form, settings))
 }
 
-/// Returns the errors with which the forms predict the last cycle, where there is one and several
-/// forms.
+/// Returns the errors with which `forms` predict the last cycle. Without a last cycle, or with one
+/// form, all are `None`.
 fn prediction_errors(curve: &Curve, forms: &[TensileForm]) -> Vec<Option<f64>> {
     let last = last_cycle(curve).filter(|_| forms.len() > 1);
-    // Earlier cycles that give no law select none.
+    // Earlier cycles that give no law select no law.
     let found = last.and_then(|last| predict(curve, last, forms).ok());
     match found {
         Some(found) => found.iter().map(|prediction| Some(prediction.error)).collect(),

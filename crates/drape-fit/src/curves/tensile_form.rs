@@ -30,8 +30,8 @@ pub(crate) enum FittedZeros {
 }
 
 impl FittedZeros {
-    /// Returns the zeros that are fitted to a curve.
-    pub(crate) fn of(curve: &Curve) -> Self {
+    /// Returns the zeros that are fitted to `curve`.
+    pub(crate) fn from_curve(curve: &Curve) -> Self {
         if curve.slack {
             Self::StrainAndLoad
         } else if curve.has_pretension() {
@@ -67,7 +67,7 @@ pub(crate) enum Terms {
 pub(crate) struct TensileForm {
     pub(crate) model: TractionModel,
     pub(crate) toe: Toe,
-    /// Terms of a [`TractionModel::Exponential`]; other models have all of theirs.
+    /// Terms of a [`TractionModel::Exponential`]. Other models have all of their terms.
     pub(crate) terms: Terms,
     pub(crate) strip: StripKind,
 }
@@ -87,8 +87,8 @@ struct StripLaw {
 }
 
 impl TensileForm {
-    /// Returns the forms that the settings admit, in the order of preference: those of few
-    /// parameters first.
+    /// Returns the forms that `settings` admit for a `strip`, in the order of preference: forms of
+    /// few parameters first.
     pub(crate) fn admitted(strip: StripKind, settings: &FitSettings) -> Vec<Self> {
         use {Terms::*, Toe::*, TractionModel::*};
         // Without recovery the motion of the toe cannot be seen, nor a friction.
@@ -103,6 +103,7 @@ impl TensileForm {
             (Exponential, Moving, All),
             (Polynomial, Still, All),
         ];
+
         let wanted = forms.into_iter().filter(|(model, form_toe, terms)| {
             settings.traction.is_none_or(|wanted| wanted == *model)
                 && (*model == Polynomial || toe.is_none_or(|wanted| wanted == *form_toe))
@@ -111,7 +112,7 @@ impl TensileForm {
         wanted.map(|(model, toe, terms)| Self { model, toe, terms, strip }).collect()
     }
 
-    /// Returns the name used in reports.
+    /// Returns the name in reports, such as `"priming zone"`.
     pub(crate) fn name(self) -> &'static str {
         match (self.model, self.toe, self.terms) {
             (TractionModel::Exponential, Toe::Still, Terms::ToeOnly) => "exponential toe",
@@ -131,7 +132,7 @@ impl TensileForm {
         }
     }
 
-    /// Returns whether a line lies beside an exponential toe.
+    /// Returns whether a line lies beside an exponential toe: `terms` are more than the toe.
     pub(crate) fn has_line(self) -> bool {
         self.terms != Terms::ToeOnly
     }
@@ -141,7 +142,7 @@ impl TensileForm {
         self.terms == Terms::All
     }
 
-    /// Returns the loads of the form along a curve.
+    /// Returns the loads of the form along `curve`.
     pub(crate) fn forward<'a>(self, curve: &'a Curve) -> Box<dyn ForwardModel + 'a> {
         Box::new(move |p: &[f64], out: &mut [f64]| {
             let StripLaw { zeros, law } = self.strip_law(p);
@@ -155,11 +156,12 @@ impl TensileForm {
         })
     }
 
-    /// Returns the law with the parameters of `InitialGuess::starts`.
+    /// Returns the law with the parameters `p` of `InitialGuess::starts`.
     pub(crate) fn law(self, p: &[f64]) -> TractionLaw {
         self.strip_law(p).law
     }
 
+    /// Returns the law and the zeros with the parameters `p`.
     fn strip_law(self, p: &[f64]) -> StripLaw {
         let mut p = Parameters(p);
         let zeros = match self.strip.zeros {
@@ -167,6 +169,7 @@ impl TensileForm {
             FittedZeros::Strain => Zeros { strain: p.next(), load: 0.0 },
             FittedZeros::StrainAndLoad => Zeros { strain: p.next(), load: p.next() },
         };
+
         let law = match self.model {
             TractionModel::Exponential => self.exponential(&mut p),
             TractionModel::Primed => {
@@ -183,6 +186,7 @@ impl TensileForm {
         StripLaw { zeros, law }
     }
 
+    /// Returns the law with an exponential toe, and the next parameters of `p`.
     fn exponential(self, p: &mut Parameters<'_>) -> TractionLaw {
         let (stiffness, steepness, toe_strain) = (p.next(), p.next(), p.next());
         let toe = ExponentialToe {
@@ -192,6 +196,7 @@ impl TensileForm {
             toe_strain_after: toe_strain * p.next_if(self.toe == Toe::Moving, 1.0),
             base_stiffness: p.next_if(self.has_line(), 0.0),
         };
+
         let friction = if self.strip.recovers {
             let (ratio, length) = (p.next(), p.next());
             let most = LARGEST_BUCKLING * toe.rest_stiffness();
@@ -208,7 +213,7 @@ impl TensileForm {
         }
     }
 
-    /// Returns the law with a backbone of the papers and a friction with a plateau.
+    /// Returns the law with a `backbone` of the papers and a friction with a plateau.
     fn with_plateau(self, backbone: TractionBackbone, p: &mut Parameters<'_>) -> TractionLaw {
         let friction = if self.strip.recovers {
             BlimanSorine::first_order(p.next(), p.next())
@@ -223,6 +228,7 @@ impl TensileForm {
 struct Parameters<'a>(&'a [f64]);
 
 impl Parameters<'_> {
+    /// Returns the next parameter.
     fn next(&mut self) -> f64 {
         let (first, rest) = self.0.split_first().expect("as many parameters as the starts have");
         self.0 = rest;

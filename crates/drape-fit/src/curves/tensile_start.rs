@@ -1,7 +1,8 @@
 //! Initial guesses of a tensile fit, from the curve itself and linear least squares.
 //!
 //! ```math
-//! F = k\left[f_1(\varepsilon) + (1 - r)\,\frac{f_{0.6} - f_1}{1 - 0.6}\right] + F_c\,u(\varepsilon)
+//! F = k\left[f_1(\varepsilon) + (1 - r)\,\frac{f_{0.6} - f_1}{1 - 0.6}\right]
+//!     + F_c\,u(\varepsilon)
 //! ```
 //!
 //! For a given end of the priming zone and friction length the load is linear in stiffness `$k$`,
@@ -78,12 +79,13 @@ struct Combination {
 }
 
 impl InitialGuess {
+    /// Returns the features of `curve`. Fails if its load does not rise.
     pub(crate) fn new(curve: &Curve) -> Result<Self, Error> {
         let (strain, load) = (curve.deformation(), curve.load());
         let branches = curve.branches();
         let loading = branches.first().filter(|branch| branch.rising);
         let loading = loading.ok_or_else(|| falling(curve))?.points.clone();
-        let zeros = FittedZeros::of(curve);
+        let zeros = FittedZeros::from_curve(curve);
         let zero = match zeros {
             FittedZeros::None => Zeros { strain: 0.0, load: 0.0 },
             FittedZeros::Strain => Zeros { strain: unloaded(curve, &loading)?, load: 0.0 },
@@ -94,26 +96,28 @@ impl InitialGuess {
         if !(top_strain > 0.0 && top_load > 0.0) {
             return Err(falling(curve));
         }
+
         let upper = zero.strain + UPPER * (strain[loading.end - 1] - zero.strain);
         let points = loading.filter(|&i| strain[i] >= upper).map(|i| [strain[i], load[i]]);
         let stiffness = StraightLine::through(points).map(|line| line.slope);
         let stiffness = stiffness.filter(|k| *k > 0.0).ok_or_else(|| falling(curve))?;
-        let from_zero = |strain: &f64| {
-            let strain = strain - zero.strain;
-            if curve.slack { strain.max(0.0) } else { strain }
-        };
+        let strains = strain
+            .iter()
+            .map(|strain| strain - zero.strain)
+            .map(|strain| if curve.slack { strain.max(0.0) } else { strain })
+            .collect();
         Ok(Self {
             recovers: branches.len() > 1,
             zero,
             top_strain,
             top_load,
             stiffness,
-            strains: strain.iter().map(from_zero).collect(),
+            strains,
             load: load.iter().map(|load| load - zero.load).collect(),
         })
     }
 
-    /// Returns the candidate of one form on a curve.
+    /// Returns the candidate of `form` on `curve`.
     pub(crate) fn model<'a>(&self, form: TensileForm, curve: &'a Curve) -> CandidateModel<'a> {
         CandidateModel {
             name: form.name().into(),
@@ -123,7 +127,7 @@ impl InitialGuess {
         }
     }
 
-    /// Returns the guesses of the grid that follow the curve best.
+    /// Returns the guesses of `form` on the grid that follow the curve best.
     fn starts(&self, form: &TensileForm) -> Vec<Vec<NamedParameter>> {
         let mut starts = match (form.model, form.toe) {
             (TractionModel::Exponential, _) => self.exponentials(form),
@@ -136,11 +140,11 @@ impl InitialGuess {
         if starts.is_empty() {
             starts.push(self.fallback(form));
         }
-        starts.iter().map(|start| self.named(form, start)).collect()
+        starts.iter().map(|start| self.named_parameters(form, start)).collect()
     }
 
-    /// Returns the guess with the best friction length for each end of the priming zone and each
-    /// growth.
+    /// Returns the guess with the best friction length for each end of the priming zone and each of
+    /// `growths`.
     fn primed(&self, form: &TensileForm, growths: &[f64]) -> Vec<Start> {
         let top = self.top_strain;
         let start = |toe: f64, growth: f64| {
@@ -154,13 +158,13 @@ impl InitialGuess {
                 friction: friction.into(),
                 buckling: Buckling::default(),
             };
-            let column = |law: TractionLaw| self.column(&law);
             let mut columns = vec![
-                column(law(1.0, 1.0, BlimanSorine::none())),
-                column(law(1.0, DEEP, BlimanSorine::none())),
+                self.column(&law(1.0, 1.0, BlimanSorine::none())),
+                self.column(&law(1.0, DEEP, BlimanSorine::none())),
             ];
             let frictions = self.frictions(form);
-            columns.extend(frictions.iter().map(|friction| column(law(0.0, DEEP, *friction))));
+            columns
+                .extend(frictions.iter().map(|friction| self.column(&law(0.0, DEEP, *friction))));
             let Combination { residual_sum, coefficients: c, length } =
                 self.best(&columns, 2, form)?;
             // The load is linear in the toe ratio r: 1 − r is that of the second backbone times its
@@ -206,15 +210,15 @@ impl InitialGuess {
         out
     }
 
-    /// Returns the frictions of unit plateau on the grid of lengths.
+    /// Returns the frictions of unit plateau on the grid of lengths; none for a `form` without
+    /// recovery.
     fn frictions(&self, form: &TensileForm) -> Vec<BlimanSorine> {
         let lengths = if form.strip.recovers { &LENGTHS[..] } else { &[] };
-        let friction = |part: &f64| BlimanSorine::first_order(1.0, part * self.top_strain);
-        lengths.iter().map(friction).collect()
+        lengths.iter().map(|part| BlimanSorine::first_order(1.0, part * self.top_strain)).collect()
     }
 
-    /// Returns the best combination of the backbone columns, which come first, with one of the
-    /// friction columns.
+    /// Returns the best combination of the backbone columns, which are the first `backbone_columns`
+    /// of `columns`, with one of the friction columns.
     fn best(
         &self,
         columns: &[Vec<f64>],
@@ -227,20 +231,26 @@ impl InitialGuess {
             let Solution { coefficients, residual_sum } = fit.solve(&backbone)?;
             return Some(Combination { residual_sum, coefficients, length: 0.0 });
         }
-        let with = |(i, part): (usize, &f64)| {
+
+        let mut best: Option<Combination> = None;
+        for (i, part) in LENGTHS.iter().enumerate() {
             let columns = [&backbone[..], &[backbone_columns + i]].concat();
-            let Solution { coefficients, residual_sum } = fit.solve(&columns)?;
-            (coefficients[backbone_columns] > 0.0).then_some(Combination {
-                residual_sum,
-                coefficients,
-                length: part * self.top_strain,
-            })
-        };
-        let all = LENGTHS.iter().enumerate().filter_map(with);
-        all.min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
+            let Some(Solution { coefficients, residual_sum }) = fit.solve(&columns) else {
+                continue;
+            };
+            let is_better = best.as_ref().is_none_or(|best| residual_sum < best.residual_sum);
+            if coefficients[backbone_columns] > 0.0 && is_better {
+                best = Some(Combination {
+                    residual_sum,
+                    coefficients,
+                    length: part * self.top_strain,
+                });
+            }
+        }
+        best
     }
 
-    /// Returns the guess for a curve for which the linear fit has no solution.
+    /// Returns the guess of `form` for a curve whose linear fit has no solution.
     fn fallback(&self, form: &TensileForm) -> Start {
         let (strain, load) = (self.top_strain, self.top_load);
         let moves = form.toe == Toe::Moving;
@@ -259,18 +269,17 @@ impl InitialGuess {
     }
 
     /// Returns the parameters of a fit with the values of a `start`.
-    fn named(&self, form: &TensileForm, start: &Start) -> Vec<NamedParameter> {
+    fn named_parameters(&self, form: &TensileForm, start: &Start) -> Vec<NamedParameter> {
         let mut named = self.zeros(form.strip.zeros);
-        let with_value = |(bounds, value): (NamedParameter, &f64)| {
+        for (bounds, value) in self.bounds(form).into_iter().zip(&start.values) {
             let parameter = Parameter { start: *value, ..bounds.parameter };
-            NamedParameter { parameter, ..bounds }
-        };
-        named.extend(self.bounds(form).into_iter().zip(&start.values).map(with_value));
+            named.push(NamedParameter { parameter, ..bounds });
+        }
         named
     }
 
-    /// Returns names, scales and bounds of the parameters of the law, in the order in which
-    /// [`TensileForm::law`] takes them.
+    /// Returns names, scales and bounds of the parameters of the law of `form`, in the order in
+    /// which [`TensileForm::law`] takes them.
     fn bounds(&self, form: &TensileForm) -> Vec<NamedParameter> {
         if form.model == TractionModel::Exponential {
             return self.exponential_bounds(form);
@@ -278,6 +287,7 @@ impl InitialGuess {
         let mut named = Vec::new();
         let mut push = |name, parameter| named.push(NamedParameter::new(name, parameter));
         let (strain, load) = (self.top_strain, self.top_load);
+
         if form.model == TractionModel::Primed {
             let k = self.stiffness;
             push("stiffness", Parameter::new(k).between(1e-2 * k, 1e2 * k));
@@ -322,8 +332,8 @@ impl InitialGuess {
     }
 }
 
-/// Returns the strain at which a strip that begins under a load carries nothing, by the slope of the
-/// start of its first loading branch.
+/// Returns the strain at which a strip that begins under a load carries nothing, by the slope of
+/// the start of its first loading branch.
 fn unloaded(curve: &Curve, loading: &Range<usize>) -> Result<f64, Error> {
     let (strain, load) = (curve.deformation(), curve.load());
     let last = strain[loading.end - 1];

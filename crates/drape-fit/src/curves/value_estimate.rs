@@ -1,4 +1,4 @@
-//! KES values of a fitted law with their intervals, beside those that are read off the curve.
+//! KES values of a fitted law with their intervals, beside the values that are read from the curve.
 //!
 //! The error of a value `$v$` of the law follows from the covariances `$C$` of its parameters,
 //!
@@ -6,9 +6,9 @@
 //! \sigma_v^2 = \nabla v^T\,C\,\nabla v
 //! ```
 //!
-//! and knows nothing of what the law misses. The value that is read off the curve needs no law; its
-//! error is the noise of the points at which it is read. The interval holds both: the value of the
-//! law with the smaller of the two errors, and the reading with its error.
+//! and contains nothing of the misfit of the law. The value that is read from the curve needs no
+//! law. Its error is the noise of the points at which it is read. The interval contains both: the
+//! value of the law with the smaller of the two errors, and the reading with its error.
 
 use drape_kes::{Curve, EvaluationPoints, Symbol, Test};
 
@@ -24,10 +24,10 @@ const STEP: f64 = 1e-5;
 /// Half width of a 95 % interval of a normal variate over its standard deviation.
 const NORMAL_QUANTILE: f64 = 1.96;
 
-/// Returns the KES values of the law of a `fit`, where `values` reads those of the law with other
-/// parameters.
+/// Returns the KES values of the law of `fit`, where `values` returns the values of the law with
+/// other parameters.
 ///
-/// A test without a recovery tells nothing of the resilience: RT is left out.
+/// A test without a recovery has no resilience RT.
 pub(crate) fn value_estimates(
     curve: &Curve,
     fit: &CurveFit,
@@ -36,12 +36,14 @@ pub(crate) fn value_estimates(
 ) -> Vec<ValueEstimate> {
     let parameters = fit.parameter_values();
     let gradient = gradient(fit, &parameters, &values);
-    let readings = curve.values(&own_points(curve, settings));
-    let estimate = |(index, law): (usize, LawValue)| {
-        let value = law.value?;
-        let reading = readings.iter().find(|reading| reading.symbol == law.symbol)?;
+    let readings = curve.values(&evaluation_points(curve, settings));
+
+    let mut estimates = Vec::new();
+    for (index, law) in values(&parameters).into_iter().enumerate() {
+        let reading = readings.iter().find(|reading| reading.symbol == law.symbol);
+        let (Some(value), Some(reading)) = (law.value, reading) else { continue };
         if matches!(reading.value, Err(drape_kes::Error::NoRecovery)) {
-            return None;
+            continue;
         }
         let reading = reading.value.as_ref().map(|value| *value).map_err(ToString::to_string);
         let half = half_width(fit, &gradient, index);
@@ -54,36 +56,42 @@ pub(crate) fn value_estimates(
             }
             Err(_) => [value - half, value + half],
         });
-        Some(ValueEstimate { symbol: law.symbol, value, curve: reading, interval })
-    };
-    values(&parameters).into_iter().enumerate().filter_map(estimate).collect()
+        estimates.push(ValueEstimate { symbol: law.symbol, value, curve: reading, interval });
+    }
+    estimates
 }
 
-/// Returns the standard deviation with which the noise of the load enters a value that is read off
-/// the curve, in SI.
+/// Returns the standard deviation of the value `symbol` that is read from `curve`, in SI, due to
+/// the noise of the load.
 ///
 /// The work under a branch is a sum over its points. LT is read at one point too, the largest load.
 /// The width of a loop is the difference of two loads. A slope is taken between the means of two
 /// loads. Loops have two sides.
 fn reading_noise(curve: &Curve, fit: &CurveFit, symbol: Symbol, settings: &FitSettings) -> f64 {
     let noise = fit.noise * curve.load_range().span();
-    let slope = |[from, to]: [f64; 2]| noise / ((to - from) * std::f64::consts::SQRT_2);
     match symbol {
         Symbol::TwoHb | Symbol::TwoHg | Symbol::TwoHg5 => noise,
-        Symbol::B => slope(settings.bending_points.slope),
-        Symbol::G => slope(settings.shear_points.slope),
+        Symbol::B => slope_noise(noise, settings.bending_points.slope),
+        Symbol::G => slope_noise(noise, settings.shear_points.slope),
         Symbol::Lt | Symbol::Wt | Symbol::Rt | Symbol::Em => tensile_noise(curve, noise, symbol),
     }
 }
 
-/// Returns the standard deviation of a tensile value that is read off the curve, in SI, for a
+/// Returns the standard deviation of a slope between two deformations, for a `noise` of the load.
+fn slope_noise(noise: f64, [from, to]: [f64; 2]) -> f64 {
+    noise / ((to - from) * std::f64::consts::SQRT_2)
+}
+
+/// Returns the standard deviation of a tensile value that is read from `curve`, in SI, for a
 /// `noise` of the load, in N/m.
 fn tensile_noise(curve: &Curve, noise: f64, symbol: Symbol) -> f64 {
     let Ok(values) = curve.tensile_values() else { return f64::INFINITY };
     let branches = curve.branches();
-    let points = |branch: usize| branches.get(branch).map_or(1, |branch| branch.points.len());
-    let work_noise = |branch: usize| noise * values.extension / (points(branch) as f64).sqrt();
-    let of_work = work_noise(0) / values.work;
+    let [loading, recovery] = [0, 1].map(|branch| {
+        let points = branches.get(branch).map_or(1, |branch| branch.points.len());
+        noise * values.extension / (points as f64).sqrt()
+    });
+    let of_work = loading / values.work;
     // An error of the largest strain adds a strip of the largest load to the work of both branches.
     let of_strain = extension_noise(curve);
     let strip = values.maximum_tension * of_strain / values.work;
@@ -97,13 +105,13 @@ fn tensile_noise(curve: &Curve, noise: f64, symbol: Symbol) -> f64 {
         }
         _ => {
             let resilience = values.resilience.unwrap_or(0.0);
-            let of_recovery = work_noise(1) / values.work;
+            let of_recovery = recovery / values.work;
             of_recovery.hypot(resilience * of_work).hypot((1.0 - resilience) * strip)
         }
     }
 }
 
-/// Returns the standard deviation of the largest strain of a tensile curve, a ratio.
+/// Returns the standard deviation of the largest strain of a tensile `curve`, a ratio.
 ///
 /// A smoothed path turns where the lines through some ten points before and after the turn end. The
 /// end of such a line errs by `$2/\sqrt n$` of the noise, the mean of two ends by less than half.
@@ -112,9 +120,9 @@ fn extension_noise(curve: &Curve) -> f64 {
     path.map_or(0.0, |path| if path.smoothed { 0.5 * path.noise } else { path.noise })
 }
 
-/// Returns the points at which the values of a curve are read: of a tensile curve at its own largest
-/// load, so that curve and law are compared at equal load.
-fn own_points(curve: &Curve, settings: &FitSettings) -> EvaluationPoints {
+/// Returns the points at which the values of `curve` are read. The values of a tensile curve are
+/// read at its largest load, so that curve and law are compared at equal load.
+fn evaluation_points(curve: &Curve, settings: &FitSettings) -> EvaluationPoints {
     EvaluationPoints {
         maximum_tension: largest_load(curve),
         bending: settings.bending_points,
@@ -122,41 +130,43 @@ fn own_points(curve: &Curve, settings: &FitSettings) -> EvaluationPoints {
     }
 }
 
-/// Returns the load at the end of the first loading of a tensile curve, in N/m; of another curve its
-/// largest load.
+/// Returns the load at the end of the first loading of a tensile `curve`, in N/m. For other curves
+/// returns the largest load.
 pub(crate) fn largest_load(curve: &Curve) -> f64 {
     let of_tension = (curve.test == Test::Tensile).then(|| curve.tensile_values().ok()).flatten();
     of_tension.map_or(curve.load_range().high, |values| values.maximum_tension)
 }
 
-/// Returns the derivatives of the values by each parameter that the curve determines; `None` for the
-/// other parameters.
+/// Returns the derivatives of the values by each of the `parameters` that the curve determines;
+/// `None` for the other parameters.
 fn gradient(
     fit: &CurveFit,
     parameters: &[f64],
     values: &impl Fn(&[f64]) -> Vec<LawValue>,
 ) -> Vec<Option<Vec<f64>>> {
-    let of_parameter = |index: usize| {
+    let mut gradient = Vec::with_capacity(parameters.len());
+    for index in 0..parameters.len() {
         if fit.covariance[(index, index)] <= 0.0 {
-            return None;
+            gradient.push(None);
+            continue;
         }
         let step = STEP * parameters[index].abs().max(f64::MIN_POSITIVE);
-        let at = |sign: f64| {
+        let [high, low] = [1.0, -1.0].map(|sign| {
             let mut moved = parameters.to_vec();
             moved[index] += sign * step;
             values(&moved)
-        };
-        let (high, low) = (at(1.0), at(-1.0));
-        let difference = |(high, low): (&LawValue, &LawValue)| {
+        });
+        let slopes = high.iter().zip(&low).map(|(high, low)| {
             let rise = high.value.zip(low.value).map(|(high, low)| high - low);
             rise.map_or(f64::NAN, |rise| rise / (2.0 * step))
-        };
-        Some(high.iter().zip(&low).map(difference).collect())
-    };
-    (0..parameters.len()).map(of_parameter).collect()
+        });
+        gradient.push(Some(slopes.collect()));
+    }
+    gradient
 }
 
-/// Returns half the width of the 95 % interval of a value; `None` where it has no derivative.
+/// Returns half the width of the 95 % interval of the value with the index `value`; `None` if it
+/// has no derivative.
 fn half_width(fit: &CurveFit, gradient: &[Option<Vec<f64>>], value: usize) -> Option<f64> {
     let known: Vec<(usize, f64)> = gradient
         .iter()

@@ -18,14 +18,14 @@ pub struct FittedSheet<'a> {
     pub fit: &'a Fit,
 }
 
-/// Identifies many fabrics on all threads of the current pool, and returns a summary of each in
-/// their order.
+/// Identifies the fabrics of all `inputs` on all threads of the current pool. Returns a summary of
+/// each, in the order of `inputs`.
 ///
-/// Each thread reads one sheet at a time, identifies and summarises it, and drops both: memory
-/// grows with the summaries, not with the number of sheets. A sheet that cannot be read or
-/// identified is summarised as that error and does not stop the others. `summarise` is called as
-/// each fabric is done, in any order, so it may advance a progress bar too; the returned list is
-/// the same for any number of threads.
+/// Each thread reads one sheet at a time, identifies and summarises it, and drops both. Memory
+/// therefore grows with the summaries, not with the number of sheets. A sheet that cannot be read
+/// or identified is summarised as its error, and does not stop the others. `summarise` is called as
+/// each fabric is finished, in any order, so it may advance a progress bar too. The returned list
+/// is equal for any number of threads.
 ///
 /// ```
 /// use drape_fit::{Error, FitSettings, identify_all};
@@ -68,6 +68,7 @@ pub fn identify_all<I: Sync, E: From<Error>, T: Send>(
             summaries.lock().unwrap_or_else(PoisonError::into_inner).push((index, summary));
         }
     });
+
     let mut summaries = summaries.into_inner().unwrap_or_else(PoisonError::into_inner);
     summaries.sort_by_key(|(index, _)| *index);
     summaries.into_iter().map(|(_, summary)| summary).collect()

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
-use drape_kes::{BendingValues, Direction, Sheet, SheetValue};
+use drape_kes::{BendingValues, Direction, Sheet};
 
 use crate::error::Error;
 use crate::fabric::laws::SheetLaws;
@@ -26,7 +26,7 @@ pub struct Fit {
     pub assumed: Vec<String>,
 }
 
-/// Identifies a fabric from a sheet, with the default settings.
+/// Identifies a fabric from `sheet`, with the default settings.
 ///
 /// ```
 /// use drape_fit::identify;
@@ -49,11 +49,11 @@ pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
     identify_with(sheet, &FitSettings::default())
 }
 
-/// Identifies a fabric from a sheet.
+/// Identifies a fabric from `sheet`, with the given `settings`.
 ///
 /// Curves come before values, values before defaults, and each default is named. Of several curves
 /// of one test and direction the first gives the law, except that loop-bending curves give one law
-/// together. What is missing of one direction is taken from the other.
+/// together. A law that is missing in one direction is taken from the other direction.
 ///
 /// # Errors
 /// A curve or a set of values gives no law, or the fabric is impossible.
@@ -70,13 +70,14 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
         notes.push(format!("thickness: not measured, {} m taken", assumed::THICKNESS));
         assumed::THICKNESS
     });
+
     let pressed_thickness = sheet.pressed_thickness();
     if pressed_thickness.is_none() {
         notes.push("pressed_thickness: not measured, 0.7 of the thickness taken".into());
     } else if sheet.tm.is_none() {
         notes.push("pressed_thickness: not measured, that of LC and WC taken".into());
     }
-    // Without both thicknesses the linearity says nothing.
+    // The linearity has no meaning without both thicknesses.
     let measured = sheet.thickness().is_some() && pressed_thickness.is_some();
     let compression_linearity = sheet.compression_linearity().filter(|_| measured);
     if let Some(linearity) = compression_linearity.filter(|_| sheet.lc.is_none()) {
@@ -84,6 +85,7 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
             "compression_linearity: not measured, {linearity:.3} by WC, T0 and TM taken"
         ));
     }
+
     let shared: Vec<&str> =
         sheet.shared.iter().copied().filter(|key| !SURFACE.contains(key)).collect();
     if !shared.is_empty() {
@@ -93,12 +95,14 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
         notes.push(format!("surface_friction: not measured, {SURFACE_FRICTION} taken"));
         SURFACE_FRICTION
     });
+
+    // A direction without a law takes the law of the other direction.
     let [warp, weft] = [Direction::Warp, Direction::Weft].map(|direction| laws.traction(direction));
     let traction =
-        both("traction", [warp?, weft?], &mut notes, |notes| laws.assumed_traction(notes))?;
+        laws_of_both("traction", [warp?, weft?], &mut notes, |notes| laws.assumed_traction(notes))?;
     let [warp, weft] =
         [Direction::Warp, Direction::Weft].map(|direction| laws.bending(direction, density));
-    let bending = both("bending", [warp, weft], &mut notes, |notes| {
+    let bending = laws_of_both("bending", [warp, weft], &mut notes, |notes| {
         let rigidity = assumed::bending_rigidity(density);
         let law = bending_from_values(&BendingValues { rigidity, loop_width: 0.0 });
         notes
@@ -111,10 +115,14 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
         let degrees = locking.onset.asin().to_degrees();
         notes.push(format!("shear beyond {degrees:.1}°: not measured, jamming before 60° taken"));
     }
+
+    // Standard errors come from the curves, and from the standard deviations of the values.
     let fits = laws.into_fits();
     let mut errors = keys::fitted_errors(&fits);
-    let identified = |sheet: &Sheet| identify_with(sheet, settings).ok().map(|fit| fit.fabric);
-    match scatter::fitted_errors(sheet, &keys::laws(&fits), identified) {
+    let errors_of_values = scatter::fitted_errors(sheet, &keys::laws(&fits), |sheet: &Sheet| {
+        identify_with(sheet, settings).ok().map(|fit| fit.fabric)
+    });
+    match errors_of_values {
         Some(of_values) => errors.extend(of_values),
         None => notes.push(
             "standard deviations of the values: not used, since values close by give laws of another \
@@ -122,6 +130,7 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
                 .into(),
         ),
     }
+
     let fabric = Fabric {
         name: sheet.name.clone(),
         source: sheet.source.trim().to_owned(),
@@ -140,7 +149,7 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
             assumed: notes.clone(),
             standard_errors: errors.standard,
             correlations: errors.correlations,
-            unused: unused(sheet),
+            unused: unused_values(sheet),
             measured_range: measured_range(sheet),
         }),
     };
@@ -151,20 +160,25 @@ pub fn identify_with(sheet: &Sheet, settings: &FitSettings) -> Result<Fit, Error
     Ok(Fit { fabric, curves: fits, assumed: notes })
 }
 
-/// Symbols of the surface test, which are given without a direction as a rule.
+/// Symbols of the surface test, which usually have no direction.
 const SURFACE: [&str; 3] = ["MIU", "MMD", "SMD"];
 
-/// Returns the values that no part of the model comes from, by their symbols.
+/// Returns the values of `sheet` that no part of the model uses, by their symbols.
 ///
-/// Those whose test has a curve are in the fabric by the curve.
-fn unused(sheet: &Sheet) -> BTreeMap<String, f64> {
-    let key = |value: &SheetValue| match value.direction {
-        Some(direction) => format!("{}.{}", direction.name(), value.symbol),
-        None => value.symbol.to_owned(),
-    };
-    let never = |value: &SheetValue| ["RC", "MMD", "SMD"].contains(&value.symbol);
-    let listed = sheet.listed().into_iter().filter(never);
-    listed.map(|value| (key(&value), value.value)).collect()
+/// A value whose test has a curve is not listed, because the curve is in the fabric.
+fn unused_values(sheet: &Sheet) -> BTreeMap<String, f64> {
+    sheet
+        .listed()
+        .into_iter()
+        .filter(|value| ["RC", "MMD", "SMD"].contains(&value.symbol))
+        .map(|value| {
+            let key = match value.direction {
+                Some(direction) => format!("{}.{}", direction.name(), value.symbol),
+                None => value.symbol.to_owned(),
+            };
+            (key, value.value)
+        })
+        .collect()
 }
 
 /// Laws of one kind in both directions.
@@ -173,20 +187,20 @@ struct BothLaws<L> {
     weft: L,
 }
 
-/// Returns the laws of both directions; where one is missing the other is taken for it.
-fn both<L: Copy>(
+/// Returns the laws of both directions. A missing law is replaced by the law of the other
+/// direction, and two missing laws by the law that `assume` returns.
+fn laws_of_both<L: Copy>(
     kind: &str,
     [warp, weft]: [Option<Noted<L>>; 2],
     notes: &mut Vec<String>,
     assume: impl FnOnce(&mut Vec<String>) -> Result<L, Error>,
 ) -> Result<BothLaws<L>, Error> {
-    let mut take = |found: Option<Noted<L>>| {
-        found.map(|found| {
-            notes.extend(found.notes);
-            found.law
+    let [warp, weft] = [warp, weft].map(|noted| {
+        noted.map(|noted| {
+            notes.extend(noted.notes);
+            noted.law
         })
-    };
-    let (warp, weft) = (take(warp), take(weft));
+    });
     match (warp, weft) {
         (Some(warp), Some(weft)) => Ok(BothLaws { warp, weft }),
         (Some(warp), None) => {

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use drape_kes::{Direction, Test};
 
 use crate::regression::curve_fit::CurveFit;
-use crate::regression::estimate::Estimate;
 
 /// Errors of the fitted numbers of a fabric, by their key paths.
 #[derive(Debug, Default)]
@@ -17,38 +16,40 @@ pub(crate) struct FittedErrors {
 }
 
 impl FittedErrors {
-    /// Adds the correlation of two numbers that differ.
-    pub(crate) fn correlate(&mut self, one: &str, other: &str, correlation: f64) {
-        let (first, second) = if one < other { (one, other) } else { (other, one) };
+    /// Adds the `correlation` of two different numbers by their keys.
+    pub(crate) fn correlate(&mut self, a: &str, b: &str, correlation: f64) {
+        let (first, second) = if a < b { (a, b) } else { (b, a) };
         let row = self.correlations.entry(first.to_owned()).or_default();
         row.insert(second.to_owned(), correlation);
     }
 
-    /// Adds those of other numbers.
+    /// Adds the errors and correlations of `other`.
     pub(crate) fn extend(&mut self, other: Self) {
         self.standard.extend(other.standard);
         self.correlations.extend(other.correlations);
     }
 }
 
-/// Returns the errors of the numbers of a fabric, where they have one.
+/// Returns the errors of the numbers of a fabric that were fitted in `fits`.
 ///
-/// Of several curves of one law the one that gives the fabric's law counts: a bending loop before
-/// loop bending, whose strips share their law.
+/// Among several curves of one law the curve counts that gives the fabric's law: a bending loop
+/// before loop bending, whose strips share their law.
 pub(crate) fn fitted_errors(fits: &[CurveFit]) -> FittedErrors {
     let mut errors = FittedErrors::default();
     let mut taken = BTreeSet::new();
+
     let arches = fits.iter().filter(|fit| fit.test == Test::LoopBending);
     for fit in fits.iter().filter(|fit| fit.test != Test::LoopBending).chain(arches) {
         let law = law(fit.test, fit.direction);
         if taken.insert(law.clone()) {
             let two_elements = fit.parameters.iter().any(|estimate| estimate.name == "ratio");
-            let keyed = |(index, estimate): (usize, &Estimate)| {
-                let key = key(fit.test, estimate.name, two_elements)?;
-                let error = *estimate.standard_error.as_ref().ok()?;
-                Some((index, format!("{law}.{key}"), error))
-            };
-            let keyed: Vec<_> = fit.parameters.iter().enumerate().filter_map(keyed).collect();
+            let mut keyed = Vec::new();
+            for (index, estimate) in fit.parameters.iter().enumerate() {
+                let key = key(fit.test, estimate.name, two_elements);
+                if let (Some(key), Ok(error)) = (key, &estimate.standard_error) {
+                    keyed.push((index, format!("{law}.{key}"), *error));
+                }
+            }
             for (place, (index, key, error)) in keyed.iter().enumerate() {
                 errors.standard.insert(key.clone(), *error);
                 for (other, other_key, _) in &keyed[..place] {
@@ -62,14 +63,14 @@ pub(crate) fn fitted_errors(fits: &[CurveFit]) -> FittedErrors {
     errors
 }
 
-/// Returns the key paths of the laws that curves give.
+/// Returns the key paths of the laws that the curves of `fits` give.
 pub(crate) fn laws(fits: &[CurveFit]) -> BTreeSet<String> {
     fits.iter().map(|fit| law(fit.test, fit.direction)).collect()
 }
 
-/// Key path of a parameter of a law in a fabric file, by the name that a fit gives it; `second plateau`
-/// and `second length` are those of the second element of a friction. `None` for parameters of the test
-/// and for those that enter two numbers.
+/// Returns the key path of a `parameter` of a law in a fabric file, by the name that a fit gives
+/// the parameter. `second plateau` and `second length` belong to the second element of a friction.
+/// `None` for parameters of the test, and for parameters that enter two numbers.
 ///
 /// ```
 /// use drape_fit::parameter_key;
@@ -83,7 +84,7 @@ pub fn parameter_key(test: Test, direction: Direction, parameter: &str) -> Optio
     key(test, parameter, false).map(|key| format!("{}.{key}", law(test, direction)))
 }
 
-/// Returns the key path of the law that a test and direction give.
+/// Returns the key path of the law of a `test` and `direction`.
 fn law(test: Test, direction: Direction) -> String {
     let direction = direction.name();
     match test {
@@ -93,8 +94,8 @@ fn law(test: Test, direction: Direction) -> String {
     }
 }
 
-/// Returns the key of a parameter within its law; `None` for parameters of the test and for those
-/// that enter two numbers.
+/// Returns the key of a `parameter` within its law; `None` for parameters of the test, and for
+/// parameters that enter two numbers.
 fn key(test: Test, parameter: &str, two_elements: bool) -> Option<&'static str> {
     Some(match (test, parameter) {
         (Test::Tensile, "base_stiffness") => "exponential.base_stiffness",
@@ -119,7 +120,7 @@ fn key(test: Test, parameter: &str, two_elements: bool) -> Option<&'static str> 
         (_, "intercept") => "piecewise.intercept",
         (_, "knot") => "piecewise.knot",
         (_, "plateau") => "friction[0].plateau",
-        // Of two elements the fitted length is that of the second.
+        // With two elements the fitted length is the length of the second element.
         (_, "length") if two_elements => "friction[1].length",
         (_, "length") => "friction[0].length",
         (_, "second plateau") => "friction[1].plateau",

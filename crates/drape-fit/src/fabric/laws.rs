@@ -1,5 +1,4 @@
-//! Laws of a sheet: from its curves where there are any, else from its values, with notes on what
-//! was assumed.
+//! Laws of a sheet: from curves if there are any, else from values, with notes on assumptions.
 
 use drape_fabric::{BendingLaw, ShearLaw, TractionLaw};
 use drape_kes::{BendingValues, Curve, Direction, ShearValues, Sheet, Test, Values};
@@ -27,18 +26,18 @@ enum CurveLaw {
     Shear(Identified<ShearLaw>),
 }
 
-/// Returns the curves that are identified together, by their indices in the sheet: the loop-bending
-/// curves of a direction, every other curve by itself.
+/// Returns the indices of `curves` that are identified together: the loop-bending curves of one
+/// direction, and every other curve alone.
 fn groups(curves: &[Curve]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (index, curve) in curves.iter().enumerate() {
-        let together = |group: &&mut Vec<usize>| {
+        let group = groups.iter_mut().find(|group| {
             let first = &curves[group[0]];
             curve.test == Test::LoopBending
                 && first.test == curve.test
                 && first.direction == curve.direction
-        };
-        match groups.iter_mut().find(together) {
+        });
+        match group {
             Some(group) => group.push(index),
             None => groups.push(vec![index]),
         }
@@ -47,7 +46,8 @@ fn groups(curves: &[Curve]) -> Vec<Vec<usize>> {
 }
 
 impl CurveLaw {
-    fn of_group(group: &[&Curve], settings: &FitSettings) -> Result<Vec<Self>, Error> {
+    /// Identifies the laws of a `group` of curves that are identified together.
+    fn identify_group(group: &[&Curve], settings: &FitSettings) -> Result<Vec<Self>, Error> {
         let curve = group[0];
         Ok(match curve.test {
             Test::Tensile => vec![Self::Traction(identify_tensile(curve, settings)?)],
@@ -59,11 +59,12 @@ impl CurveLaw {
         })
     }
 
+    /// Returns the fit of the law to its curve.
     fn into_fit(self) -> CurveFit {
         match self {
-            Self::Traction(found) => found.fit,
-            Self::Bending(found) | Self::LoopBending(found) => found.fit,
-            Self::Shear(found) => found.fit,
+            Self::Traction(identified) => identified.fit,
+            Self::Bending(identified) | Self::LoopBending(identified) => identified.fit,
+            Self::Shear(identified) => identified.fit,
         }
     }
 }
@@ -77,14 +78,14 @@ pub(crate) struct SheetLaws<'a> {
 }
 
 impl<'a> SheetLaws<'a> {
-    /// Identifies the law of every curve, in parallel.
+    /// Identifies the law of every curve of `sheet`, in parallel.
     pub(crate) fn new(sheet: &'a Sheet, settings: &'a FitSettings) -> Result<Self, Error> {
         let groups = groups(&sheet.curves);
         let identified: Result<Vec<Vec<CurveLaw>>, Error> = groups
             .par_iter()
             .map(|group| {
                 let curves: Vec<&Curve> = group.iter().map(|&index| &sheet.curves[index]).collect();
-                CurveLaw::of_group(&curves, settings)
+                CurveLaw::identify_group(&curves, settings)
             })
             .collect();
         let indices = groups.into_iter().flatten();
@@ -100,13 +101,15 @@ impl<'a> SheetLaws<'a> {
         self.laws.into_iter().map(CurveLaw::into_fit).collect()
     }
 
-    /// Returns the traction law of the first tensile curve of a direction, or of its values.
+    /// Returns the traction law of the first tensile curve of `direction`, or of its values.
     pub(crate) fn traction(
         &self,
         direction: Direction,
     ) -> Result<Option<Noted<TractionLaw>>, Error> {
         let from_curve = self.laws.iter().find_map(|laws| match laws {
-            CurveLaw::Traction(found) if found.fit.direction == direction => Some(found.law),
+            CurveLaw::Traction(identified) if identified.fit.direction == direction => {
+                Some(identified.law)
+            }
             _ => None,
         });
         if let Some(law) = from_curve {
@@ -120,7 +123,7 @@ impl<'a> SheetLaws<'a> {
         tensile_law(direction.name(), self.sheet.values(direction), self.sheet.maximum_tension())
     }
 
-    /// Returns the traction law of the default values.
+    /// Returns the traction law of the default values, and adds a note to `notes`.
     pub(crate) fn assumed_traction(&self, notes: &mut Vec<String>) -> Result<TractionLaw, Error> {
         notes.push(format!(
             "traction: not measured, EM {:.0} %, LT {} and RT {:.0} % taken",
@@ -134,20 +137,25 @@ impl<'a> SheetLaws<'a> {
             linearity: assumed::LINEARITY,
             resilience: assumed::RESILIENCE,
         };
-        tensile_from_values(&target).map(|found| found.law)
+        tensile_from_values(&target).map(|identified| identified.law)
     }
 
-    /// Returns the bending law of the first bending curve of a direction, of its loop-bending
+    /// Returns the bending law of the first bending curve of `direction`, of its loop-bending
     /// curves, or of its values.
     pub(crate) fn bending(&self, direction: Direction, density: f64) -> Option<Noted<BendingLaw>> {
         let from_loop = self.laws.iter().find_map(|laws| match laws {
-            CurveLaw::Bending(found) if found.fit.direction == direction => Some(found.law),
+            CurveLaw::Bending(identified) if identified.fit.direction == direction => {
+                Some(identified.law)
+            }
             _ => None,
         });
         let from_arches = self.laws.iter().find_map(|laws| match laws {
-            CurveLaw::LoopBending(found) if found.fit.direction == direction => Some(found.law),
+            CurveLaw::LoopBending(identified) if identified.fit.direction == direction => {
+                Some(identified.law)
+            }
             _ => None,
         });
+
         if let Some(law) = from_loop.or(from_arches) {
             return Some(Noted { law, notes: Vec::new() });
         }
@@ -156,6 +164,7 @@ impl<'a> SheetLaws<'a> {
         if rigidity.is_none() && width.is_none() {
             return None;
         }
+
         let name = direction.name();
         let mut notes = Vec::new();
         let rigidity = rigidity.unwrap_or_else(|| {
@@ -174,30 +183,20 @@ impl<'a> SheetLaws<'a> {
         Some(Noted { law, notes })
     }
 
-    /// Returns the law of the first shear curve, or of the mean of the values of both directions.
+    /// Returns the law of the first shear curve, or of the mean of the values of both directions,
+    /// and adds assumptions to `notes`.
     pub(crate) fn shear(&self, notes: &mut Vec<String>) -> ShearLaw {
         let from_curve = self.laws.iter().find_map(|laws| match laws {
-            CurveLaw::Shear(found) => Some(found.law),
+            CurveLaw::Shear(identified) => Some(identified.law),
             _ => None,
         });
         if let Some(law) = from_curve {
             return law;
         }
-        let mut mean = |name: &str, value: fn(&Values) -> Option<f64>| {
-            let values = [value(&self.sheet.warp), value(&self.sheet.weft)];
-            if let [Some(warp), Some(weft)] = values
-                && (warp - weft).abs() > REPORTED_DEVIATION * warp.abs()
-            {
-                let (warp, weft) = (format!("{warp:.4}"), format!("{weft:.4}"));
-                notes
-                    .push(format!("{name}: the mean of warp {warp} and weft {weft} (in SI) taken"));
-            }
-            let known: Vec<f64> = values.into_iter().flatten().collect();
-            (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
-        };
-        let stiffness = mean("G", Values::shear_stiffness);
-        let narrow = mean("2HG", Values::shear_loop_width);
-        let wide = mean("2HG5", Values::shear_loop_width_at_five_degrees);
+
+        let stiffness = self.mean_value("G", Values::shear_stiffness, notes);
+        let narrow = self.mean_value("2HG", Values::shear_loop_width, notes);
+        let wide = self.mean_value("2HG5", Values::shear_loop_width_at_five_degrees, notes);
         let stiffness = stiffness.unwrap_or_else(|| {
             let taken = assumed::SHEAR_STIFFNESS;
             notes.push(format!("shear stiffness: not measured, {taken} N/(m·rad) taken"));
@@ -215,6 +214,7 @@ impl<'a> SheetLaws<'a> {
                 [taken, taken]
             }
         };
+
         let target = ShearValues { stiffness, loop_width, wide_loop_width };
         let Matched { law, deviation } = shear_from_values(&target, &self.settings.shear_points);
         let length = law.friction.elements[0].length;
@@ -231,5 +231,23 @@ impl<'a> SheetLaws<'a> {
             ));
         }
         law
+    }
+
+    /// Returns the mean of a value over both directions, and adds a note if the directions differ.
+    fn mean_value(
+        &self,
+        name: &str,
+        value: fn(&Values) -> Option<f64>,
+        notes: &mut Vec<String>,
+    ) -> Option<f64> {
+        let values = [value(&self.sheet.warp), value(&self.sheet.weft)];
+        if let [Some(warp), Some(weft)] = values
+            && (warp - weft).abs() > REPORTED_DEVIATION * warp.abs()
+        {
+            let (warp, weft) = (format!("{warp:.4}"), format!("{weft:.4}"));
+            notes.push(format!("{name}: the mean of warp {warp} and weft {weft} (in SI) taken"));
+        }
+        let known: Vec<f64> = values.into_iter().flatten().collect();
+        (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
     }
 }

@@ -1,4 +1,4 @@
-//! Standard errors of laws that come from values, by the standard deviations of the values.
+//! Standard errors of laws from the standard deviations of values.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,22 +10,24 @@ use drape_kes::{Direction, Scatter, Sheet};
 
 use crate::fabric::keys::FittedErrors;
 
-/// Step by which a value is changed for a derivative, as a share of the value: above the tolerance to
-/// which laws meet their values, and small against what bends a law.
+/// Step of a value for a derivative, over the value. The step is larger than the tolerance to which
+/// laws meet their values, and small against the curvature of a law.
 const STEP: f64 = 0.01;
 
-/// Correlation below which numbers have no value in common: more than laws are matched to.
+/// Correlation below which two numbers have no value in common, larger than the tolerance to which
+/// laws meet their values.
 const CORRELATION_MIN: f64 = 1e-6;
 
-/// Returns the errors of the numbers of a fabric, where they come from values with a stated standard
+/// Returns the errors of the numbers of a fabric that come from values with a stated standard
 /// deviation.
 ///
 /// ```text
 /// c(p, q) = Σ (∂p/∂v · s(v)) (∂q/∂v · s(v))
 /// ```
 ///
-/// over the values `v`, taken as independent of each other; derivatives are central differences. Laws
-/// that a curve gives are left out. `None` where a value close by has no law, or one of another form.
+/// over the values `v`, taken as independent of each other. Derivatives are central differences.
+/// Laws of the keys `of_curves` are skipped, because a curve gives them. Returns `None` if a value
+/// nearby has no law, or a law of another form.
 pub(crate) fn fitted_errors(
     sheet: &Sheet,
     of_curves: &BTreeSet<String>,
@@ -35,26 +37,27 @@ pub(crate) fn fitted_errors(
     if sheet.scatter.is_empty() {
         return Some(errors);
     }
-    // Of each number, the effect of each value.
+    // For each number, the effect of each value.
     let mut all: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     let mut values = sheet.clone();
     (values.curves, values.scatter) = (Vec::new(), Vec::new());
     for (index, stated) in independent(sheet).enumerate() {
         for (key, effect) in effects(&values, stated, &identified)? {
-            let own = all.entry(key).or_default();
-            own.resize(index, 0.0);
-            own.push(effect);
+            let row = all.entry(key).or_default();
+            row.resize(index, 0.0);
+            row.push(effect);
         }
     }
-    let is_of_curve = |key: &String| of_curves.iter().any(|law| key.starts_with(law));
-    let norm = |effects: &[f64]| effects.iter().map(|effect| effect * effect).sum::<f64>().sqrt();
-    all.retain(|key, effects| norm(effects) > 0.0 && !is_of_curve(key));
+
+    all.retain(|key, effects| {
+        norm(effects) > 0.0 && !of_curves.iter().any(|law| key.starts_with(law))
+    });
     for (key, effects) in &all {
         errors.standard.insert(key.clone(), norm(effects));
         for (other, others) in all.range::<String, _>(..key) {
             let product: f64 = effects.iter().zip(others).map(|(a, b)| a * b).sum();
             let correlation = product / (norm(effects) * norm(others));
-            // What has no value in common is independent.
+            // Numbers without a value in common are independent.
             if correlation.abs() > CORRELATION_MIN {
                 errors.correlate(key, other, correlation.clamp(-1.0, 1.0));
             }
@@ -63,14 +66,21 @@ pub(crate) fn fitted_errors(
     Some(errors)
 }
 
-/// Returns the stated deviations that are independent: of a value for both directions, that of the warp.
-fn independent(sheet: &Sheet) -> impl Iterator<Item = &Scatter> {
-    let is_shared = |stated: &Scatter| sheet.shared.contains(&stated.symbol.name());
-    sheet.scatter.iter().filter(move |s| !is_shared(s) || s.direction == Direction::Warp)
+/// Returns the root of the sum of squares of `effects`.
+fn norm(effects: &[f64]) -> f64 {
+    effects.iter().map(|effect| effect * effect).sum::<f64>().sqrt()
 }
 
-/// Returns the change of each number of the fabric by one standard deviation of a value; `None` where
-/// the changed value has no law, or one of another form.
+/// Returns the stated deviations of `sheet` that are independent. A value for both directions
+/// counts once, for the warp.
+fn independent(sheet: &Sheet) -> impl Iterator<Item = &Scatter> {
+    sheet.scatter.iter().filter(|stated| {
+        stated.direction == Direction::Warp || !sheet.shared.contains(&stated.symbol.name())
+    })
+}
+
+/// Returns the change of each number of the fabric by one standard deviation of a value. Returns
+/// `None` if the changed value has no law, or a law of another form.
 fn effects(
     values: &Sheet,
     stated: &Scatter,
@@ -83,29 +93,33 @@ fn effects(
     if step == 0.0 {
         return None;
     }
-    let changed = |by: f64| {
+    let mut fabrics = Vec::with_capacity(2);
+    for change in [step, -step] {
         let mut sheet = values.clone();
         let Sheet { warp, weft, .. } = &mut sheet;
-        for (own, values) in [(Direction::Warp, warp), (Direction::Weft, weft)] {
-            if own == direction || is_shared {
-                *values.get_mut(symbol) = Some(value + by);
+        for (side, values) in [(Direction::Warp, warp), (Direction::Weft, weft)] {
+            if side == direction || is_shared {
+                *values.get_mut(symbol) = Some(value + change);
             }
         }
-        identified(&sheet).map(|fabric| numbers(&fabric))
-    };
-    let (above, below) = (changed(step)?, changed(-step)?);
-    let pairs = above.into_iter().zip(below);
-    let effect = |((key, above), (other, below)): ((String, f64), (String, f64))| {
-        (key == other).then_some((key, deviation * (above - below) / (2.0 * step)))
-    };
-    pairs.map(effect).collect()
+        fabrics.push(numbers(&identified(&sheet)?));
+    }
+    let below = fabrics.pop()?;
+    let above = fabrics.pop()?;
+    above
+        .into_iter()
+        .zip(below)
+        .map(|((key, above), (other, below))| {
+            (key == other).then_some((key, deviation * (above - below) / (2.0 * step)))
+        })
+        .collect()
 }
 
-/// Returns the numbers of the laws by their key paths.
+/// Returns the numbers of the laws of `fabric` by their key paths.
 fn numbers(fabric: &Fabric) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     for (direction, laws) in [(Direction::Warp, &fabric.warp), (Direction::Weft, &fabric.weft)] {
-        of_yarns(laws).into_iter().for_each(|(key, number)| {
+        numbers_of_yarns(laws).into_iter().for_each(|(key, number)| {
             numbers.push((format!("{}.{key}", direction.name()), number));
         });
     }
@@ -120,7 +134,8 @@ fn numbers(fabric: &Fabric) -> Vec<(String, f64)> {
     numbers
 }
 
-fn of_yarns(laws: &YarnLaws) -> Vec<(String, f64)> {
+/// Returns the numbers of the `laws` of one direction by their keys.
+fn numbers_of_yarns(laws: &YarnLaws) -> Vec<(String, f64)> {
     let traction = match laws.traction.backbone {
         TractionBackbone::Exponential(toe) => vec![
             ("exponential.base_stiffness".to_owned(), toe.base_stiffness),
@@ -145,10 +160,13 @@ fn of_yarns(laws: &YarnLaws) -> Vec<(String, f64)> {
     };
     let traction = traction.into_iter().chain(traction_friction(&laws.traction.friction));
     let bending = bending.into_iter().chain(friction(&laws.bending.friction));
-    let named = |law: &'static str| move |(key, number)| (format!("{law}.{key}"), number);
-    traction.map(named("traction")).chain(bending.map(named("bending"))).collect()
+    traction
+        .map(|(key, number)| (format!("traction.{key}"), number))
+        .chain(bending.map(|(key, number)| (format!("bending.{key}"), number)))
+        .collect()
 }
 
+/// Returns the numbers of a friction `law` of traction by their keys.
 fn traction_friction(law: &TractionFriction) -> Vec<(String, f64)> {
     match law {
         TractionFriction::Plateau(law) => friction(law).collect(),
@@ -160,6 +178,7 @@ fn traction_friction(law: &TractionFriction) -> Vec<(String, f64)> {
     }
 }
 
+/// Returns the numbers of a varying stiffness by their keys.
 fn varying(law: &Varying) -> Vec<(String, f64)> {
     vec![
         ("varying.initial_stiffness".to_owned(), law.initial_stiffness),
@@ -168,6 +187,7 @@ fn varying(law: &Varying) -> Vec<(String, f64)> {
     ]
 }
 
+/// Returns the numbers of a piecewise `law` by their keys.
 fn piecewise(law: &Piecewise) -> Vec<(String, f64)> {
     vec![
         ("piecewise.slope".to_owned(), law.slope),
@@ -176,6 +196,7 @@ fn piecewise(law: &Piecewise) -> Vec<(String, f64)> {
     ]
 }
 
+/// Returns the numbers of each element of a `friction` by their keys.
 fn friction(friction: &BlimanSorine) -> impl Iterator<Item = (String, f64)> {
     friction.elements.iter().enumerate().flat_map(|(index, element)| {
         [

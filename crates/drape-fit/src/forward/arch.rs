@@ -32,8 +32,8 @@ pub(crate) struct Arch {
 }
 
 impl Arch {
-    /// Computes the arch of a strip of a length, in metres, shortened by a fraction of it between 0
-    /// and 1.
+    /// Computes the arch of a strip of the given `length`, in metres, shortened by the fraction
+    /// `shortening` between 0 and 1.
     pub(crate) fn new(length: f64, shortening: f64) -> Self {
         let m = parameter(shortening);
         let CompleteIntegrals { k, e } = CompleteIntegrals::new(m);
@@ -50,7 +50,8 @@ impl Arch {
     }
 }
 
-/// Returns the parameter `$m$` at which the clamps have come closer by a fraction of the length.
+/// Returns the parameter `$m$` at which the clamps have come closer by the fraction `shortening` of
+/// the length.
 fn parameter(shortening: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..BISECTIONS {

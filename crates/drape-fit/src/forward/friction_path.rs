@@ -41,7 +41,7 @@ pub(crate) struct UnitFriction {
 }
 
 impl FrictionPath {
-    /// Splits a history at its points and at zero.
+    /// Splits `history` at its points and at zero.
     pub(crate) fn new(history: &[f64]) -> Self {
         let mut segments = Vec::with_capacity(history.len() + 8);
         let mut at = 0.0_f64;
@@ -57,18 +57,18 @@ impl FrictionPath {
         Self { segments, points: history.len() }
     }
 
-    /// Returns the loads of an element of the given length, on each segment the exact solution of
-    /// [`Dahl`](drape_fabric::Dahl).
+    /// Returns the loads of an element of the given `length`. On each segment the loads are the
+    /// exact solution of [`Dahl`](drape_fabric::Dahl).
     ///
-    /// They are the loads of the laws' friction, computed for all points at once: first the
-    /// exponentials, then each load with its derivative from the one before.
+    /// The loads are computed for all points at once: first the exponentials, then each load with
+    /// its derivative from the load before.
     pub(crate) fn unit_friction(&self, length: f64) -> UnitFriction {
         let mut lost: Vec<f64> =
             self.segments.iter().map(|segment| -segment.slip / length).collect();
         lost.iter_mut().for_each(|lost| *lost = -exp_m1(*lost));
-        let column = || Vec::with_capacity(self.points);
-        let (mut constant, mut growing) = (column(), column());
-        let (mut constant_slope, mut growing_slope) = (column(), column());
+        let [mut constant, mut growing, mut constant_slope, mut growing_slope] =
+            [const { Vec::new() }; 4];
+
         let (mut c, mut g, mut c_slope, mut g_slope) = (0.0, 0.0, 0.0, 0.0);
         let inverse = 1.0 / length;
         for (segment, &lost) in self.segments.iter().zip(&lost) {
@@ -94,6 +94,8 @@ impl FrictionPath {
 }
 
 impl Segment {
+    /// Returns the segment between two deformations. `measured` tells whether a point is at its
+    /// end.
     fn new(from: f64, to: f64, measured: bool) -> Self {
         let slip = (to - from).abs();
         let growth = if slip > 0.0 { (to.abs() - from.abs()) / slip } else { 0.0 };

@@ -9,7 +9,7 @@ use drape_fabric::{BendingLaw, Law, Memory, ShearBackbone, ShearLaw};
 /// Committing a step already gives the friction at its end, so the load costs nothing more: a
 /// history takes half the time of asking for the response first.
 pub(crate) trait LoopLaw: Law {
-    /// Returns the elastic load at a deformation.
+    /// Returns the elastic load at a `deformation`.
     fn elastic_load(&self, deformation: f64) -> f64;
 }
 
@@ -30,7 +30,7 @@ impl LoopLaw for ShearLaw {
     }
 }
 
-/// Writes the loads of a virgin fabric along a history of deformations.
+/// Writes the loads of a virgin fabric along `history` to `out`.
 ///
 /// The history need not start at zero: the fabric is first deformed monotonically to its first
 /// point.

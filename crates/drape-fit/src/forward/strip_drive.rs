@@ -1,8 +1,8 @@
 //! Loads of a traction law along the history of a strip, which may hang slack between its clamps.
 //!
-//! Used by the tensile fits of `curves`. Along a history the laws take half the time of the laws of
-//! drape-fabric, because they store what takes an exponential to compute: `weighted` the laws of the
-//! papers, `exponential` the law with an exponential toe.
+//! Used by the tensile fits of `curves`. Along a history the models take half the time of the laws
+//! of drape-fabric, because they store quantities that need an exponential: `weighted` for the laws
+//! of the papers, `exponential` for the law with an exponential toe.
 
 mod exponential;
 mod strip_state;
@@ -24,11 +24,13 @@ enum Strip<'a> {
 }
 
 impl<'a> Strip<'a> {
+    /// Prepares `law` for a history.
     fn new(law: &'a TractionLaw) -> Self {
         ExponentialStrip::new(law)
             .map_or_else(|| Self::Weighted(WeightedStrip::new(law)), Self::Exponential)
     }
 
+    /// Returns the state of a strip at rest that was never stretched.
     fn virgin(&self) -> StripState {
         match self {
             Self::Exponential(strip) => strip.virgin(),
@@ -36,7 +38,7 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// Returns load and state at a `strain` that follows a `state`.
+    /// Returns load and state at `strain`, after the state `state`.
     fn step(&self, state: &StripState, strain: f64) -> StripStep {
         match self {
             Self::Exponential(strip) => strip.step(state, strain),
@@ -59,7 +61,7 @@ impl<'a> Strip<'a> {
     }
 }
 
-/// Writes the loads of a virgin fabric along a history of strains.
+/// Writes the loads of a virgin fabric along the strains of `history` to `out`.
 ///
 /// The history need not start at zero: the fabric is first stretched monotonically to its first
 /// point.
@@ -72,9 +74,10 @@ pub(crate) fn drive_strip(law: &TractionLaw, history: impl Iterator<Item = f64>,
     }
 }
 
-/// Writes the loads of a strip between clamps that may come closer than its length.
+/// Writes the loads of a strip to `out`. The strain of `clamps` may be negative, when the clamps
+/// are closer than the strip is long.
 ///
-/// A strip carries no compression: where the load of the law would be negative the strip sags. It
+/// A strip carries no compression: where the load of the law would be negative, the strip sags. It
 /// then keeps the strain at which its load vanished, and carries load again once the clamps pass
 /// that strain.
 pub(crate) fn drive_slack_strip(

@@ -1,4 +1,4 @@
-//! Law that was compared with others on one curve, and the ground on which one was taken.
+//! Law that was compared with others on one curve, and the reason of the selection.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ pub struct Candidate {
     pub parameters: usize,
     /// Root mean square residual over the range of the load, without weights; a ratio.
     pub misfit: f64,
-    /// Akaike's corrected criterion, [`drape_lm::akaike`]; `None` where the points are too few.
+    /// Akaike's corrected criterion, [`drape_lm::akaike`]; `None` if there are too few points.
     ///
     /// Its logarithm counts the independent residuals (`CurveFit::effective_points`) of the
     /// candidate with the smallest residual, not all: the quasi-likelihood criterion of \[BA02,
@@ -35,8 +35,8 @@ impl Candidate {
     /// loops, because its length is free to fit the noise; with this lead it is one in a hundred.
     pub const LEAD: f64 = 6.0;
 
-    /// Ratio of the misfits of two laws below which the law with the smaller misfit is certainly the
-    /// better one, as long as both misfits are larger than the noise of the load.
+    /// Ratio of the misfits of two laws below which the law with the smaller misfit is certainly
+    /// better, if both misfits are larger than the noise of the load.
     ///
     /// The laws compared have one or two parameters more or less, each of which reduces the misfit
     /// of a curve of a hundred points by half a per cent if it fits nothing but noise. A fifth is
@@ -49,28 +49,28 @@ impl Candidate {
     /// scatter by some 5 %.
     pub const FOLLOWS: f64 = 0.02;
 
-    /// Returns whether the law follows the curve.
+    /// Returns whether the law follows the curve: its `misfit` is at most [`Candidate::FOLLOWS`].
     #[must_use]
     pub fn follows(&self) -> bool {
         self.misfit <= Self::FOLLOWS
     }
 
-    /// Returns whether the law predicts the last cycle worse than another one.
+    /// Returns whether the law predicts the last cycle worse than `other`.
     pub(crate) fn predicts_worse(&self, other: &Self) -> bool {
         other.prediction.is_some() && self.prediction > other.prediction
     }
 }
 
-/// Ground on which a law was taken.
+/// Reason why a law was selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// It is the only law.
     Only,
-    /// It is the first, in the order of preference, whose criterion is within [`Candidate::LEAD`] of
-    /// the smallest, of those that predict better than all before them.
+    /// It is the first, in the order of preference, whose criterion is within [`Candidate::LEAD`]
+    /// of the smallest, of those that predict better than all before them.
     Supported,
-    /// Its misfit is larger than the noise, and less than [`Candidate::SMALLER`] times the misfit of
-    /// the law that the criterion supports.
+    /// Its misfit is larger than the noise, and less than [`Candidate::SMALLER`] times the misfit
+    /// of the law that the criterion supports.
     Closer,
     /// It is the first that follows the curve, [`Candidate::follows`].
     Follows,

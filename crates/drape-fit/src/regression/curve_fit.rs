@@ -80,9 +80,9 @@ pub struct CurveFit {
     pub correlations: Vec<Vec<Option<f64>>>,
     /// Laws that were compared, in the order of preference.
     pub candidates: Vec<Candidate>,
-    /// Index of the selected one.
+    /// Index of the selected candidate.
     pub chosen: usize,
-    /// Ground on which it was selected.
+    /// Reason of the selection.
     pub choice: Choice,
     /// Deformation at each point of the curve, in SI.
     pub deformation: Vec<f64>,
@@ -95,7 +95,7 @@ pub struct CurveFit {
     /// It comes from the errors of the parameters that the curve determines. Zero at points that
     /// were not used.
     pub band: Vec<f64>,
-    /// What a reader should know of the curve and its law, a sentence each, without a full stop.
+    /// Remarks on the curve and its law, one sentence each, without a full stop.
     pub remarks: Vec<String>,
     /// Branch of each point, from zero; a reversal belongs to the branch that it ends.
     pub branches: Vec<usize>,
@@ -118,20 +118,20 @@ pub struct Identified<L> {
 pub(crate) struct FitOptions {
     /// Weights of the squared residuals; empty for none.
     pub(crate) weights: Vec<f64>,
-    /// Areas, slopes and widths that a law meets which misses the curve systematically.
+    /// Areas, slopes and widths that a law meets even if it misses the curve systematically.
     pub(crate) functionals: Vec<Functional>,
     pub(crate) intervals: Intervals,
 }
 
-/// Points of a curve to which laws are compared.
+/// Number of points of a curve on which laws are compared.
 ///
-/// Laws are told apart by the shape of a curve, which a thousand points show as well as ten thousand,
-/// in a tenth of the time.
+/// Laws are told apart by the shape of a curve. A thousand points show the shape as well as ten
+/// thousand, in a tenth of the time.
 pub(crate) const COMPARED_POINTS: usize = 1500;
 
-/// Fits the law that was selected with its weights.
+/// Fits the selected law to `curve` with its weights.
 ///
-/// The `selection` was made on the curve or on some of its points, without weights: a criterion of
+/// The `selection` was made without weights, on the curve or on some of its points: a criterion of
 /// weighted residuals would take the noise of heavy points for structure. `forward` returns the
 /// loads of the selected law at all points of the curve.
 pub(crate) fn fit_curve<'a>(
@@ -144,8 +144,10 @@ pub(crate) fn fit_curve<'a>(
     let noise = load_noise(curve);
     let systematic = systematic_part(selection.candidates[selection.chosen].misfit, noise);
     let problem = Residuals::new(curve, &*forward)
-        .meeting(options.functionals, systematic)
-        .weighted(options.weights);
+        .with_functionals(options.functionals, systematic)
+        .with_weights(options.weights);
+
+    // The weights change the minimum only slightly, so the search continues from the selection.
     let unweighted = selection.result.report.parameters.clone();
     let result = refine(&problem, selection.result);
     let mut load = vec![0.0; curve.load().len()];
@@ -157,6 +159,7 @@ pub(crate) fn fit_curve<'a>(
         report: &result.report,
         unweighted: if weighted { &unweighted } else { &result.report.parameters },
     };
+
     let uncertainty = uncertainty(&problem, &end, options.intervals);
     let mut fit = CurveFit::new(curve, result, uncertainty, load);
     if weighted {
@@ -168,21 +171,21 @@ pub(crate) fn fit_curve<'a>(
     fit
 }
 
-/// Misfit over the noise of the load up to which a law leaves nothing but noise.
+/// Misfit over the noise of the load up to which the residuals of a law are nothing but noise.
 ///
 /// The noise is known to 8 % from a curve of two hundred points, so chance hardly exceeds it.
 const NOISE_MARGIN: f64 = 1.3;
 
-/// Returns the part of a squared misfit that is no noise, from 0 to 1.
+/// Returns the part of a squared `misfit` that is not `noise`, from 0 to 1.
 fn systematic_part(misfit: f64, noise: f64) -> f64 {
     let noise = NOISE_MARGIN * noise;
     if misfit > noise { 1.0 - (noise / misfit).powi(2) } else { 0.0 }
 }
 
 impl CurveFit {
-    /// Collects the fit of a curve by one law from the loads of the law.
+    /// Collects the fit of `curve` by one law from the `load` of the law at each point.
     ///
-    /// A load equal to the measured one to the last bit marks a point that was not used.
+    /// A load that equals the measured load to the last bit marks a point that was not used.
     pub(crate) fn new(
         curve: &Curve,
         result: SearchResult,
@@ -195,8 +198,10 @@ impl CurveFit {
         let square: f64 = residuals.iter().map(|r| r * r).sum();
         let mean = curve.load().iter().sum::<f64>() / n;
         let variance: f64 = curve.load().iter().map(|load| (load - mean).powi(2)).sum();
+
         let count = uncertainty.estimates.len();
-        let independence = Independence::of(&residuals).for_parameters(count, residuals.len());
+        let independence =
+            Independence::from_residuals(&residuals).for_parameters(count, residuals.len());
         let rms = (square / n).sqrt();
         Self {
             name: curve.name.clone(),
@@ -230,35 +235,35 @@ impl CurveFit {
         }
     }
 
-    /// Returns the load of the law less the measured one at each point, in SI.
+    /// Returns the `load` of the law less the `measured` load at each point, in SI.
     pub fn residuals(&self) -> impl Iterator<Item = f64> {
         self.load.iter().zip(&self.measured).map(|(law, measured)| law - measured)
     }
 
-    /// Returns the root mean square residual with weights of the points, in SI.
+    /// Returns the root mean square residual with the `weights` of the points, in SI.
     fn rms_with(&self, weights: &[f64]) -> f64 {
         let square: f64 = self.residuals().zip(weights).map(|(r, weight)| weight * r * r).sum();
         let total: f64 = weights.iter().take(self.load.len()).sum();
         (square / total).sqrt()
     }
 
-    /// Returns the values of the parameters.
+    /// Returns the value of each parameter, in the order of `parameters`.
     pub(crate) fn parameter_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|estimate| estimate.value).collect()
     }
 
-    /// Returns Akaike's criterion of the selected law; `None` where the points are too few.
+    /// Returns Akaike's criterion of the selected law; `None` if there are too few points.
     #[must_use]
     pub fn criterion(&self) -> Option<f64> {
         self.candidates.get(self.chosen)?.criterion
     }
 }
 
-/// Returns the index of the branch of each point.
+/// Returns the index of the branch of each point of `curve`.
 pub(crate) fn branch_of_each_point(curve: &Curve) -> Vec<usize> {
     let mut branches = vec![0; curve.load().len()];
     for (index, branch) in curve.branches().iter().enumerate() {
-        // The first point of a later branch is the reversal, which ends the one before.
+        // The first point of a later branch is the reversal, which ends the branch before.
         let first = branch.points.start + usize::from(index > 0);
         branches[first..branch.points.end].fill(index);
     }

@@ -23,7 +23,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Returns whether the interval contains zero or is missing: the data do not support the
+    /// Returns whether the `interval` contains zero or is missing. The data then do not support the
     /// parameter.
     #[must_use]
     pub fn is_doubtful(&self) -> bool {
@@ -31,21 +31,22 @@ impl Estimate {
     }
 }
 
-/// KES value of a fitted law, beside the value that is read off the curve.
+/// KES value of a fitted law, beside the value that is read from the curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ValueEstimate {
     /// Symbol of the value.
     pub symbol: Symbol,
-    /// Value of the law, in the laboratory's unit. The values of a tensile law are those at the
+    /// Value of the law, in the laboratory's unit. Values of a tensile law are values at the
     /// largest load of the curve.
     pub value: f64,
-    /// Value that is read off the measured curve, in the laboratory's unit, or the reason why there
-    /// is none.
+    /// Value that is read from the measured curve, in the laboratory's unit, or the reason why
+    /// there is none.
     pub curve: Result<f64, String>,
     /// 95 % interval, in the laboratory's unit, or the reason why there is none.
     ///
-    /// It follows from the errors of the parameters, and is widened until it holds the value that is
-    /// read off the curve with the same error: what the law misses of the curve is in it.
+    /// The interval follows from the errors of the parameters. It is widened until it contains the
+    /// value that is read from the curve, with an equal error, so that it covers the misfit of the
+    /// law.
     pub interval: Result<[f64; 2], Undetermined>,
 }
 
@@ -53,8 +54,8 @@ impl ValueEstimate {
     /// Ratio of the ends of an interval beyond which the curve does not determine the value.
     pub const VAGUE: f64 = 10.0;
 
-    /// Returns whether the curve determines the value: it has an interval whose upper end is at most
-    /// [`ValueEstimate::VAGUE`] times its lower end.
+    /// Returns whether the curve determines the value: it has an interval whose upper end is at
+    /// most [`ValueEstimate::VAGUE`] times its lower end.
     #[must_use]
     pub fn is_determined(&self) -> bool {
         let [lower, upper] = match self.interval {
@@ -93,7 +94,7 @@ pub enum Undetermined {
 }
 
 impl Undetermined {
-    /// Returns the reason of the minimiser with the names of the parameters.
+    /// Converts the `reason` of the minimiser, with the `names` of the parameters.
     pub(crate) fn named(reason: drape_lm::Undetermined, names: &[&'static str]) -> Self {
         match reason {
             drape_lm::Undetermined::Fixed => Self::Fixed,

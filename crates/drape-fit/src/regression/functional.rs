@@ -1,8 +1,8 @@
-//! Areas and means of a curve that a fit meets, beside its points.
+//! Areas and means of a curve that a fit meets beside the points.
 //!
 //! The residuals of a law that misses a curve systematically add up: with a misfit of 0.9 % of the
 //! range a law may miss the work under a hollow curve by 5 %. Users read the KES values of a law
-//! first, so a fit of such a law weighs each of them as much as all points together.
+//! first, so a fit of such a law gives each KES value the weight of all points together.
 
 use drape_kes::{Branch, Curve, Test};
 
@@ -31,21 +31,21 @@ struct Term {
 }
 
 impl Functional {
-    /// Returns a functional of the `loads` of a curve; `None` where its value is not positive.
+    /// Returns a functional of the `loads` of a curve; `None` if its value is not positive.
     fn new(terms: Vec<Term>, loads: &[f64]) -> Option<Self> {
         let unknown = Self { terms, measured: 1.0 };
-        let measured = unknown.of(loads);
+        let measured = unknown.value(loads);
         (measured > 0.0).then_some(Self { measured, ..unknown })
     }
 
-    /// Returns the value for other loads at the points of the curve.
-    fn of(&self, loads: &[f64]) -> f64 {
+    /// Returns the value of the functional for other `loads` at the points of the curve.
+    fn value(&self, loads: &[f64]) -> f64 {
         self.terms.iter().map(|term| term.coefficient * loads[term.point]).sum()
     }
 
     /// Returns the relative deviation of the value for `loads` from the measured value.
     pub(crate) fn deviation(&self, loads: &[f64]) -> f64 {
-        self.of(loads) / self.measured - 1.0
+        self.value(loads) / self.measured - 1.0
     }
 
     /// Returns the derivative of [`Functional::deviation`] by a parameter, where `slope` is the
@@ -63,29 +63,30 @@ impl Functional {
     }
 }
 
-/// Returns the slope of the middle line of a loop between two deformations, and its width at each of
-/// some deformations, which a law should meet: the means of both sides.
+/// Returns the functionals of a loop that a law should meet: the slope of the middle line between
+/// the two deformations `slope`, and the width at each of `widths`. Both are means of the two
+/// sides.
 ///
 /// Loads are averaged over windows about these deformations, on all branches that pass them. A loop
-/// that does not pass a deformation both ways has no such functional.
+/// that does not pass a deformation in both directions has no such functional.
 pub(crate) fn loop_functionals(curve: &Curve, slope: [f64; 2], widths: &[f64]) -> Vec<Functional> {
     let largest = curve.deformation().iter().fold(0.0_f64, |largest, q| largest.max(q.abs()));
     let half = WINDOW * largest;
     let mut functionals = Vec::new();
     let [from, to] = slope;
-    let middle = |q: f64, sign: f64| {
-        let mut terms = mean_load(curve, Window { center: q, half, rising: true }, 0.5 * sign)?;
-        terms.extend(mean_load(curve, Window { center: q, half, rising: false }, 0.5 * sign)?);
-        Some(terms)
-    };
     let mut terms = Vec::new();
     for side in [1.0, -1.0] {
-        if let (Some(outer), Some(inner)) = (middle(side * to, side), middle(side * from, -side)) {
+        if let (Some(outer), Some(inner)) = (
+            middle_load(curve, side * to, half, side),
+            middle_load(curve, side * from, half, -side),
+        ) {
             terms.extend(outer);
             terms.extend(inner);
         }
     }
+
     functionals.extend(Functional::new(terms, curve.load()));
+
     for width in widths {
         let mut terms = Vec::new();
         for q in [*width, -width] {
@@ -101,7 +102,16 @@ pub(crate) fn loop_functionals(curve: &Curve, slope: [f64; 2], widths: &[f64]) -
     functionals
 }
 
-/// Window of deformations about a `center`, as wide as twice `half`, on branches of one direction.
+/// Returns the load of the middle line of a loop at the deformation `q`, times `sign`, averaged
+/// over a window of half the width `half`.
+fn middle_load(curve: &Curve, q: f64, half: f64, sign: f64) -> Option<Vec<Term>> {
+    let mut terms = mean_load(curve, Window { center: q, half, rising: true }, 0.5 * sign)?;
+    terms.extend(mean_load(curve, Window { center: q, half, rising: false }, 0.5 * sign)?);
+    Some(terms)
+}
+
+/// Window of deformations about a `center`, with the half width `half`, on branches of one
+/// direction.
 #[derive(Clone, Copy)]
 struct Window {
     center: f64,
@@ -109,29 +119,28 @@ struct Window {
     rising: bool,
 }
 
-/// Returns the mean load within a window, times a `factor`, on the last branch that passes the window
-/// whole; `None` where there is no such branch.
+/// Returns the mean load within `window`, times `factor`, on the last branch that passes the whole
+/// window; `None` if there is no such branch.
 fn mean_load(curve: &Curve, window: Window, factor: f64) -> Option<Vec<Term>> {
     let Window { center, half, rising } = window;
     let deformation = curve.deformation();
     let branches = curve.branches();
-    let passes = |branch: &&Branch| {
+    let branch = branches.iter().rev().find(|branch| {
         let ends = [deformation[branch.points.start], deformation[branch.points.end - 1]];
         let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
         branch.rising == rising && low <= center - half && high >= center + half
-    };
-    let branch = branches.iter().rev().find(passes)?;
-    let within = |&i: &usize| (deformation[i] - center).abs() <= half;
-    let points: Vec<usize> = branch.points.clone().filter(within).collect();
+    })?;
+    let points: Vec<usize> =
+        branch.points.clone().filter(|&i| (deformation[i] - center).abs() <= half).collect();
     let coefficient = factor / points.len() as f64;
     let terms = points.into_iter().map(|point| Term { point, coefficient }).collect::<Vec<_>>();
     (!terms.is_empty()).then_some(terms)
 }
 
-/// Returns what a law should meet of the first cycle of a tensile curve: the work up to the largest
-/// load, the load there, and the work recovered down to zero load.
+/// Returns the functionals of the first cycle of the tensile `curve` that a law should meet: the
+/// work up to the largest load, the largest load, and the work recovered down to zero load.
 ///
-/// A strip that hung slack has none of them, because its zeros are fitted.
+/// A strip that hung slack has no functionals, because its zeros are fitted.
 pub(crate) fn tensile_functionals(curve: &Curve) -> Vec<Functional> {
     if curve.test != Test::Tensile || curve.slack {
         return Vec::new();
@@ -151,8 +160,8 @@ pub(crate) fn tensile_functionals(curve: &Curve) -> Vec<Functional> {
     functionals
 }
 
-/// Returns the area under the points of a branch up to a point, by trapezoids, positive for either
-/// direction.
+/// Returns the area under the points of `branch` before the point `end`, by trapezoids, positive
+/// for either direction.
 fn area(curve: &Curve, branch: &Branch, end: usize) -> Option<Functional> {
     let first = branch.points.start;
     let strain = &curve.deformation()[first..end];
@@ -169,7 +178,7 @@ fn area(curve: &Curve, branch: &Branch, end: usize) -> Option<Functional> {
     Functional::new(terms, curve.load())
 }
 
-/// Returns the mean load at the end of a loading branch.
+/// Returns the mean load at the end of the branch `loading`.
 fn top(curve: &Curve, loading: &Branch) -> Option<Functional> {
     let count = ((TOP * loading.points.len() as f64) as usize).max(1);
     let first = loading.points.end - count;

@@ -1,11 +1,12 @@
-//! Linear least squares for initial guesses: stiffness, zero and plateaus follow from the load once
-//! the friction lengths are given.
+//! Linear least squares for initial guesses. Stiffness, zero and plateaus follow from the load for
+//! given friction lengths.
 //!
 //! `curves` tries a grid of lengths and starts the nonlinear search from the best.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Part of a column that the others must leave unexplained: below it the coefficients are noise.
+/// Part of a column that the other columns must leave unexplained. Below this part the coefficients
+/// are noise.
 const DISTINCT: f64 = 1e-7;
 
 /// Normal equations for columns over the points of a curve, whose linear combinations follow the
@@ -22,13 +23,14 @@ pub(crate) struct LinearFit {
 
 /// Linear combination of some of the columns.
 pub(crate) struct Solution {
-    /// Coefficients, in the order of the columns asked for.
+    /// Coefficients, in the order of the requested columns.
     pub(crate) coefficients: Vec<f64>,
     /// Sum of the squared residuals.
     pub(crate) residual_sum: f64,
 }
 
 impl LinearFit {
+    /// Returns the normal equations of `columns` for the `load`.
     pub(crate) fn new(columns: &[Vec<f64>], load: &[f64]) -> Self {
         let flat: Vec<f64> = columns.iter().flatten().copied().collect();
         let mut matrix = DMatrix::from_vec(load.len(), columns.len(), flat);
@@ -38,6 +40,7 @@ impl LinearFit {
                 column.unscale_mut(*length);
             }
         }
+
         let load = DVector::from_column_slice(load);
         Self {
             products: matrix.tr_mul(&matrix),
@@ -47,7 +50,7 @@ impl LinearFit {
         }
     }
 
-    /// Returns the best combination of some columns; `None` where they are linearly dependent.
+    /// Returns the best combination of the given `columns`; `None` if they are linearly dependent.
     pub(crate) fn solve(&self, columns: &[usize]) -> Option<Solution> {
         let count = columns.len();
         let products =
@@ -65,7 +68,7 @@ impl LinearFit {
     }
 }
 
-/// Returns values from one to another at equal ratios.
+/// Returns `N` values between `from` and `to` at equal ratios.
 pub(crate) fn geometric_grid<const N: usize>(from: f64, to: f64) -> [f64; N] {
     let step = (to / from).ln() / (N - 1) as f64;
     std::array::from_fn(|i| from * (step * i as f64).exp())

@@ -1,11 +1,11 @@
-//! Noise of the load of a curve, from its own points.
+//! Noise of the load of a curve, from the points of the curve.
 
 use drape_kes::Curve;
 
 /// Median of the absolute value of a normal variate of unit deviation.
 const NORMAL_MEDIAN: f64 = 0.6745;
 
-/// Returns the standard deviation of the noise of the load, over the range of the load.
+/// Returns the standard deviation of the noise of the load of `curve`, over the range of the load.
 ///
 /// Each point is compared with the line between its neighbours of the same branch. The median of
 /// the distances is the noise even where the curve bends at a few points. A curve of few points

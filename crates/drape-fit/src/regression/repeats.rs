@@ -1,13 +1,14 @@
 //! Uncertainty by repeats: the same law fitted to each specimen.
 //!
-//! Of `$n$` specimens whose parameters scatter by `$s$`, the mean has the standard error and interval
+//! Of `$n$` specimens whose parameters scatter by `$s$`, the mean has the standard error and
+//! interval
 //!
 //! ```math
 //! \frac{s}{\sqrt n}, \qquad \theta \pm t_{0.975,\,n-1}\,\frac{s}{\sqrt n}
 //! ```
 //!
-//! The residuals of one curve know nothing of the next specimen; the scatter does. The wider of both
-//! counts.
+//! The residuals of one curve contain no information about the next specimen, but the scatter does.
+//! The wider interval counts.
 
 use drape_kes::Curve;
 use drape_lm::student_quantile;
@@ -18,22 +19,29 @@ use crate::regression::curve_fit::CurveFit;
 /// Coverage of the intervals.
 const LEVEL: f64 = 0.95;
 
-/// Widens the errors of a fit to the mean of repeats by the scatter of the fits to each of them.
+/// Widens the errors of `fit`, a fit to the mean of the repeats of `curve`, by the scatter of the
+/// fits to each repeat.
 ///
-/// `identify` fits the selected law to one repeat. A repeat that has no such fit is left out; a
+/// `identify` fits the selected law to one repeat. A repeat without such a fit is skipped. A
 /// parameter that is fixed, or at a bound in the mean, keeps its reason.
 pub(crate) fn with_scatter(
     curve: &Curve,
     mut fit: CurveFit,
     identify: impl Fn(&Curve) -> Result<CurveFit, Error>,
 ) -> CurveFit {
-    let names = |fit: &CurveFit| fit.parameters.iter().map(|p| p.name).collect::<Vec<_>>();
-    let fits = curve.repeats().iter().filter_map(|repeat| identify(repeat).ok());
-    let fits: Vec<CurveFit> = fits.filter(|of_repeat| names(of_repeat) == names(&fit)).collect();
+    let fits: Vec<CurveFit> = curve
+        .repeats()
+        .iter()
+        .filter_map(|repeat| identify(repeat).ok())
+        .filter(|of_repeat| {
+            of_repeat.parameters.iter().map(|p| p.name).eq(fit.parameters.iter().map(|p| p.name))
+        })
+        .collect();
     fit.repeats = fits.len();
     if fits.len() < 2 {
         return fit;
     }
+
     let quantile = student_quantile(LEVEL, fits.len() - 1);
     for (index, estimate) in fit.parameters.iter_mut().enumerate() {
         let error = error_of_mean(fits.iter().map(|fit| fit.parameters[index].value));
@@ -46,6 +54,7 @@ pub(crate) fn with_scatter(
         *low = low.min(estimate.value - quantile * error);
         *high = high.max(estimate.value + quantile * error);
     }
+
     for estimate in &mut fit.values {
         let symbol = estimate.symbol;
         let all = fits.iter().flat_map(|fit| &fit.values);
@@ -59,7 +68,7 @@ pub(crate) fn with_scatter(
     fit
 }
 
-/// Returns the standard error of the mean of some values.
+/// Returns the standard error of the mean of `values`.
 fn error_of_mean(values: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
     let count = values.len() as f64;
     let mean = values.clone().sum::<f64>() / count;

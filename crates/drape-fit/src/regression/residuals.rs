@@ -21,10 +21,11 @@ impl NamedParameter {
 
 /// Loads that a law predicts along a curve.
 pub(crate) trait ForwardModel: Sync + Send {
-    /// Writes the loads with the given parameters.
+    /// Writes the loads with the parameters `p` to `out`.
     fn loads(&self, p: &[f64], out: &mut [f64]);
 
-    /// Writes the derivatives of the loads by the parameters; returns `false` if they are unknown.
+    /// Writes the derivatives of the loads by the parameters `p` to `out`. Returns `false` if the
+    /// derivatives are unknown.
     fn jacobian(&self, _p: &[f64], _out: &mut DMatrix<f64>) -> bool {
         false
     }
@@ -36,19 +37,19 @@ impl<F: Fn(&[f64], &mut [f64]) + Sync + Send> ForwardModel for F {
     }
 }
 
-/// Problem whose first residuals are those of points, in the order of measurement.
+/// Problem whose first residuals belong to points, in the order of measurement.
 pub(crate) trait PointProblem: Problem {
-    /// Number of points.
+    /// Returns the number of points; by default `residual_count`.
     fn point_count(&self) -> usize {
         self.residual_count()
     }
 
-    /// Functionals of the points whose residuals follow those of the points.
+    /// Returns the functionals of the points. Their residuals follow the residuals of the points.
     fn functionals(&self) -> &[Functional] {
         &[]
     }
 
-    /// Weight of the squared residual of each functional, over the weight of a point.
+    /// Returns the weight of the squared residual of each functional, over the weight of a point.
     fn functional_weight(&self) -> f64 {
         0.0
     }
@@ -80,26 +81,29 @@ impl<'a> Residuals<'a> {
         }
     }
 
-    /// Returns the residuals with those of the `functionals`.
+    /// Returns the residuals with additional `functionals`.
     ///
-    /// `systematic` is the part of the squared misfit of the law that is no noise, from 0 to 1. A
-    /// functional weighs that part of all points together: a law that leaves nothing but noise needs
-    /// no functionals, and would follow the noise of the few points that they weigh most.
-    pub(crate) fn meeting(self, functionals: Vec<Functional>, systematic: f64) -> Self {
+    /// `systematic` is the part of the squared misfit of the law that is not noise, from 0 to 1. A
+    /// functional has that part of the weight of all points together. A law whose residuals are
+    /// nothing but noise needs no functionals, and would follow the noise of the few points with
+    /// most weight.
+    pub(crate) fn with_functionals(self, functionals: Vec<Functional>, systematic: f64) -> Self {
         let functionals = if systematic > 0.0 { functionals } else { Vec::new() };
         let functional_weight = systematic * self.load.len() as f64;
         Self { functionals, functional_weight, ..self }
     }
 
-    /// Returns the residuals with `weights` for the squares of the points, none for equal weights.
-    pub(crate) fn weighted(self, mut weights: Vec<f64>) -> Self {
+    /// Returns the residuals with `weights` for the squares of the points. Empty `weights` are
+    /// equal weights.
+    pub(crate) fn with_weights(self, mut weights: Vec<f64>) -> Self {
         if !weights.is_empty() {
             weights.resize(self.residual_count(), 1.0);
         }
         Self { weights, ..self }
     }
 
-    /// Returns the root mean square residual of the points, a ratio, without weights.
+    /// Returns the root mean square residual of the points with the given `parameters`, a ratio,
+    /// without weights.
     pub(crate) fn misfit(&self, parameters: &[f64]) -> f64 {
         let mut loads = vec![0.0; self.load.len()];
         self.model.loads(parameters, &mut loads);

@@ -1,6 +1,6 @@
 //! Search from several starts, for every test alike.
 //!
-//! `selection` compares laws by rough searches; `curve_fit` refines the one that was selected.
+//! `selection` compares laws by rough searches, and `curve_fit` refines the selected law.
 
 use drape_lm::{MinimiserSettings, Parameter, Problem, Report, Stop, minimise};
 use rayon::prelude::*;
@@ -20,8 +20,8 @@ const COMPARISON_REDUCTION: f64 = 1e-6;
 const CREEPING_ITERATIONS: usize = 60;
 /// Rounds of a search, after each of which parameters that creep towards a bound are moved there.
 const ROUNDS: usize = 6;
-/// Distance from a bound, over the size of the bound or of the parameter, below which a parameter is
-/// tried there.
+/// Distance from a bound, over the size of the bound or of the parameter, below which a parameter
+/// is tried there.
 const NEAR_BOUND: f64 = 2e-3;
 
 /// Relative rise of the sum that a parameter may cost that is moved to its bound: of a thousand
@@ -38,6 +38,7 @@ pub(crate) struct SearchResult {
     pub(crate) evaluations: usize,
 }
 
+/// Minimises `problem` over the parameters `named`.
 fn minimise_named(
     problem: &impl Problem,
     named: &[NamedParameter],
@@ -47,27 +48,26 @@ fn minimise_named(
     minimise(problem, &parameters, settings)
 }
 
-/// Returns the parameters with the end of a search as their start.
-fn restarted(named: &[NamedParameter], report: &Report) -> Vec<NamedParameter> {
-    let restart = |(named, value): (&NamedParameter, &f64)| {
-        let mut named = *named;
+/// Returns the parameters `named` that start at the end of a search.
+fn with_start(named: &[NamedParameter], report: &Report) -> Vec<NamedParameter> {
+    let mut restarted = named.to_vec();
+    for (named, value) in restarted.iter_mut().zip(&report.parameters) {
         named.parameter.start = *value;
-        named
-    };
-    named.iter().zip(&report.parameters).map(restart).collect()
+    }
+    restarted
 }
 
-/// Searches from every start for a few iterations, and from the best end until laws can be
+/// Searches from each of `starts` for a few iterations, and from the best end until laws can be
 /// compared.
 ///
-/// The starts run in parallel. The first of equally good ones is taken, so the result does not
+/// The starts run in parallel. The first of equally good ends is taken, so the result does not
 /// depend on the number of threads.
 pub(crate) fn multistart(
     problem: &(impl Problem + Sync),
     starts: &[Vec<NamedParameter>],
 ) -> SearchResult {
-    let rough = |iterations: usize| MinimiserSettings {
-        iterations,
+    let screening = MinimiserSettings {
+        iterations: SCREENING_ITERATIONS,
         reduction: COMPARISON_REDUCTION,
         polish: false,
         ..MinimiserSettings::default()
@@ -75,15 +75,16 @@ pub(crate) fn multistart(
     let screened: Vec<SearchResult> = starts
         .par_iter()
         .map(|start| {
-            let report = minimise_named(problem, start, &rough(SCREENING_ITERATIONS));
+            let report = minimise_named(problem, start, &screening);
             SearchResult {
-                parameters: restarted(start, &report),
+                parameters: with_start(start, &report),
                 evaluations: report.evaluations,
                 report,
             }
         })
         .collect();
     let evaluations = screened.iter().map(|result| result.evaluations).sum();
+
     let best = screened
         .into_iter()
         .min_by(|a, b| a.report.sum.total_cmp(&b.report.sum))
@@ -92,20 +93,23 @@ pub(crate) fn multistart(
     if best.report.stop.converged() {
         return best;
     }
-    resume(problem, best, &rough(MinimiserSettings::default().iterations))
+    let comparison =
+        MinimiserSettings { iterations: MinimiserSettings::default().iterations, ..screening };
+    resume(problem, best, &comparison)
 }
 
-/// Continues from the end of a search down to rounding.
+/// Continues from the end `result` of a search down to rounding.
 ///
-/// Where the minimum lies beyond a bound, a curved valley may lead to the bound at a shallow angle,
-/// and each step then goes a part of the way. Such parameters are moved to the bound, and the search
-/// goes on with the others, as long as the sum hardly rises.
+/// If the minimum lies beyond a bound, a curved valley may lead to the bound at a shallow angle,
+/// and each step then goes a part of the distance. Such parameters are moved to the bound, and the
+/// search continues with the other parameters, as long as the sum hardly rises.
 pub(crate) fn refine(problem: &impl Problem, result: SearchResult) -> SearchResult {
     let short =
         MinimiserSettings { iterations: CREEPING_ITERATIONS, ..MinimiserSettings::default() };
     let mut best = resume(problem, result, &short);
+
     for _ in 0..ROUNDS {
-        let moved = at_bounds(&best.parameters);
+        let moved = moved_to_bounds(&best.parameters);
         let creeps = moved.is_some();
         let start = SearchResult {
             parameters: moved.unwrap_or_else(|| best.parameters.clone()),
@@ -118,12 +122,13 @@ pub(crate) fn refine(problem: &impl Problem, result: SearchResult) -> SearchResu
         if next.report.sum <= best.report.sum * (1.0 + NEGLIGIBLE) {
             best = next;
         } else if best.report.stop.converged() {
-            // The minimum lies within the bounds, if only just.
+            // The minimum lies just within the bounds.
             return best;
         } else {
             best = resume(problem, best, &short);
         }
     }
+
     if best.report.stop.converged() {
         return best;
     }
@@ -136,9 +141,9 @@ pub(crate) fn refine(problem: &impl Problem, result: SearchResult) -> SearchResu
     last
 }
 
-/// Returns the parameters with those that are near a bound at the bound; `None` where there are no
-/// such parameters.
-fn at_bounds(named: &[NamedParameter]) -> Option<Vec<NamedParameter>> {
+/// Returns the parameters with each parameter near a bound moved to the bound; `None` if no
+/// parameter is near a bound.
+fn moved_to_bounds(named: &[NamedParameter]) -> Option<Vec<NamedParameter>> {
     let mut moved = named.to_vec();
     let mut any = false;
     for NamedParameter { parameter, .. } in &mut moved {
@@ -153,6 +158,7 @@ fn at_bounds(named: &[NamedParameter]) -> Option<Vec<NamedParameter>> {
     any.then_some(moved)
 }
 
+/// Continues the search from the end `result`.
 fn resume(
     problem: &impl Problem,
     result: SearchResult,
@@ -161,7 +167,7 @@ fn resume(
     let mut report = minimise_named(problem, &result.parameters, settings);
     report.iterations += result.report.iterations;
     SearchResult {
-        parameters: restarted(&result.parameters, &report),
+        parameters: with_start(&result.parameters, &report),
         evaluations: result.evaluations + report.evaluations,
         report,
     }

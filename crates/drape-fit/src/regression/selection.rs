@@ -14,7 +14,7 @@ use crate::regression::uncertainty::Independence;
 
 /// Root mean square residual, over the range of the load, that no instrument resolves.
 ///
-/// It is that of a converter with 24 bits. Below it, rounding would decide between laws.
+/// A converter with 24 bits has this resolution. Below it, rounding would decide between laws.
 const RESOLUTION: f64 = 1e-7;
 
 /// Law to try on a curve.
@@ -38,58 +38,68 @@ pub(crate) struct Selection {
     pub(crate) evaluations: usize,
 }
 
-/// Fits every law and selects one.
+/// Fits each of `models` to `curve` and selects one.
 ///
-/// The first law is selected whose criterion is within [`Candidate::LEAD`] of the smallest, of those
-/// that predict better than all before them. Another law takes its place whose misfit is less than
-/// [`Candidate::SMALLER`] of its misfit, and larger than the noise, unless that law predicts worse. A
-/// law that does not follow the curve gives way to the first that does, with the same exception.
+/// The criterion of the selected law is within [`Candidate::LEAD`] of the smallest criterion. It is
+/// the first such law among laws that predict better than all laws before them. Another law
+/// replaces it if its misfit is less than [`Candidate::SMALLER`] times the misfit of the selected
+/// law and larger than the noise, unless that law predicts worse. A law that does not follow the
+/// curve gives way to the first law that does, with the same exception.
 pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection {
     let points = curve.load().len();
     let mut results: Vec<SearchResult> = models
         .par_iter()
         .map(|model| multistart(&Residuals::new(curve, &*model.forward), &model.starts))
         .collect();
-    let misfit = |(model, result): (&CandidateModel<'_>, &SearchResult)| {
-        Residuals::new(curve, &*model.forward).misfit(&result.report.parameters)
-    };
-    let misfits: Vec<f64> = models.iter().zip(&results).map(misfit).collect();
+    let misfits: Vec<f64> = models
+        .iter()
+        .zip(&results)
+        .map(|(model, result)| {
+            Residuals::new(curve, &*model.forward).misfit(&result.report.parameters)
+        })
+        .collect();
+
+    // Correlated residuals of the closest law count as fewer independent points.
     let best = (0..models.len()).min_by(|&a, &b| misfits[a].total_cmp(&misfits[b]));
     let best = best.expect("there is a model");
     let effective = if models.len() > 1 && misfits[best] >= RESOLUTION {
         let most = results.iter().map(|result| result.parameters.len()).max().unwrap_or(0);
-        let independence = independence(curve, &models[best], &results[best]);
+        let independence = residual_independence(curve, &models[best], &results[best]);
         independence.for_parameters(most, points).effective_count
     } else {
         points as f64
     };
-    let candidate = |index: usize| {
-        let (model, result) = (&models[index], &results[index]);
+
+    let mut candidates = Vec::with_capacity(models.len());
+    for ((model, result), misfit) in models.iter().zip(&results).zip(&misfits) {
         let count = result.parameters.len();
-        let square = misfits[index].max(RESOLUTION).powi(2);
+        let square = misfit.max(RESOLUTION).powi(2);
         // For residuals of size one the criterion is its penalty for the parameters.
         let report = Report { sum: points as f64, ..result.report.clone() };
         let penalty = akaike(&report, points, count);
-        Candidate {
+        candidates.push(Candidate {
             law: model.name.clone(),
             parameters: count,
-            misfit: misfits[index],
+            misfit: *misfit,
             criterion: penalty.map(|penalty| effective * square.ln() + penalty),
             prediction: model.prediction,
-        }
-    };
-    let candidates: Vec<Candidate> = (0..models.len()).map(candidate).collect();
+        });
+    }
+
     // A law of lower preference must predict better as well.
-    let eligible = |i: usize| {
-        let better = |other: &Candidate| other.prediction <= candidates[i].prediction;
-        candidates[i].prediction.is_none() || !candidates[..i].iter().any(better)
-    };
-    let criterion = |i: usize| candidates[i].criterion.filter(|_| eligible(i));
-    let least = (0..candidates.len()).filter_map(criterion).fold(f64::INFINITY, f64::min);
-    let supported =
-        |i: &usize| criterion(*i).is_some_and(|criterion| criterion <= least + Candidate::LEAD);
-    // With too few points for any criterion, the law of highest preference.
-    let supported = (0..candidates.len()).find(supported).unwrap_or(0);
+    let mut criteria = Vec::with_capacity(candidates.len());
+    for (i, candidate) in candidates.iter().enumerate() {
+        let is_eligible = candidate.prediction.is_none()
+            || !candidates[..i].iter().any(|other| other.prediction <= candidate.prediction);
+        criteria.push(candidate.criterion.filter(|_| is_eligible));
+    }
+    let least = criteria.iter().copied().flatten().fold(f64::INFINITY, f64::min);
+    // With too few points for any criterion, the law of highest preference is supported.
+    let supported = criteria
+        .iter()
+        .position(|criterion| criterion.is_some_and(|c| c <= least + Candidate::LEAD))
+        .unwrap_or(0);
+
     let mut chosen = supported;
     let mut choice = if models.len() > 1 { Choice::Supported } else { Choice::Only };
     if let Some(closer) = much_closer(&candidates, chosen, load_noise(curve)) {
@@ -103,35 +113,48 @@ pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection 
     Selection { candidates, chosen, choice, evaluations: all - result.evaluations, result }
 }
 
-/// Returns the first law that follows the curve closer than a `chosen` one beyond doubt; `None` where
+/// Returns the first law that certainly follows the curve closer than the law `chosen`; `None` if
 /// there is none.
 fn much_closer(candidates: &[Candidate], chosen: usize, noise: f64) -> Option<usize> {
-    let closer = |other: &Candidate| {
-        let smaller = other.misfit < Candidate::SMALLER * candidates[chosen].misfit;
-        smaller && other.misfit > noise && !other.predicts_worse(&candidates[chosen])
-    };
-    let least = candidates.iter().filter(|other| closer(other)).map(|other| other.misfit);
-    let least = least.fold(f64::INFINITY, f64::min);
-    // Of those the first that no other law beats in the same way.
-    let unbeaten = |other: &Candidate| closer(other) && Candidate::SMALLER * other.misfit <= least;
-    candidates.iter().position(unbeaten)
+    let chosen = &candidates[chosen];
+    let are_closer: Vec<bool> = candidates
+        .iter()
+        .map(|other| {
+            other.misfit < Candidate::SMALLER * chosen.misfit
+                && other.misfit > noise
+                && !other.predicts_worse(chosen)
+        })
+        .collect();
+    let closer = || candidates.iter().zip(&are_closer).filter(|(_, is_closer)| **is_closer);
+    let least = closer().map(|(other, _)| other.misfit).fold(f64::INFINITY, f64::min);
+    // The first closer law is taken that no other closer law beats by the same factor.
+    candidates
+        .iter()
+        .zip(are_closer)
+        .position(|(other, is_closer)| is_closer && Candidate::SMALLER * other.misfit <= least)
 }
 
-/// Returns the first law that follows the curve, if the `chosen` one does not; `None` otherwise.
+/// Returns the first law that follows the curve, if the law `chosen` does not; `None` otherwise.
 fn first_that_follows(candidates: &[Candidate], chosen: usize) -> Option<usize> {
     let chosen = &candidates[chosen];
-    let follows = |other: &Candidate| other.follows() && !other.predicts_worse(chosen);
-    if chosen.follows() { None } else { candidates.iter().position(follows) }
+    if chosen.follows() {
+        return None;
+    }
+    candidates.iter().position(|other| other.follows() && !other.predicts_worse(chosen))
 }
 
-/// Returns the independence of the residuals of a law.
-fn independence(curve: &Curve, model: &CandidateModel<'_>, result: &SearchResult) -> Independence {
+/// Returns the independence of the residuals of `model` on `curve`.
+fn residual_independence(
+    curve: &Curve,
+    model: &CandidateModel<'_>,
+    result: &SearchResult,
+) -> Independence {
     let mut residuals = vec![0.0; curve.load().len()];
     model.forward.loads(&result.report.parameters, &mut residuals);
     for (residual, load) in residuals.iter_mut().zip(curve.load()) {
         *residual -= load;
     }
-    Independence::of(&residuals)
+    Independence::from_residuals(&residuals)
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Standard errors, intervals, correlations and the confidence band of one fit.
 //!
-//! `curve_fit` and the loop-bending fit call [`uncertainty`] at the end of a search; the covariance
-//! itself is that of drape-lm.
+//! `curve_fit` and the loop-bending fit call [`uncertainty`] at the end of a search. The covariance
+//! itself comes from drape-lm.
 
 use std::ops::Range;
 
 use drape_lm::{
-    Covariance, End, Interval, Loss, Parameter, ProfileSettings, Report, profile, student_quantile,
+    Covariance, Interval, Loss, Parameter, ProfileSettings, Report, profile, student_quantile,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -18,7 +18,7 @@ use crate::settings::Intervals;
 const LEVEL: f64 = 0.95;
 /// Step of central differences over the size of the parameter: the cube root of the rounding unit.
 const STEP: f64 = 6e-6;
-/// Smallest size taken for a parameter, over its scale.
+/// Smallest size of a parameter for a step, over its scale.
 const LEAST_SIZE: f64 = 0.01;
 /// Correlation of neighbours, times the root of the number of points, below which the points count
 /// as independent.
@@ -26,12 +26,12 @@ const LEAST_SIZE: f64 = 0.01;
 /// Chance exceeds it in one of forty curves of independent noise.
 const CHANCE: f64 = 2.0;
 
-/// Ratio of bounds from which on a parameter is estimated on the logarithmic scale.
+/// Ratio of bounds above which a parameter is estimated on the logarithmic scale.
 ///
 /// It is two decades; all scale parameters here have more.
 const DECADES: f64 = 100.0;
 
-/// Correlation of the residuals, and the number of independent ones.
+/// Correlation of the residuals, and the number of independent residuals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Independence {
     /// Correlation of the residuals of neighbouring points.
@@ -43,33 +43,29 @@ pub(crate) struct Independence {
 }
 
 impl Independence {
-    /// Computes both for residuals in the order of measurement, taken as an autoregressive process
-    /// of first order with correlation `$\rho$`.
+    /// Computes the independence of `residuals` in the order of measurement, taken as an
+    /// autoregressive process of first order with correlation `$\rho$`.
     ///
-    /// `$n(1-\rho)/(1+\rho)$` of them are independent, and `$n(1-\rho^2)/(1+\rho^2)$` of their
-    /// squares \[Bar35\].
-    pub(crate) fn of(residuals: &[f64]) -> Self {
+    /// `$n(1-\rho)/(1+\rho)$` residuals are independent, and `$n(1-\rho^2)/(1+\rho^2)$` squares
+    /// \[Bar35\].
+    pub(crate) fn from_residuals(residuals: &[f64]) -> Self {
         let n = residuals.len() as f64;
         let square: f64 = residuals.iter().map(|r| r * r).sum();
         let pairs: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
         let correlation = if square > 0.0 { pairs / square } else { 0.0 };
-        let effective = |kept: f64| match correlation * n.sqrt() > CHANCE {
-            true => n * (1.0 - kept) / (1.0 + kept),
-            false => n,
-        };
-        Self {
-            correlation,
-            effective_count: effective(correlation),
-            effective_squares: effective(correlation * correlation),
-        }
+        let [effective_count, effective_squares] =
+            [correlation, correlation * correlation].map(|kept| {
+                if correlation * n.sqrt() > CHANCE { n * (1.0 - kept) / (1.0 + kept) } else { n }
+            });
+        Self { correlation, effective_count, effective_squares }
     }
 
-    /// Returns the independence of residuals of a law with so many `parameters`: at least two more
-    /// residuals than parameters count as independent.
+    /// Returns the independence of the residuals of a law with the given number of `parameters`: at
+    /// least two more residuals than parameters count as independent.
     ///
     /// The residuals of a law that is too stiff for a curve are alike over whole branches, and the
-    /// formulas then leave one independent residual of a hundred. A curve through which a law of six
-    /// parameters was fitted has told more than that.
+    /// formulas then leave one independent residual of a hundred. A curve that determines six
+    /// parameters contains more information.
     pub(crate) fn for_parameters(self, parameters: usize, residuals: usize) -> Self {
         let least = (parameters + 2).min(residuals) as f64;
         Self {
@@ -101,17 +97,20 @@ pub(crate) struct Uncertainty {
 }
 
 impl Uncertainty {
-    /// Returns the part that belongs to some of the parameters and some of the residuals.
-    pub(crate) fn part(
+    /// Returns the uncertainty of some `parameters`, with the band of some `residuals`.
+    pub(crate) fn select(
         &self,
         parameters: impl Iterator<Item = usize>,
         residuals: Range<usize>,
     ) -> Self {
         let chosen: Vec<usize> = parameters.collect();
-        let row = |&i: &usize| chosen.iter().map(|&j| self.correlations[i][j]).collect();
+        let correlations = chosen
+            .iter()
+            .map(|&i| chosen.iter().map(|&j| self.correlations[i][j]).collect())
+            .collect();
         Self {
             estimates: chosen.iter().map(|&i| self.estimates[i].clone()).collect(),
-            correlations: chosen.iter().map(row).collect(),
+            correlations,
             band: self.band[residuals].to_vec(),
             covariance: self.covariance.select_rows(&chosen).select_columns(&chosen),
             quantile: self.quantile,
@@ -119,7 +118,7 @@ impl Uncertainty {
     }
 }
 
-/// Computes the uncertainty of a fit at its end.
+/// Computes the uncertainty of a fit of `problem` at its `end`.
 ///
 /// With residuals `$r$` of one variance and weights `$W$` the covariance is the sandwich estimator
 ///
@@ -127,8 +126,8 @@ impl Uncertainty {
 /// \sigma^2 A^{-1} B A^{-1}, \qquad A = J^T W J, \quad B = J^T W^2 J
 /// ```
 ///
-/// which is `$\sigma^2 (J^TJ)^{-1}$` where all weights are one. A functional `$c$` of the points, whose
-/// residual has the weight `$n$`, adds `$n\,cc^T$` to `$W$`.
+/// which is `$\sigma^2 (J^TJ)^{-1}$` where all weights are one. A functional `$c$` of the points,
+/// whose residual has the weight `$n$`, adds `$n\,cc^T$` to `$W$`.
 pub(crate) fn uncertainty(
     problem: &(impl PointProblem + Sync),
     end: &FitEnd<'_>,
@@ -138,78 +137,84 @@ pub(crate) fn uncertainty(
     let parameters: Vec<Parameter> = end.parameters.iter().map(|named| named.parameter).collect();
     let names: Vec<&'static str> = end.parameters.iter().map(|named| named.name).collect();
     let count = parameters.len();
+
     let mut residuals = vec![0.0; problem.residual_count()];
     problem.residuals(&report.parameters, &mut residuals);
     residuals.truncate(problem.point_count());
-    let independence = Independence::of(&residuals).for_parameters(count, residuals.len());
+    let independence =
+        Independence::from_residuals(&residuals).for_parameters(count, residuals.len());
+
     let covariance = Covariance::new(problem, &parameters, report, Loss::Squares);
-    // A parameter that is undetermined is left out: it is taken as known.
-    let known = |j: usize| covariance.undetermined(j).is_none();
-    let jacobian = derivatives(problem, &parameters, &report.parameters, known);
+    // An undetermined parameter is taken as known.
+    let is_determined: Vec<bool> =
+        (0..count).map(|j| covariance.undetermined(j).is_none()).collect();
+    let jacobian = derivatives(problem, &parameters, &report.parameters, &is_determined);
     let sandwich = sandwich(&covariance, problem, &residuals, &jacobian);
     let widening = residuals.len() as f64 / independence.effective_count;
     let degrees = (independence.effective_squares - count as f64).max(1.0) as usize;
     let quantile = student_quantile(LEVEL, degrees);
-    let error = |j: usize| match covariance.standard_error(j) {
-        Ok(_) => Ok((widening * sandwich[(j, j)]).max(0.0).sqrt()),
-        Err(reason) => Err(Undetermined::named(reason, &names)),
-    };
+
     let profiles = (intervals == Intervals::Profile).then(|| {
         let settings = ProfileSettings { level: LEVEL, ..ProfileSettings::default() };
         profile(problem, &parameters, report, &settings)
     });
-    let interval = |j: usize| {
+    let mut estimates = Vec::with_capacity(count);
+    for (j, parameter) in parameters.iter().enumerate() {
         let value = report.parameters[j];
-        let half = error(j).map(|error| error * quantile);
-        let Some(profiles) = &profiles else {
-            return half.map(|half| wald_interval(value, half, &parameters[j]));
+        let standard_error = match covariance.standard_error(j) {
+            Ok(_) => Ok((widening * sandwich[(j, j)]).max(0.0).sqrt()),
+            Err(reason) => Err(Undetermined::named(reason, &names)),
         };
-        let naive = covariance.half_width(j, LEVEL);
-        let stretch = match (&half, &naive) {
-            (Ok(half), Ok(naive)) if *naive > 0.0 => half / naive,
-            _ => widening.sqrt(),
+        let half = standard_error.clone().map(|error| error * quantile);
+        let interval = match profiles.as_ref().map(|profiles| &profiles[j]) {
+            None => half.map(|half| wald_interval(value, half, parameter)),
+            Some(Ok(profile)) => {
+                // A profile assumes independent residuals without weights.
+                let stretch = match (&half, &covariance.half_width(j, LEVEL)) {
+                    (Ok(half), Ok(independent)) if *independent > 0.0 => half / independent,
+                    _ => widening.sqrt(),
+                };
+                stretch_interval(profile, value, stretch, parameter)
+            }
+            Some(Err(reason)) => Err(Undetermined::named(reason.clone(), &names)),
         };
-        match &profiles[j] {
-            Ok(profile) => stretched(profile, value, stretch, &parameters[j]),
-            Err(reason) => Err(Undetermined::named(reason.clone(), &names)),
+        let (name, unweighted) = (names[j], end.unweighted[j]);
+        estimates.push(Estimate { name, value, standard_error, interval, unweighted });
+    }
+
+    let mut correlations = vec![vec![None; count]; count];
+    for (i, row) in correlations.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            let sizes = (sandwich[(i, i)] * sandwich[(j, j)]).sqrt();
+            *entry = covariance.correlation(i, j).map(|independent| {
+                if sizes > 0.0 { (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0) } else { independent }
+            });
         }
-    };
-    let estimate = |j: usize| Estimate {
-        name: names[j],
-        value: report.parameters[j],
-        standard_error: error(j),
-        interval: interval(j),
-        unweighted: end.unweighted[j],
-    };
-    let correlation = |i: usize, j: usize| {
-        let naive = covariance.correlation(i, j)?;
-        let sizes = (sandwich[(i, i)] * sandwich[(j, j)]).sqrt();
-        Some(if sizes > 0.0 { (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0) } else { naive })
-    };
+    }
     let covariance = &sandwich * widening;
     Uncertainty {
-        estimates: (0..count).map(estimate).collect(),
-        correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
+        estimates,
+        correlations,
         band: band(&jacobian, &covariance).map(|error| quantile * error).collect(),
         covariance,
         quantile,
     }
 }
 
-/// Returns the standard errors of the model at each residual, from its Jacobian and the covariance
-/// of the parameters.
+/// Returns the standard errors of the model at each residual, from its `jacobian` and the
+/// `covariance` of the parameters.
 fn band(jacobian: &DMatrix<f64>, covariance: &DMatrix<f64>) -> impl Iterator<Item = f64> {
     let spread = jacobian * covariance;
     let variances = (0..jacobian.nrows()).map(|i| spread.row(i).dot(&jacobian.row(i)));
     variances.map(|variance| variance.max(0.0).sqrt()).collect::<Vec<_>>().into_iter()
 }
 
-/// Returns the interval of half a width on either side of a value, on the logarithmic scale for a
-/// scale parameter.
+/// Returns the interval of half the width `half` on either side of `value`, on the logarithmic
+/// scale for a scale parameter.
 ///
-/// With a length known to a half the search finds twice the length as easily as half of it: the
-/// interval on the logarithm contains the truth where the other one is too short above and extends
-/// below zero.
+/// If a length is known to a half, the search finds twice the length as easily as half the length.
+/// The interval on the logarithm contains the truth, while the other interval is too short above
+/// and extends below zero.
 fn wald_interval(value: f64, half: f64, parameter: &Parameter) -> [f64; 2] {
     if parameter.lower > 0.0 && parameter.upper >= DECADES * parameter.lower {
         let factor = (half / value).exp();
@@ -218,23 +223,24 @@ fn wald_interval(value: f64, half: f64, parameter: &Parameter) -> [f64; 2] {
     [value - half, value + half]
 }
 
-/// Returns a profile interval with its distances from the value stretched to the actual noise.
-fn stretched(
+/// Returns the interval of `profile`, with its distances from `value` stretched to the actual
+/// noise.
+fn stretch_interval(
     profile: &Interval,
     value: f64,
     stretch: f64,
     parameter: &Parameter,
 ) -> Result<[f64; 2], Undetermined> {
-    let end = |end: &End| {
+    let mut ends = [0.0; 2];
+    for (stretched, end) in ends.iter_mut().zip([&profile.lower, &profile.upper]) {
         let end = end.value().ok_or(Undetermined::NoEnd)?;
-        let stretched = value + stretch * (end - value);
-        Ok(stretched.clamp(parameter.lower, parameter.upper))
-    };
-    Ok([end(&profile.lower)?, end(&profile.upper)?])
+        *stretched = (value + stretch * (end - value)).clamp(parameter.lower, parameter.upper);
+    }
+    Ok(ends)
 }
 
-/// Returns the covariance of the parameters for noise of one size; zero for those that are
-/// undetermined.
+/// Returns the covariance of the parameters for noise of one size at all points; zero for
+/// undetermined parameters.
 fn sandwich(
     covariance: &Covariance,
     problem: &impl PointProblem,
@@ -270,25 +276,26 @@ fn sandwich(
     &inverse * middle * &inverse * (square / spare)
 }
 
-/// Returns the derivatives of the residuals of the points by the parameters that are wanted; zero by
-/// the others.
+/// Returns the derivatives of the residuals of the points by the parameters that are `wanted`; zero
+/// by the other parameters.
 fn derivatives(
     problem: &impl PointProblem,
     parameters: &[Parameter],
     values: &[f64],
-    wanted: impl Fn(usize) -> bool,
+    wanted: &[bool],
 ) -> DMatrix<f64> {
     let rows = problem.residual_count();
     let mut jacobian = DMatrix::zeros(rows, parameters.len());
     if problem.jacobian(values, &mut jacobian) {
-        for (_, mut column) in jacobian.column_iter_mut().enumerate().filter(|(j, _)| !wanted(*j)) {
+        for (_, mut column) in jacobian.column_iter_mut().enumerate().filter(|(j, _)| !wanted[*j]) {
             column.fill(0.0);
         }
         return jacobian.resize_vertically(problem.point_count(), 0.0);
     }
+
     let (mut high, mut low) = (DVector::zeros(rows), DVector::zeros(rows));
     let mut trial = values.to_vec();
-    for (j, parameter) in parameters.iter().enumerate().filter(|(j, _)| wanted(*j)) {
+    for (j, parameter) in parameters.iter().enumerate().filter(|(j, _)| wanted[*j]) {
         let step = STEP * values[j].abs().max(LEAST_SIZE * parameter.scale);
         let ends = [values[j] + step, values[j] - step]
             .map(|end| end.clamp(parameter.lower, parameter.upper));
@@ -359,11 +366,11 @@ mod tests {
     #[test]
     fn neighbours_that_are_alike_count_less() {
         let alternating: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
-        assert_eq!(Independence::of(&alternating).effective_count, 100.0);
+        assert_eq!(Independence::from_residuals(&alternating).effective_count, 100.0);
         // Each value ten times: nine of ten neighbours are equal.
         let blocks: Vec<f64> =
             (0..100).map(|i| if (i / 10) % 2 == 0 { 1.0 } else { -1.0 }).collect();
-        let blocks = Independence::of(&blocks);
+        let blocks = Independence::from_residuals(&blocks);
         // 90 pairs of one sign less 9 of the other, of 100.
         assert!((blocks.correlation - 0.81).abs() < 1e-12, "{blocks:?}");
         assert!((blocks.effective_count - 19.0 / 1.81).abs() < 1e-9, "{blocks:?}");

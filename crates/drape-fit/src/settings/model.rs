@@ -17,7 +17,7 @@ impl FrictionOrder {
     /// All orders, in the order of preference.
     pub const ALL: [Self; 3] = [Self::First, Self::Parallel, Self::Second];
 
-    /// Returns the name used in reports.
+    /// Returns the name in reports, such as `"one friction element"`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ pub enum LoopModel {
 }
 
 impl Default for LoopModel {
-    /// Returns a linear backbone with one friction element.
+    /// Returns [`LoopModel::Linear`] with one friction element.
     fn default() -> Self {
         Self::Linear(FrictionOrder::First)
     }

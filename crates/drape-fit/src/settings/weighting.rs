@@ -5,9 +5,9 @@ use drape_kes::Curve;
 /// Deformation, over the largest one, at which a point has half the weight of one at zero.
 ///
 /// Uniform steps up to the largest deformation then have half of their weight below the deformation
-/// `$\sqrt{a(1+a)} - a$` = 0.29 of it: the curvatures at which fabrics drape (up to 75 1/m of the
-/// 250 1/m of a KES loop) count as much as all above them. Smaller values would fit the slack start
-/// and little else.
+/// `$\sqrt{a(1+a)} - a$` = 0.29 of the largest. The curvatures at which fabrics drape (up to 75 1/m
+/// of the 250 1/m of a KES loop) count as much as all larger curvatures. Smaller values would fit
+/// the slack start and little else.
 const HALF_WEIGHT: f64 = 0.2;
 
 /// Weights of the points of a curve in the fit.
@@ -25,6 +25,8 @@ pub enum Weighting {
     Even,
 }
 
+/// Returns the weights of the points of `curve`, one on average. Deformations are counted from
+/// `zero`. No weight is returned for [`Weighting::Even`].
 impl Weighting {
     /// Returns the weights of the points of a curve, one on average; deformations are counted from
     /// `zero`.
@@ -32,13 +34,13 @@ impl Weighting {
         if self == Self::Even {
             return Vec::new();
         }
-        let size = |q: &f64| {
-            let q = q - zero;
-            if curve.slack { q.max(0.0) } else { q.abs() }
-        };
-        let largest = curve.deformation().iter().map(size).fold(0.0, f64::max);
-        let raw = curve.deformation().iter().map(size);
-        let raw: Vec<f64> = raw.map(|q| 1.0 / (q + HALF_WEIGHT * largest)).collect();
+        let sizes: Vec<f64> = curve
+            .deformation()
+            .iter()
+            .map(|q| if curve.slack { (q - zero).max(0.0) } else { (q - zero).abs() })
+            .collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let raw: Vec<f64> = sizes.iter().map(|q| 1.0 / (q + HALF_WEIGHT * largest)).collect();
         let mean = raw.iter().sum::<f64>() / raw.len() as f64;
         raw.iter().map(|weight| weight / mean).collect()
     }

@@ -30,7 +30,8 @@ pub(crate) const SHEAR_FRICTION_LENGTH: f64 = 3.49e-3;
 /// Length of tensile friction, over EM; RT, an area, hardly depends on it.
 pub(crate) const TENSILE_FRICTION_LENGTH: f64 = 0.03;
 
-/// Returns the bending rigidity of the median bending length, in N·m.
+/// Returns the bending rigidity that a fabric of the given `density` has with the median bending
+/// length, in N·m.
 pub(crate) fn bending_rigidity(density: f64) -> f64 {
     density * GRAVITY * BENDING_LENGTH.powi(3)
 }

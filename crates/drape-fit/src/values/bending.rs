@@ -5,7 +5,7 @@ use drape_kes::BendingValues;
 
 use crate::values::assumed::BENDING_FRICTION_LENGTH;
 
-/// Returns the bending law that has the values B and 2HB.
+/// Returns the bending law that has the given `values`, B and 2HB.
 ///
 /// The friction length, which 2HB does not determine, is taken from the one published measurement
 /// \[THK03, fig. 8b\]. The friction has reached its plateau well before the curvatures at which B

@@ -6,10 +6,10 @@ use drape_kes::{Direction, EvaluationPoints, Sheet, Symbol, Test};
 use crate::settings::FitSettings;
 use crate::values::simulated::fabric_values;
 
-/// Relative disagreement of two values that is reported.
+/// Relative difference of two values that is reported.
 ///
-/// Specimens of one fabric differ by as much; more is another specimen, another evaluation, or a
-/// unit.
+/// Specimens of one fabric differ by up to 5 %. A larger difference comes from another specimen,
+/// another evaluation, or a unit.
 const DISAGREEMENT: f64 = 0.05;
 
 /// One KES value from sheet, curve and law, in the laboratory's unit.
@@ -28,7 +28,7 @@ pub struct ValueComparison {
 }
 
 impl ValueComparison {
-    /// Returns a warning where sheet and curve disagree by more than 5 %.
+    /// Returns a warning if the values of `sheet` and `curve` differ by more than 5 %.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let (sheet, curve) = (self.sheet?, *self.curve.as_ref().ok()?);
@@ -44,7 +44,7 @@ impl ValueComparison {
     }
 }
 
-/// Compares all KES values of a fabric with those of its sheet and of the sheet's curves.
+/// Compares all KES values of `fabric` with the values of its `sheet` and of the sheet's curves.
 #[must_use]
 pub fn compare_values(
     sheet: &Sheet,
@@ -52,33 +52,44 @@ pub fn compare_values(
     settings: &FitSettings,
 ) -> Vec<ValueComparison> {
     let points = settings.evaluation_points(sheet);
-    let rows = |direction: Direction| {
+    let mut comparisons = Vec::new();
+    for direction in [Direction::Warp, Direction::Weft] {
         let law = fabric_values(fabric, direction, &points);
-        let measured = |symbol: Symbol| {
-            let test = symbol.test();
-            let curve = sheet.curves_of(test, direction).next();
-            let curve = curve.ok_or_else(|| format!("no {} curve was measured", test.name()))?;
-            let found = curve.values(&points).into_iter().find(|read| read.symbol == symbol);
-            let read = found.expect("a curve has the values of its test");
-            read.value.map_err(|error| error.to_string())
-        };
-        let row = move |symbol: Symbol| ValueComparison {
-            direction,
-            symbol,
-            sheet: sheet.values(direction).get(symbol),
-            curve: measured(symbol),
-            law: law.get(symbol).filter(|_| reaches(sheet, direction, symbol, &points)),
-        };
-        Symbol::ALL.into_iter().map(row).collect::<Vec<_>>()
-    };
-    [Direction::Warp, Direction::Weft].into_iter().flat_map(rows).collect()
+        for symbol in Symbol::ALL {
+            comparisons.push(ValueComparison {
+                direction,
+                symbol,
+                sheet: sheet.values(direction).get(symbol),
+                curve: curve_value(sheet, direction, symbol, &points),
+                law: law.get(symbol).filter(|_| reaches(sheet, direction, symbol, &points)),
+            });
+        }
+    }
+    comparisons
 }
 
-/// Part of FM to which a tensile curve must go for the values of its law at FM.
+/// Returns the value of `symbol` of the first curve of its test and `direction`, or the reason why
+/// there is none.
+fn curve_value(
+    sheet: &Sheet,
+    direction: Direction,
+    symbol: Symbol,
+    points: &EvaluationPoints,
+) -> Result<f64, String> {
+    let test = symbol.test();
+    let curve = sheet.curves_of(test, direction).next();
+    let curve = curve.ok_or_else(|| format!("no {} curve was measured", test.name()))?;
+    let read = curve.values(points).into_iter().find(|read| read.symbol == symbol);
+    let read = read.expect("a curve has the values of its test");
+    read.value.map_err(|error| error.to_string())
+}
+
+/// Part of FM that a tensile curve must reach, so that its law has values at FM.
 const REACHED: f64 = 0.95;
 
-/// Returns whether the curve of a law goes to where a value is read: the tensile values of a law
-/// beyond its curve are a guess. A law without a curve was made of values.
+/// Returns whether the curve of a law reaches the point where the value `symbol` is read. The
+/// tensile values of a law beyond its curve are a guess. A law without a curve was made from
+/// values.
 fn reaches(sheet: &Sheet, direction: Direction, symbol: Symbol, points: &EvaluationPoints) -> bool {
     let curve = sheet.curves_of(symbol.test(), direction).next();
     let reached = curve.filter(|curve| curve.test == Test::Tensile && !curve.slack);

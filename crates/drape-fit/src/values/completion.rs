@@ -1,5 +1,5 @@
-//! Traction law from whichever tensile values a sheet has: the given ones, those that follow from
-//! them, and defaults for the rest.
+//! Traction law from the tensile values of a sheet: the given values, values that follow from them,
+//! and defaults for the others.
 
 use drape_fabric::TractionLaw;
 use drape_kes::Values;
@@ -15,7 +15,7 @@ const CONTRADICTION: f64 = 0.05;
 /// met.
 const STEPS: usize = 20;
 
-/// Returns the traction law of the tensile values, if any is given.
+/// Returns the traction law of the tensile `values`, if any is given. `name` is the direction.
 ///
 /// # Errors
 /// The values are impossible for a fabric, or no law here comes near them.
@@ -39,38 +39,40 @@ pub(crate) fn tensile_law(
         let origin = if lt.is_some() { "given" } else { "made by WT and EM" };
         check_linearity(name, linearity, origin)?;
     }
-    let target = |linearity: f64, resilience: f64| TensileTarget {
-        maximum_tension,
-        extension: em.or(wt.map(|wt| wt / (half * linearity))).unwrap_or(assumed::EXTENSION),
-        linearity,
-        resilience,
-    };
+
     // A default must not keep the law from meeting the given values.
-    let towards_one = |value: f64, step: usize| value + (1.0 - value) * step as f64 / STEPS as f64;
-    let linearity = |step| known.unwrap_or(towards_one(assumed::LINEARITY, step));
-    let resilience = |step| rt.unwrap_or(towards_one(assumed::RESILIENCE, step));
-    let free = known.is_none() || rt.is_none();
-    let mut met = target(linearity(0), resilience(0));
-    let mut found = tensile_from_values(&met);
-    for step in 1..if free { STEPS } else { 0 } {
-        if found.as_ref().is_ok_and(|found| found.deviation <= VALUE_TOLERANCE) {
+    let steps = if known.is_none() || rt.is_none() { STEPS } else { 1 };
+    let (mut met, mut matched) = (None, None);
+    for step in 0..steps {
+        let linearity = known.unwrap_or_else(|| towards_one(assumed::LINEARITY, step));
+        let target = TensileTarget {
+            maximum_tension,
+            extension: em.or(wt.map(|wt| wt / (half * linearity))).unwrap_or(assumed::EXTENSION),
+            linearity,
+            resilience: rt.unwrap_or_else(|| towards_one(assumed::RESILIENCE, step)),
+        };
+        let found = tensile_from_values(&target);
+        let is_met = found.as_ref().is_ok_and(|found| found.deviation <= VALUE_TOLERANCE);
+        (met, matched) = (Some(target), Some(found));
+        if is_met {
             break;
         }
-        met = target(linearity(step), resilience(step));
-        found = tensile_from_values(&met);
     }
-    let Matched { law, deviation } = found.map_err(|error| named(error, name))?;
+    let (Some(met), Some(matched)) = (met, matched) else { return Ok(None) };
+    let Matched { law, deviation } = matched.map_err(|error| with_direction(error, name))?;
 
     let TensileTarget { extension, linearity, resilience, .. } = met;
     let mut notes = Vec::new();
-    let mut assume = |value: &str, missing: bool, taken: f64| {
-        if missing {
+    let assumptions = [
+        ("LT", known.is_none(), linearity),
+        ("EM", em.is_none() && wt.is_none(), extension),
+        ("RT", rt.is_none(), resilience),
+    ];
+    for (value, is_missing, taken) in assumptions {
+        if is_missing {
             notes.push(format!("{name} {value}: not measured, {taken:.4} taken"));
         }
-    };
-    assume("LT", known.is_none(), linearity);
-    assume("EM", em.is_none() && wt.is_none(), extension);
-    assume("RT", rt.is_none(), resilience);
+    }
     if let Some(wt) = wt {
         let tied = half * linearity * extension;
         if (wt / tied - 1.0).abs() > CONTRADICTION {
@@ -89,7 +91,12 @@ pub(crate) fn tensile_law(
     Ok(Some(Noted { law, notes }))
 }
 
-/// Refuses a resilience that no fabric has, whatever its law.
+/// Returns `value` moved towards one by `step` of [`STEPS`].
+fn towards_one(value: f64, step: usize) -> f64 {
+    value + (1.0 - value) * step as f64 / STEPS as f64
+}
+
+/// Refuses a `resilience` that no fabric has, with any law.
 fn check_resilience(name: &str, resilience: f64) -> Result<(), Error> {
     if resilience > 0.0 && resilience < 1.0 {
         return Ok(());
@@ -97,7 +104,7 @@ fn check_resilience(name: &str, resilience: f64) -> Result<(), Error> {
     Err(Error::InvalidResilience { name: name.to_owned(), percent: 100.0 * resilience })
 }
 
-/// Refuses a linearity that no fabric has, whatever its law.
+/// Refuses a `linearity` that no fabric has, with any law.
 fn check_linearity(name: &str, linearity: f64, origin: &'static str) -> Result<(), Error> {
     if linearity > 0.0 && linearity < 2.0 {
         return Ok(());
@@ -105,12 +112,12 @@ fn check_linearity(name: &str, linearity: f64, origin: &'static str) -> Result<(
     Err(Error::InvalidLinearity { name: name.to_owned(), linearity, origin })
 }
 
-/// Returns an error of tensile values with the direction that it belongs to.
-fn named(error: Error, direction: &str) -> Error {
+/// Returns an error of tensile values with its `direction`.
+fn with_direction(error: Error, direction: &str) -> Error {
     match error {
         Error::IncompatibleValues { linearity, resilience, .. } => {
             Error::IncompatibleValues { name: direction.to_owned(), linearity, resilience }
         }
-        other => other,
+        error => error,
     }
 }

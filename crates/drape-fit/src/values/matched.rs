@@ -1,19 +1,19 @@
-//! Law made from values, with its deviation from them or with notes on what was assumed.
+//! Law made from values, with its deviation from them or with notes on assumptions.
 
-/// Relative deviation of a law's values from the sheet's that is reported: a tenth of their
-/// scatter.
+/// Relative deviation of a law's values from the values of the sheet that is reported: a tenth of
+/// the scatter of values.
 pub(crate) const REPORTED_DEVIATION: f64 = 1e-3;
 
-/// Law from KES values, with the deviation of its own values from them.
+/// Law from KES values, with the deviation of its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matched<L> {
-    /// Law found.
+    /// Law with nearly the given values.
     pub law: L,
-    /// Relative deviation of its values from those asked for, a ratio.
+    /// Relative deviation of the law's values from the given values, a ratio.
     pub deviation: f64,
 }
 
-/// Law with notes on what was assumed for it.
+/// Law with notes on assumptions.
 pub(crate) struct Noted<L> {
     pub(crate) law: L,
     pub(crate) notes: Vec<String>,

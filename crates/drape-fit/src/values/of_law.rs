@@ -16,23 +16,25 @@ pub(crate) struct LawValue {
     pub(crate) value: Option<f64>,
 }
 
-/// Returns LT, WT, RT and EM of a traction law, for an exact cycle up to the load `maximum`, in N/m,
-/// and back to zero load.
+/// Returns LT, WT, RT and EM of the traction law `law`, for an exact cycle up to the load
+/// `maximum`, in N/m, and back to zero load.
 pub(crate) fn tensile_values(law: &TractionLaw, maximum: f64) -> Vec<LawValue> {
     let extension = law.strain_at(maximum);
     let values = extension.map(|extension| {
         let [load, work, recovered] = cycle_values(law, extension);
         [work / (0.5 * load * extension), work, recovered / work, extension]
     });
-    let symbols = [Symbol::Lt, Symbol::Wt, Symbol::Rt, Symbol::Em];
-    let value = |(index, symbol): (usize, Symbol)| LawValue {
-        symbol,
-        value: values.map(|values| values[index] / symbol.factor()),
-    };
-    symbols.into_iter().enumerate().map(value).collect()
+    [Symbol::Lt, Symbol::Wt, Symbol::Rt, Symbol::Em]
+        .into_iter()
+        .enumerate()
+        .map(|(index, symbol)| LawValue {
+            symbol,
+            value: values.map(|values| values[index] / symbol.factor()),
+        })
+        .collect()
 }
 
-/// Returns B and 2HB of a bending law, for a test to ±`largest`, in 1/m.
+/// Returns B and 2HB of the bending law `law`, for a test to ±`largest`, in 1/m.
 pub(crate) fn bending_values(
     law: &BendingLaw,
     points: &BendingPoints,
@@ -43,10 +45,10 @@ pub(crate) fn bending_values(
     let load = drive(law, law.virgin(), &path);
     let points =
         EvaluationPoints { maximum_tension: 0.0, bending: *points, shear: ShearPoints::default() };
-    read(Test::Bending, path, load, &points)
+    read_values(Test::Bending, path, load, &points)
 }
 
-/// Returns G, 2HG and 2HG5 of a shear law, for a test to ±`largest`, in rad.
+/// Returns G, 2HG and 2HG5 of the shear law `law`, for a test to ±`largest`, in rad.
 pub(crate) fn shear_values(law: &ShearLaw, points: &ShearPoints, largest: f64) -> Vec<LawValue> {
     let angles = shear_angles(points, largest);
     let sines: Vec<f64> = angles.iter().map(|angle| angle.sin()).collect();
@@ -56,28 +58,33 @@ pub(crate) fn shear_values(law: &ShearLaw, points: &ShearPoints, largest: f64) -
         bending: BendingPoints::default(),
         shear: *points,
     };
-    read(Test::Shear, angles, load, &points)
+    read_values(Test::Shear, angles, load, &points)
 }
 
-/// Reads the values of loads along a test.
-fn read(test: Test, path: Vec<f64>, load: Vec<f64>, points: &EvaluationPoints) -> Vec<LawValue> {
+/// Reads the values of the `load` along the `path` of a test.
+fn read_values(
+    test: Test,
+    path: Vec<f64>,
+    load: Vec<f64>,
+    points: &EvaluationPoints,
+) -> Vec<LawValue> {
     let curve = Curve::new(test, Direction::Warp, path, load);
     let values = curve.map_or_else(|_| Vec::new(), |curve| curve.values(points));
     values.into_iter().map(|v| LawValue { symbol: v.symbol, value: v.value.ok() }).collect()
 }
 
-/// Returns the angles of a shear test to ±`largest` that passes the evaluation points.
+/// Returns the angles of a shear test to ±`largest` that passes the evaluation `points`.
 pub(crate) fn shear_angles(points: &ShearPoints, largest: f64) -> Vec<f64> {
     let [low, high] = points.slope;
     cycle(&[low, high, points.width, points.wide], largest, Test::LARGEST_ANGLE)
 }
 
-/// Returns a cycle from rest to one side, the other, and back, with a point wherever a value is
-/// read.
+/// Returns a cycle from rest to one side, to the other side, and back, with a point at each
+/// deformation in `read`.
 ///
-/// Laws are exact over any distance, so nothing is needed between these points. The cycle goes to
-/// `largest`, or as far as the `standard` test if a value is read close to that: at the tip of a loop
-/// nothing can be read.
+/// Laws are exact over any distance, so no point is needed between. The cycle goes to `largest`, or
+/// to the deformation of the `standard` test if a value is read close to `largest`: at the tip of a
+/// loop no value can be read.
 fn cycle(read: &[f64], largest: f64, standard: f64) -> Vec<f64> {
     let mut points: Vec<f64> = read.iter().map(|q| q.abs()).collect();
     let outermost = points.iter().fold(0.0_f64, |outermost, q| outermost.max(*q));

@@ -11,7 +11,8 @@ use crate::values::assumed::SHEAR_FRICTION_LENGTH;
 use crate::values::matched::Matched;
 use crate::values::of_law::shear_angles;
 
-/// Largest length of shear friction, a sine: that of the whole test. A longer one is a stiffness.
+/// Largest length of shear friction, a sine: the length of the whole test. A longer friction is a
+/// stiffness.
 const LARGEST_LENGTH: f64 = 0.139;
 /// Largest growth of a plateau that a fabric may have.
 const LARGEST_GROWTH: f64 = 1e3;
@@ -19,14 +20,15 @@ const LARGEST_GROWTH: f64 = 1e3;
 /// Bisections for a length: the bits of a double.
 const BISECTIONS: usize = 60;
 
-/// Returns the shear law that has the values G, 2HG and 2HG5, read at the given points.
+/// Returns the shear law that has the values `target`: G, 2HG and 2HG5, read at `points`.
 ///
-/// The friction length is assumed, except for a loop that narrows (2HG5 < 2HG): a plateau cannot
-/// shrink, and the length at which friction has not yet reached its plateau after the reversal at
-/// 8° gives such a loop.
+/// The friction length is assumed, except for a loop that narrows (2HG5 < 2HG). A plateau cannot
+/// shrink, so such a loop needs a length at which friction has not yet reached its plateau after
+/// the reversal at 8°.
 ///
-/// The deviation is the largest relative deviation of the values: rounding, except for loops that
-/// widen more than tenfold or narrow to less than 0.63, for which the mean of both widths is taken.
+/// The deviation is the largest relative deviation of the values. It is rounding, except for loops
+/// that widen more than tenfold or narrow to less than 0.63. For such loops the mean of both widths
+/// is taken.
 ///
 /// ```
 /// use drape_fit::shear_from_values;
@@ -39,40 +41,15 @@ const BISECTIONS: usize = 60;
 #[must_use]
 pub fn shear_from_values(target: &ShearValues, points: &ShearPoints) -> Matched<ShearLaw> {
     let unit = UnitValues::new(points);
-    let matched = |law: ShearLaw| Matched { law, deviation: unit.deviation(&law, target) };
     let growing = unit.growing(target, SHEAR_FRICTION_LENGTH);
-    if let Some(law) = growing.filter(|law| law.growth >= 0.0) {
-        return matched(law);
-    }
-    let ShearValues { stiffness, loop_width: narrow, wide_loop_width: wide } = *target;
-    // The loop narrows the more the longer the length.
-    let (mut short, mut long) = (SHEAR_FRICTION_LENGTH, LARGEST_LENGTH);
-    let ratio = |length: f64| {
-        let constant = unit.of(length).constant;
-        constant.wide_loop_width / constant.loop_width
-    };
-    let wanted = wide / narrow;
-    if wanted < ratio(short) && wanted > ratio(long) {
-        for _ in 0..BISECTIONS {
-            let middle = (short * long).sqrt();
-            if ratio(middle) > wanted {
-                short = middle;
-            } else {
-                long = middle;
-            }
-        }
-        if let Some(law) = unit.constant(target, long) {
-            return matched(law);
-        }
-    }
-    let mean = 0.5 * (narrow + wide);
-    let even = ShearValues { stiffness, loop_width: mean, wide_loop_width: mean };
-    let law = unit.constant(&even, SHEAR_FRICTION_LENGTH);
-    let without_correction =
-        || shear_law(stiffness, 0.0, BlimanSorine::first_order(0.5 * mean, SHEAR_FRICTION_LENGTH));
-    matched(law.unwrap_or_else(without_correction))
+    let law = growing
+        .filter(|law| law.growth >= 0.0)
+        .or_else(|| unit.narrowing(target))
+        .unwrap_or_else(|| unit.even(target));
+    Matched { law, deviation: unit.deviation(&law, target) }
 }
 
+/// Returns the law with a linear backbone and the default locking.
 fn shear_law(stiffness: f64, growth: f64, friction: BlimanSorine) -> ShearLaw {
     ShearLaw {
         backbone: ShearBackbone::Linear { stiffness },
@@ -100,6 +77,7 @@ struct UnitValues<'a> {
     sines: Vec<f64>,
 }
 
+/// Simulates the standard test, read at `points`.
 impl<'a> UnitValues<'a> {
     fn new(points: &'a ShearPoints) -> Self {
         let angles = shear_angles(points, Test::LARGEST_ANGLE);
@@ -107,7 +85,7 @@ impl<'a> UnitValues<'a> {
         Self { points, path: FrictionPath::new(&sines), angles, sines }
     }
 
-    /// Reads the values of loads along the test.
+    /// Reads the values of the `load` along the test.
     fn read(&self, load: Vec<f64>) -> ShearValues {
         let curve = Curve::new(Test::Shear, Direction::Warp, self.angles.clone(), load);
         let values = curve.and_then(|curve| curve.shear_values(self.points));
@@ -118,17 +96,55 @@ impl<'a> UnitValues<'a> {
         })
     }
 
-    /// Returns the values of the terms with a friction length.
-    fn of(&self, length: f64) -> Terms {
+    /// Returns the values of the terms with the friction `length`.
+    fn terms_at(&self, length: f64) -> Terms {
         let UnitFriction { constant, growing, .. } = self.path.unit_friction(length);
         let [linear, constant, growing] =
             [self.sines.clone(), constant, growing].map(|load| self.read(load));
         Terms { linear, constant, growing }
     }
 
-    /// Returns the law with these values and a growing plateau; `None` where there is none.
+    /// Returns the law with the values `target`, if they are values of a loop that narrows.
+    fn narrowing(&self, target: &ShearValues) -> Option<ShearLaw> {
+        let wanted = target.wide_loop_width / target.loop_width;
+        // A longer friction narrows the loop more.
+        let (mut short, mut long) = (SHEAR_FRICTION_LENGTH, LARGEST_LENGTH);
+        if !(wanted < self.width_ratio(short) && wanted > self.width_ratio(long)) {
+            return None;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = (short * long).sqrt();
+            if self.width_ratio(middle) > wanted {
+                short = middle;
+            } else {
+                long = middle;
+            }
+        }
+        self.constant(target, long)
+    }
+
+    /// Returns the wide width over the narrow width of a constant plateau with the friction
+    /// `length`.
+    fn width_ratio(&self, length: f64) -> f64 {
+        let constant = self.terms_at(length).constant;
+        constant.wide_loop_width / constant.loop_width
+    }
+
+    /// Returns the law with the stiffness of `target` and the mean of its widths at all angles.
+    fn even(&self, target: &ShearValues) -> ShearLaw {
+        let mean = 0.5 * (target.loop_width + target.wide_loop_width);
+        let even =
+            ShearValues { stiffness: target.stiffness, loop_width: mean, wide_loop_width: mean };
+        self.constant(&even, SHEAR_FRICTION_LENGTH).unwrap_or_else(|| {
+            let friction = BlimanSorine::first_order(0.5 * mean, SHEAR_FRICTION_LENGTH);
+            shear_law(target.stiffness, 0.0, friction)
+        })
+    }
+
+    /// Returns the law with the values `target` and a growing plateau; `None` if there is no such
+    /// law.
     fn growing(&self, target: &ShearValues, length: f64) -> Option<ShearLaw> {
-        let Terms { linear, constant, growing } = self.of(length);
+        let Terms { linear, constant, growing } = self.terms_at(length);
         let (narrow, wide) = (target.loop_width, target.wide_loop_width);
         let determinant = constant.loop_width * growing.wide_loop_width
             - constant.wide_loop_width * growing.loop_width;
@@ -141,34 +157,34 @@ impl<'a> UnitValues<'a> {
             let friction = BlimanSorine::first_order(0.0, length);
             return (stiffness > 0.0).then(|| shear_law(stiffness, 0.0, friction));
         }
+
         let growth = rise / plateau;
         let possible = plateau > 0.0 && growth <= LARGEST_GROWTH && stiffness > 0.0;
-        // A loop of even width has a growth of rounding.
+        // The growth of a loop of even width is rounding.
         let growth = if growth.abs() < f64::EPSILON.sqrt() { 0.0 } else { growth };
         possible.then(|| shear_law(stiffness, growth, BlimanSorine::first_order(plateau, length)))
     }
 
-    /// Returns the law with the stiffness and the narrow width, and a constant plateau.
+    /// Returns the law with the stiffness and the narrow width of `target`, and a constant plateau;
+    /// `None` if its stiffness is negative.
     fn constant(&self, target: &ShearValues, length: f64) -> Option<ShearLaw> {
-        let Terms { linear, constant, .. } = self.of(length);
+        let Terms { linear, constant, .. } = self.terms_at(length);
         let plateau = target.loop_width / constant.loop_width;
         let stiffness = (target.stiffness - plateau * constant.stiffness) / linear.stiffness;
         let friction = BlimanSorine::first_order(plateau, length);
         (stiffness > 0.0).then(|| shear_law(stiffness, 0.0, friction))
     }
 
-    /// Returns the largest relative deviation of a law's values from others.
+    /// Returns the largest relative deviation of the values of `law` from `target`.
     fn deviation(&self, law: &ShearLaw, target: &ShearValues) -> f64 {
-        let found = self.read(drive(law, law.virgin(), &self.sines));
-        let relative = |found: f64, wanted: f64| {
-            if found == wanted { 0.0 } else { (found / wanted - 1.0).abs() }
-        };
+        let values = self.read(drive(law, law.virgin(), &self.sines));
         [
-            relative(found.stiffness, target.stiffness),
-            relative(found.loop_width, target.loop_width),
-            relative(found.wide_loop_width, target.wide_loop_width),
+            (values.stiffness, target.stiffness),
+            (values.loop_width, target.loop_width),
+            (values.wide_loop_width, target.wide_loop_width),
         ]
         .into_iter()
+        .map(|(value, wanted)| if value == wanted { 0.0 } else { (value / wanted - 1.0).abs() })
         .fold(0.0, f64::max)
     }
 }

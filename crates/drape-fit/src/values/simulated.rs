@@ -5,12 +5,13 @@ use drape_kes::{Direction, EvaluationPoints, Test, Values};
 
 use crate::values::of_law::{bending_values, shear_values, tensile_values};
 
-/// Returns the KES values of one direction of a fabric, in the laboratory's units.
+/// Returns the KES values of one `direction` of `fabric`, read at `points`, in the laboratory's
+/// units.
 ///
-/// Each test is simulated with the fabric's laws from rest, bending and shear to one side, the
-/// other, and the first again, and read as [`Curve::values`](drape_kes::Curve::values) reads
-/// measured curves. The tensile values are left out for a fabric that never carries the load of the
-/// tensile test.
+/// Each test is simulated with the fabric's laws from rest. Bending and shear go to one side, to
+/// the other, and to the first again. The loads are read as
+/// [`Curve::values`](drape_kes::Curve::values) reads measured curves. The tensile values are
+/// missing for a fabric that never carries the load of the tensile test.
 ///
 /// ```
 /// use drape_fit::{FitSettings, fabric_values, identify};

@@ -18,9 +18,9 @@ use crate::values::matched::Matched;
 
 /// Relative deviation of the values of a law below which they are met.
 pub(crate) const VALUE_TOLERANCE: f64 = 1e-6;
-/// Largest relative deviation of the nearest law before the values are taken for mistaken.
+/// Largest relative deviation of the nearest law with which the values are accepted.
 const LARGEST_DEVIATION: f64 = 0.1;
-/// Largest steepness of a toe: LT 0.05, below that of any fabric.
+/// Largest steepness of a toe: LT 0.05, which is less than any fabric has.
 const LARGEST_STEEPNESS: f64 = 40.0;
 /// Bisections for the strain at which the recovery reaches zero load.
 const BISECTIONS: usize = 60;
@@ -32,47 +32,45 @@ pub struct TensileTarget {
     pub maximum_tension: f64,
     /// EM: strain at the largest load, a ratio.
     pub extension: f64,
-    /// LT: work over that of a straight line, a ratio.
+    /// LT: work over the work of a straight line, a ratio.
     pub linearity: f64,
     /// RT: recovered work over work spent, a ratio.
     pub resilience: f64,
 }
 
-/// Returns the traction law that has the values EM, LT and RT at the given load.
+/// Returns the traction law that has the values EM, LT and RT of `target` at the given load.
 ///
-/// A priming zone that ends at EM is made as deep as LT needs: of all priming zones with these
-/// values it leaves the fabric stiffest at rest. A curve with a lower linearity than that can have
-/// (an elastic LT below 0.67) gets an exponential toe that ends at EM, with friction in proportion to
-/// the tension. How the fabric changes once it has been stretched is not in the values: the toe does
-/// not move.
+/// A priming zone that ends at EM is made as deep as LT needs: among priming zones with these
+/// values it leaves the fabric stiffest at rest. A curve with a lower linearity (an elastic LT
+/// below 0.67) gets an exponential toe that ends at EM, with friction in proportion to the tension.
+/// The values contain no information on changes of a stretched fabric, so the toe does not move.
 ///
-/// The deviation is the root mean square of the relative deviations of the values: rounding, as a
-/// rule.
+/// The deviation is the root mean square of the relative deviations of the values, and is usually
+/// rounding.
 ///
 /// ```
 /// use drape_fit::{TensileTarget, tensile_from_values};
 ///
 /// // FM = 490 N/m, EM = 5 %, LT = 0.75, RT = 55 %.
-/// let target =
-///     TensileTarget { maximum_tension: 490.0, extension: 0.05, linearity: 0.75, resilience: 0.55 };
+/// let target = TensileTarget {
+///     maximum_tension: 490.0,
+///     extension: 0.05,
+///     linearity: 0.75,
+///     resilience: 0.55,
+/// };
 /// assert!(tensile_from_values(&target)?.deviation < 1e-6);
 /// # Ok::<(), drape_fit::Error>(())
 /// ```
 ///
 /// # Errors
-/// No law here comes near these values.
+/// No law comes near these values.
 pub fn tensile_from_values(target: &TensileTarget) -> Result<Matched<TractionLaw>, Error> {
-    let nearest = |shape: Shape| {
-        let problem = TensileProblem { shape, target };
-        let report = minimise(&problem, &problem.parameters(), &MinimiserSettings::default());
-        Matched { law: problem.law(&report.parameters), deviation: report.rms }
-    };
     // The exponential toe is for curves that the priming zone cannot follow.
-    let primed = nearest(Shape::Primed);
+    let primed = nearest_law(Shape::Primed, target);
     let best = if primed.deviation <= VALUE_TOLERANCE {
         primed
     } else {
-        let exponential = nearest(Shape::Exponential);
+        let exponential = nearest_law(Shape::Exponential, target);
         if primed.deviation <= exponential.deviation { primed } else { exponential }
     };
     if best.deviation < LARGEST_DEVIATION {
@@ -82,12 +80,22 @@ pub fn tensile_from_values(target: &TensileTarget) -> Result<Matched<TractionLaw
     Err(Error::IncompatibleValues { name: "tension".into(), linearity, resilience })
 }
 
-/// Returns load at EM, WT and RT·WT of a law, for one exact cycle to EM and back to zero load.
+/// Returns the law of a `shape` whose values are nearest to `target`.
+fn nearest_law(shape: Shape, target: &TensileTarget) -> Matched<TractionLaw> {
+    let problem = TensileProblem { shape, target };
+    let report = minimise(&problem, &problem.parameters(), &MinimiserSettings::default());
+    Matched { law: problem.law(&report.parameters), deviation: report.rms }
+}
+
+/// Returns load at EM, WT and RT·WT of `law`, for one exact cycle to EM, the `extension`, and back
+/// to zero load.
 pub(crate) fn cycle_values(law: &TractionLaw, extension: f64) -> [f64; 3] {
     let virgin = law.virgin();
     let load = law.respond(&virgin, extension).load;
     let work = law.work(&virgin, extension);
     let stretched = law.commit(&virgin, extension);
+
+    // The recovery ends where the load vanishes.
     let (mut slack, mut taut) = (0.0, extension);
     if law.respond(&stretched, slack).load < 0.0 {
         for _ in 0..BISECTIONS {
@@ -119,8 +127,9 @@ struct TensileProblem<'a> {
 }
 
 impl TensileProblem<'_> {
-    /// Returns elastic load at EM over the largest load, friction over the load that it refers to
-    /// (the largest load for a plateau, else the elastic load), and the shape parameter.
+    /// Returns the parameters of the `shape`: elastic load at EM over the largest load, friction
+    /// over its reference load (the largest load for a plateau, else the elastic load), and the
+    /// shape parameter.
     fn parameters(&self) -> [Parameter; 3] {
         let (shape, most) = match self.shape {
             Shape::Primed => (Parameter::new(0.7).between(TOE_RATIO_MIN, 1.0), 1.0),
@@ -137,10 +146,12 @@ impl TensileProblem<'_> {
         ]
     }
 
+    /// Returns the law with the parameters `p`.
     fn law(&self, p: &[f64]) -> TractionLaw {
         let TensileTarget { maximum_tension, extension, .. } = *self.target;
         let elastic = p[0] * maximum_tension;
         let length = TENSILE_FRICTION_LENGTH * extension;
+
         let (backbone, friction) = match self.shape {
             Shape::Primed => {
                 let (toe_ratio, toe_strain) = (p[2], extension);
@@ -168,6 +179,7 @@ impl TensileProblem<'_> {
                 (TractionBackbone::Exponential(toe), friction.into())
             }
         };
+
         TractionLaw { backbone, friction, buckling: Buckling::default() }
     }
 }

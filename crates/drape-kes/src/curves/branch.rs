@@ -4,9 +4,9 @@ use std::ops::Range;
 
 /// Motion against the branch that counts as a reversal, over the whole range.
 ///
-/// With a smaller one the jitter of a clamp splits a branch; with a larger one small inner loops
-/// are missed. Position sensors jitter below 0.1 % of the range, and the smallest inner loop of a
-/// test worth measuring is some 5 % of it.
+/// A smaller threshold would let the jitter of a clamp split a branch. A larger one would miss
+/// small inner loops. Position sensors jitter below 0.1 % of the range, and the smallest inner loop
+/// worth measuring is some 5 % of it.
 pub(crate) const REVERSAL_THRESHOLD: f64 = 0.01;
 
 /// Part of a history on which the deformation rises or falls.
@@ -18,10 +18,11 @@ pub struct Branch {
     pub rising: bool,
 }
 
-/// Returns the reversals of a history, with its first and last point: the ends of its branches.
+/// Returns the indices of the reversals of `deformation`, with the first and the last point: the
+/// ends of the branches.
 ///
-/// A point is a reversal once the deformation has moved back from it by 1 % of the whole range, so
-/// the jitter of a sensor makes none.
+/// A point is a reversal once the deformation has moved back from it by 1 % of the whole range. The
+/// jitter of a sensor is smaller, and therefore no reversal.
 ///
 /// ```
 /// use drape_kes::reversals;
@@ -38,19 +39,22 @@ pub fn reversals(deformation: &[f64]) -> Vec<usize> {
     reversals_beyond(deformation, REVERSAL_THRESHOLD * (high - low))
 }
 
-/// Returns the reversals of a history that is not empty, with its first and last point.
+/// Returns the indices of the reversals of a `deformation` that is not empty, with the first and
+/// the last point.
 ///
 /// A point is a reversal once the deformation has moved back from it by more than `threshold`.
 pub(crate) fn reversals_beyond(deformation: &[f64], threshold: f64) -> Vec<usize> {
-    let moved = |from: usize, to: usize| deformation[to] - deformation[from];
-    let Some(start) = (0..deformation.len()).find(|&i| moved(0, i).abs() > threshold) else {
+    let has_moved = |&index: &usize| (deformation[index] - deformation[0]).abs() > threshold;
+    let Some(start) = (0..deformation.len()).find(has_moved) else {
         return vec![0, deformation.len() - 1];
     };
+
+    // The extreme of the current branch becomes a reversal once the deformation is back from it.
     let mut reversals = vec![0];
     let mut extreme = start;
-    let mut sign = moved(0, start).signum();
+    let mut sign = (deformation[start] - deformation[0]).signum();
     for index in start..deformation.len() {
-        let advance = sign * moved(extreme, index);
+        let advance = sign * (deformation[index] - deformation[extreme]);
         if advance > 0.0 {
             extreme = index;
         } else if -advance > threshold {
@@ -59,6 +63,7 @@ pub(crate) fn reversals_beyond(deformation: &[f64], threshold: f64) -> Vec<usize
             sign = -sign;
         }
     }
+
     if reversals.last() != Some(&(deformation.len() - 1)) {
         reversals.push(deformation.len() - 1);
     }

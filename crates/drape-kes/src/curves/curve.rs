@@ -8,7 +8,7 @@ use crate::curves::preparation::Preparation;
 use crate::error::Error;
 use crate::test::{Direction, Test};
 
-/// Lowest and highest of a column.
+/// Lowest and highest value of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Lowest value.
@@ -18,12 +18,13 @@ pub struct Extent {
 }
 
 impl Extent {
-    fn of(values: &[f64]) -> Self {
+    /// Returns the extent of `values`; from infinity to minus infinity for no value.
+    pub(crate) fn from_values(values: &[f64]) -> Self {
         let empty = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
         values.iter().fold(empty, |e, &v| Self { low: e.low.min(v), high: e.high.max(v) })
     }
 
-    /// Returns the difference between highest and lowest.
+    /// Returns the difference of `high` and `low`.
     #[must_use]
     pub fn span(self) -> f64 {
         self.high - self.low
@@ -39,8 +40,8 @@ pub(crate) struct Point {
 
 /// Load–deformation curve in the order of measurement, in SI.
 ///
-/// Its points are one history: a fabric has memory, so loading, unloading and repeated cycles must
-/// stay in the order in which they happened.
+/// The points are one history. A fabric has memory, so loading, unloading and repeated cycles must
+/// stay in the order in which they were measured.
 ///
 /// ```
 /// use drape_kes::{Curve, Direction, Test};
@@ -63,8 +64,8 @@ pub struct Curve {
     pub direction: Direction,
     /// Free length of the specimen between the clamps, if it was given; in metres.
     pub gauge: Option<f64>,
-    /// Whether the strip hung slack at the start: the zeros of strain and force are then unknown,
-    /// and fitted.
+    /// Whether the strip hung slack at the start. The zeros of strain and force of a slack strip
+    /// are unknown, and are fitted.
     pub slack: bool,
     deformation: Vec<f64>,
     load: Vec<f64>,
@@ -101,6 +102,7 @@ impl Curve {
         if deformation.iter().all(|&q| q == deformation[0]) {
             return Err(Error::ConstantDeformation { deformation: deformation[0] });
         }
+
         let name = format!("{} {}", test.name(), direction.name());
         Ok(Self {
             name,
@@ -117,10 +119,10 @@ impl Curve {
         })
     }
 
-    /// Returns the curve with the times of its points, in seconds or another unit.
+    /// Returns the curve with the `time` of each point, in seconds or another unit.
     ///
-    /// They help to tell noise of the deformation from changes of its rate. Times that are not as
-    /// many as the points, or that do not rise, are left out.
+    /// Times help to tell noise of the deformation from changes of its rate. The `time` is ignored
+    /// if its length differs from the number of points, or if it does not rise.
     #[must_use]
     pub fn with_time(mut self, time: Vec<f64>) -> Self {
         let rises = time.windows(2).all(|pair| pair[0] < pair[1]);
@@ -129,24 +131,25 @@ impl Curve {
         self
     }
 
-    /// Returns the time of each point in the unit of [`with_time`](Self::with_time), if it is known.
+    /// Returns the time of each point in the unit of [`with_time`](Self::with_time), if it is
+    /// known.
     #[must_use]
     pub fn time(&self) -> Option<&[f64]> {
         self.time.as_deref()
     }
 
-    /// Returns what [`Curve::prepared`] did and found; `None` where the curve is as measured.
+    /// Returns what [`Curve::prepared`] changed and found; `None` for a curve as measured.
     #[must_use]
     pub fn preparation(&self) -> Option<&Preparation> {
         self.preparation.as_ref()
     }
 
-    /// Notes what was done to the curve.
+    /// Stores the `preparation` of the curve.
     pub(crate) fn set_preparation(&mut self, preparation: Preparation) {
         self.preparation = Some(preparation);
     }
 
-    /// Replaces the deformation of each point.
+    /// Replaces the deformation of each point by `deformation`, in SI.
     pub(crate) fn set_deformation(&mut self, deformation: Vec<f64>) {
         self.deformation = deformation;
     }
@@ -157,14 +160,15 @@ impl Curve {
         pairs.map(|(&deformation, &load)| Point { deformation, load })
     }
 
-    /// Returns about `count` of the points, evenly spaced in each branch, with every turn; a curve of
-    /// fewer points unchanged.
+    /// Returns about `count` of the points, evenly spaced in each branch, with every reversal. A
+    /// curve of fewer points is returned unchanged.
     #[must_use]
     pub fn thinned(&self, count: usize) -> Cow<'_, Self> {
         let stride = self.load.len().div_ceil(count.max(1));
         if stride <= 1 {
             return Cow::Borrowed(self);
         }
+
         let mut kept = Vec::new();
         for branch in self.branches() {
             let last = branch.points.end - 1;
@@ -172,14 +176,16 @@ impl Curve {
             kept.push(last);
         }
         kept.dedup();
-        let all: Vec<Point> = self.points().collect();
-        let points = kept.iter().map(|&i| all[i]).collect();
+
+        // The repeats have other points, so the thinned curve has none.
+        let points: Vec<Point> = self.points().collect();
+        let points = kept.iter().map(|&index| points[index]).collect();
         let mut curve = self.clone().with_points(points);
         (curve.repeats, curve.scatter) = (Vec::new(), Vec::new());
         Cow::Owned(curve)
     }
 
-    /// Returns the curve with strains that count from `zero`, a ratio.
+    /// Returns the curve with strains that count from the strain `zero`, a ratio.
     pub(crate) fn counted_from(&self, zero: f64) -> Self {
         let mut curve = self.clone();
         curve.deformation.iter_mut().for_each(|strain| *strain -= zero);
@@ -189,12 +195,11 @@ impl Curve {
         curve
     }
 
-    /// Returns the curve without the points below zero strain at its start and at its end; `None`
-    /// where fewer than two points are left.
+    /// Returns the curve without the points below zero strain at its start and at its end. Returns
+    /// `None` if fewer than two points remain.
     pub(crate) fn taut(&self) -> Option<Self> {
-        let is_taut = |strain: &f64| *strain >= 0.0;
-        let first = self.deformation.iter().position(is_taut)?;
-        let last = self.deformation.iter().rposition(is_taut)?;
+        let first = self.deformation.iter().position(|&strain| strain >= 0.0)?;
+        let last = self.deformation.iter().rposition(|&strain| strain >= 0.0)?;
         if last <= first {
             return None;
         }
@@ -206,7 +211,8 @@ impl Curve {
         Some(curve)
     }
 
-    /// Returns the curve with other points; their times are known only if there are as many.
+    /// Returns the curve with other `points`. The times are kept only if the number of points is
+    /// unchanged.
     pub(crate) fn with_points(mut self, points: Vec<Point>) -> Self {
         self.time = self.time.filter(|time| time.len() == points.len());
         self.deformation = points.iter().map(|point| point.deformation).collect();
@@ -214,44 +220,45 @@ impl Curve {
         self
     }
 
-    /// Returns the deformation at each point, in SI: see [`Test`].
+    /// Returns the deformation at each point, in SI; see [`Test`].
     #[must_use]
     pub fn deformation(&self) -> &[f64] {
         &self.deformation
     }
 
-    /// Returns the load per width at each point, in SI: see [`Test`].
+    /// Returns the load per width at each point, in SI; see [`Test`].
     #[must_use]
     pub fn load(&self) -> &[f64] {
         &self.load
     }
 
-    /// Returns the curves that this one is the mean of; none where it was measured once.
+    /// Returns the curves of which this curve is the mean. The slice is empty for a curve measured
+    /// once.
     #[must_use]
     pub fn repeats(&self) -> &[Self] {
         &self.repeats
     }
 
-    /// Returns the standard deviation of the load over the repeats at each point, in SI; empty where
-    /// the curve was measured once.
+    /// Returns the standard deviation of the load over the repeats at each point, in SI. The slice
+    /// is empty for a curve measured once.
     #[must_use]
     pub fn scatter(&self) -> &[f64] {
         &self.scatter
     }
 
-    /// Returns the lowest and the highest deformation, in SI.
+    /// Returns the [`Extent`] of the deformation, in SI.
     #[must_use]
     pub fn deformation_range(&self) -> Extent {
-        Extent::of(&self.deformation)
+        Extent::from_values(&self.deformation)
     }
 
-    /// Returns the lowest and the highest load, in SI.
+    /// Returns the [`Extent`] of the load, in SI.
     #[must_use]
     pub fn load_range(&self) -> Extent {
-        Extent::of(&self.load)
+        Extent::from_values(&self.load)
     }
 
-    /// Returns the branches of the history, in order.
+    /// Returns each [`Branch`] of the history, in order.
     #[must_use]
     pub fn branches(&self) -> Vec<Branch> {
         let q = self.deformation();
@@ -261,7 +268,8 @@ impl Curve {
             .collect()
     }
 
-    /// Returns the cycles of the history, each a branch with the branch back, as ranges of points.
+    /// Returns the cycles of the history as ranges of points. A cycle is a branch and the branch
+    /// back.
     #[must_use]
     pub fn cycles(&self) -> Vec<Range<usize>> {
         let branches = self.branches();

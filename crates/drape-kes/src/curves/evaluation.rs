@@ -1,4 +1,4 @@
-//! All KES values of a curve, in laboratory units, each with the reason where there is none.
+//! All KES values of a curve, in laboratory units, each with the reason where it is missing.
 
 use crate::curves::curve::Curve;
 use crate::curves::loop_values::{BendingPoints, ShearPoints};
@@ -32,36 +32,36 @@ pub struct EvaluationPoints {
     pub shear: ShearPoints,
 }
 
-/// KES value read off a curve.
+/// KES value that was read from a curve.
 #[derive(Debug)]
 pub struct CurveValue {
     /// Symbol of the value.
     pub symbol: Symbol,
-    /// Value in the laboratory's unit, or the reason why there is none.
+    /// Value in the laboratory's unit, or the reason why the curve has none.
     pub value: Result<f64, Error>,
 }
 
-/// Relative distance of a curve's largest load from FM up to which its EM, WT, LT and RT are those
-/// of FM.
+/// Largest relative difference between a curve's largest load and FM with which EM, WT, LT and RT
+/// of the curve count as the values at FM.
 ///
-/// Machines overshoot by as much, and EM moves by half of it: less than two specimens differ by.
+/// Machines overshoot by about this part, and EM moves by half of it. Two specimens differ by more.
 pub(crate) const NEAR_MAXIMUM: f64 = 0.05;
 
 impl Curve {
-    /// Reads the KES values of the curve's test, in laboratory units.
+    /// Returns the KES values of the curve's test at `points`, in laboratory units.
     ///
-    /// A loop-bending curve has none: its rigidity takes a model of the arch.
+    /// A loop-bending curve has no value, because its rigidity needs a model of the arch.
     #[must_use]
     pub fn values(&self, points: &EvaluationPoints) -> Vec<CurveValue> {
-        let symbols = Symbol::ALL.into_iter().filter(|symbol| symbol.test() == self.test);
-        let read = |symbol: Symbol| {
-            let value = self.value(symbol, points);
-            CurveValue { symbol, value: value.map(|value| value / symbol.factor()) }
-        };
-        symbols.map(read).collect()
+        let mut values = Vec::new();
+        for symbol in Symbol::ALL.into_iter().filter(|symbol| symbol.test() == self.test) {
+            let value = self.value(symbol, points).map(|value| value / symbol.factor());
+            values.push(CurveValue { symbol, value });
+        }
+        values
     }
 
-    /// Reads one value, in SI.
+    /// Returns the value of `symbol` at `points`, in SI.
     fn value(&self, symbol: Symbol, points: &EvaluationPoints) -> Result<f64, Error> {
         let EvaluationPoints { maximum_tension, bending, shear } = points;
         match symbol {
@@ -74,10 +74,11 @@ impl Curve {
                 if self.slack {
                     return Err(Error::SlackStrip);
                 }
+
                 let values = self.tensile_values()?;
-                let (reached, wanted) = (values.maximum_tension, *maximum_tension);
-                if !((reached / wanted - 1.0).abs() <= NEAR_MAXIMUM) {
-                    return Err(Error::OtherMaximumTension { reached, wanted });
+                let (reached, fm) = (values.maximum_tension, *maximum_tension);
+                if !((reached / fm - 1.0).abs() <= NEAR_MAXIMUM) {
+                    return Err(Error::OtherMaximumTension { reached, fm });
                 }
                 match symbol {
                     Symbol::Lt => Ok(values.linearity),

@@ -4,12 +4,12 @@ use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::test::Test;
 
-/// Curvatures at which B and 2HB are read; sources differ, so they are settings.
+/// Curvatures at which B and 2HB are read. Laboratories differ, so the curvatures are settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BendingPoints {
-    /// Curvatures between which B is the mean slope, in 1/m; 0.5 and 1.5 cm⁻¹ unless set.
+    /// Curvatures between which B is the mean slope, in 1/m. The default is 0.5 and 1.5 cm⁻¹.
     pub slope: [f64; 2],
-    /// Curvature at which 2HB is the width of the loop, in 1/m; 1 cm⁻¹ unless set.
+    /// Curvature at which 2HB is the width of the loop, in 1/m. The default is 1 cm⁻¹.
     pub width: f64,
 }
 
@@ -23,24 +23,27 @@ impl Default for BendingPoints {
 /// Angles at which G, 2HG and 2HG5 are read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearPoints {
-    /// Angles between which G is the mean slope, in rad; 0.5° and 2.5° unless set.
+    /// Angles between which G is the mean slope, in rad. The default is 0.5° and 2.5°.
     pub slope: [f64; 2],
-    /// Angle at which 2HG is the width of the loop, in rad; 0.5° unless set.
+    /// Angle at which 2HG is the width of the loop, in rad. The default is 0.5°.
     pub width: f64,
-    /// Angle at which 2HG5 is the width of the loop, in rad; 5° unless set.
+    /// Angle at which 2HG5 is the width of the loop, in rad. The default is 5°.
     pub wide: f64,
 }
 
 impl Default for ShearPoints {
     /// Returns the points of the standard test.
     fn default() -> Self {
-        let degrees = f64::to_radians;
-        Self { slope: [degrees(0.5), degrees(2.5)], width: degrees(0.5), wide: degrees(5.0) }
+        Self {
+            slope: [0.5_f64.to_radians(), 2.5_f64.to_radians()],
+            width: 0.5_f64.to_radians(),
+            wide: 5.0_f64.to_radians(),
+        }
     }
 }
 
-/// Part of the largest deformation to a side up to which values are read there. At the tip of a loop
-/// its branches meet.
+/// Part of the largest deformation of a side up to which values are read. At the tip of a loop the
+/// branches meet.
 const NEAR_TIP: f64 = 0.95;
 
 /// KES values of a bending loop, in SI.
@@ -63,21 +66,21 @@ pub struct ShearValues {
     pub wide_loop_width: f64,
 }
 
-/// Loads at the last rising and the last falling passage of a deformation.
+/// Loads at the last rising and the last falling passage of one deformation.
 struct Passages {
     rising: f64,
     falling: f64,
 }
 
 impl Curve {
-    /// Reads B and 2HB off a bending loop \[Kaw80\].
+    /// Reads B and 2HB from a bending loop at `points` \[Kaw80\].
     ///
-    /// Both are read at ±κ and averaged over the sides that the loop has. The slope is that of the
-    /// line midway between the two branches, which friction does not change once it has reached its
-    /// plateau.
+    /// Both values are read at ±κ and averaged over the sides of the loop. The slope is the slope
+    /// of the line midway between the two branches. Friction does not change this slope after it
+    /// has reached its plateau.
     ///
     /// # Errors
-    /// The curve is of another test, or has no loop at one of the evaluation points.
+    /// The curve is of another test, or has no loop at one of `points`.
     pub fn bending_values(&self, points: &BendingPoints) -> Result<BendingValues, Error> {
         self.expect_test(Test::Bending)?;
         let rigidity = self.loop_slope(points.slope)?;
@@ -85,12 +88,12 @@ impl Curve {
         Ok(BendingValues { rigidity, loop_width })
     }
 
-    /// Reads G, 2HG and 2HG5 off a shear loop \[Kaw80\].
+    /// Reads G, 2HG and 2HG5 from a shear loop at `points` \[Kaw80\].
     ///
-    /// They are read as [`bending_values`](Self::bending_values) reads B and 2HB.
+    /// The values are read in the manner of [`bending_values`](Self::bending_values).
     ///
     /// # Errors
-    /// The curve is of another test, or has no loop at one of the evaluation points.
+    /// The curve is of another test, or has no loop at one of `points`.
     pub fn shear_values(&self, points: &ShearPoints) -> Result<ShearValues, Error> {
         self.expect_test(Test::Shear)?;
         let stiffness = self.loop_slope(points.slope)?;
@@ -99,11 +102,11 @@ impl Curve {
         Ok(ShearValues { stiffness, loop_width, wide_loop_width })
     }
 
-    /// Returns the width of the loop at ±deformation, averaged over the sides that it has, in the
+    /// Returns the width of the loop at ±`deformation`, averaged over the sides of the loop, in the
     /// unit of the load.
     ///
     /// # Errors
-    /// The curve does not pass the point rising and falling on either side.
+    /// The curve does not pass `deformation` rising and falling on either side.
     pub fn loop_width(&self, deformation: f64) -> Result<f64, Error> {
         self.mean_of_sides(deformation, |side| {
             let Passages { rising, falling } = self.passages(side * deformation)?;
@@ -111,56 +114,61 @@ impl Curve {
         })
     }
 
-    /// Returns the slope of the loop's middle line between two deformations, averaged over both
-    /// sides.
+    /// Returns the slope of the loop's middle line between the two deformations `between`, averaged
+    /// over both sides.
     pub(crate) fn loop_slope(&self, between: [f64; 2]) -> Result<f64, Error> {
-        let [from, to] = between;
-        let middle = |q: f64| self.passages(q).map(|p| 0.5 * (p.rising + p.falling));
-        self.mean_of_sides(to, |side| {
-            Some(side * (middle(side * to)? - middle(side * from)?) / (to - from))
-        })
+        self.mean_of_sides(between[1], |side| self.slope_of_side(between, side))
     }
 
-    /// Returns the slopes of the loop's middle line between two deformations, on the positive and on
-    /// the negative side; `None` for half a loop.
+    /// Returns the slopes of the loop's middle line between the two deformations `between`, on the
+    /// positive and on the negative side. Returns `None` for half a loop.
     #[must_use]
     pub fn side_slopes(&self, between: [f64; 2]) -> Option<[f64; 2]> {
-        let [from, to] = between;
-        let middle = |q: f64| self.passages(q).map(|p| 0.5 * (p.rising + p.falling));
-        let slope =
-            |side: f64| Some(side * (middle(side * to)? - middle(side * from)?) / (to - from));
-        Some([slope(1.0)?, slope(-1.0)?])
+        Some([self.slope_of_side(between, 1.0)?, self.slope_of_side(between, -1.0)?])
     }
 
-    fn expect_test(&self, wanted: Test) -> Result<(), Error> {
-        if self.test == wanted {
+    /// Returns the slope of the loop's middle line between the two deformations `between`, on the
+    /// `side` 1 or -1.
+    fn slope_of_side(&self, between: [f64; 2], side: f64) -> Option<f64> {
+        let [from, to] = between;
+        Some(side * (self.middle_load(side * to)? - self.middle_load(side * from)?) / (to - from))
+    }
+
+    /// Returns the load of the loop's middle line at `deformation`.
+    fn middle_load(&self, deformation: f64) -> Option<f64> {
+        self.passages(deformation).map(|passages| 0.5 * (passages.rising + passages.falling))
+    }
+
+    /// Fails if the curve is not of `test`.
+    fn expect_test(&self, test: Test) -> Result<(), Error> {
+        if self.test == test {
             return Ok(());
         }
-        Err(Error::WrongTest { found: self.test.name(), wanted: wanted.name() })
+        Err(Error::WrongTest { given: self.test.name(), needed: test.name() })
     }
 
-    /// Averages a value over the positive and the negative side of the loop.
+    /// Averages the `value` of a side, 1 or -1, over the sides of the loop that reach beyond
+    /// `deformation`.
     fn mean_of_sides(
         &self,
         deformation: f64,
         value: impl Fn(f64) -> Option<f64>,
     ) -> Result<f64, Error> {
         let range = self.deformation_range();
-        let reaches = |side: f64| {
-            let end = if side > 0.0 { range.high } else { -range.low };
-            deformation <= NEAR_TIP * end
-        };
-        let sides: Vec<f64> =
-            [1.0, -1.0].into_iter().filter(|side| reaches(*side)).filter_map(value).collect();
+        let sides: Vec<f64> = [(1.0, range.high), (-1.0, -range.low)]
+            .into_iter()
+            .filter(|(_, end)| deformation <= NEAR_TIP * end)
+            .filter_map(|(side, _)| value(side))
+            .collect();
         if sides.is_empty() {
             return Err(Error::OutOfRange { deformation, low: range.low, high: range.high });
         }
         Ok(sides.iter().sum::<f64>() / sides.len() as f64)
     }
 
-    /// Returns the loads at the last rising and the last falling passage of a deformation.
+    /// Returns the loads at the last rising and the last falling passage of `deformation`.
     ///
-    /// The last ones, because the first cycle of a test starts from rest and is not closed.
+    /// The first cycle of a test starts from rest and is not closed, so the last passages are used.
     fn passages(&self, deformation: f64) -> Option<Passages> {
         let (q, load) = (self.deformation(), self.load());
         let (mut rising, mut falling) = (None, None);

@@ -3,15 +3,13 @@
 use crate::curves::curve::{Curve, Point};
 use crate::error::Error;
 
-/// Difference of two deformations, over their range, up to which they count as the same.
-const SAME_DEFORMATION: f64 = 1e-9;
-
 impl Curve {
-    /// Returns the mean of repeats of one test: curves of further specimens of the fabric.
+    /// Returns the mean of `repeats` of one test: curves of further specimens of the fabric.
     ///
-    /// Repeats at the same deformations are averaged point by point. Others, such as tensile tests
-    /// that end at the same load, are averaged at equal fractions of each branch: deformations and
-    /// loads alike. Noise of the deformations is taken off first ([`Curve::prepared`]). The repeats stay with the mean ([`Curve::repeats`]).
+    /// Repeats at equal deformations are averaged point by point. Other repeats, such as tensile
+    /// tests that end at one load, are averaged at equal fractions of each branch: deformations and
+    /// loads alike. Noise of the deformations is removed before ([`Curve::prepared`]). The mean
+    /// keeps the repeats ([`Curve::repeats`]).
     ///
     /// ```
     /// use drape_kes::{Curve, Direction, Test};
@@ -27,8 +25,12 @@ impl Curve {
     /// ```
     ///
     /// # Errors
-    /// There is no curve, or the curves have different numbers of branches.
+    /// `repeats` is empty, or the curves have different numbers of branches.
     pub fn mean(repeats: Vec<Self>) -> Result<Self, Error> {
+        /// Difference of two deformations, over their range, up to which the deformations are
+        /// equal.
+        const EQUAL_DEFORMATION: f64 = 1e-9;
+
         let repeats: Vec<Self> =
             repeats.iter().map(|curve| curve.prepared().into_owned()).collect();
         let Some(first) = repeats.first().cloned() else {
@@ -37,57 +39,67 @@ impl Curve {
         if repeats.len() == 1 {
             return Ok(first);
         }
-        let branches = first.branches();
-        for (index, other) in repeats.iter().enumerate() {
-            let (found, wanted) = (other.branches().len(), branches.len());
-            if found != wanted {
-                return Err(Error::UnlikeRepeats { repeat: index + 1, found, wanted });
+        let expected = first.branches().len();
+        for (index, repeat) in repeats.iter().enumerate() {
+            let branches = repeat.branches().len();
+            if branches != expected {
+                return Err(Error::UnlikeRepeats { repeat: index + 1, branches, expected });
             }
         }
-        let span = first.deformation_range().span();
-        let same = |other: &Self| {
-            other.deformation().len() == first.deformation().len()
-                && other
-                    .deformation()
+
+        // Repeats at the deformations of the first curve need no interpolation.
+        let tolerance = EQUAL_DEFORMATION * first.deformation_range().span();
+        let have_equal_deformations = repeats.iter().all(|repeat| {
+            let deformation = repeat.deformation();
+            deformation.len() == first.deformation().len()
+                && deformation
                     .iter()
                     .zip(first.deformation())
-                    .all(|(a, b)| (a - b).abs() <= SAME_DEFORMATION * span)
-        };
-        let sampled: Vec<Vec<Point>> = if repeats.iter().all(same) {
+                    .all(|(a, b)| (a - b).abs() <= tolerance)
+        });
+        let sampled: Vec<Vec<Point>> = if have_equal_deformations {
             repeats.iter().map(|curve| curve.points().collect()).collect()
         } else {
-            repeats.iter().map(|curve| sampled_as(&first, curve)).collect()
+            repeats.iter().map(|curve| sample_like(&first, curve)).collect()
         };
+
         let count = repeats.len() as f64;
-        let of_point = |index: usize| {
-            let all = || sampled.iter().map(move |points| points[index]);
-            let deformation = all().map(|point| point.deformation).sum::<f64>() / count;
-            let load = all().map(|point| point.load).sum::<f64>() / count;
-            let square = all().map(|point| (point.load - load).powi(2)).sum::<f64>();
-            (Point { deformation, load }, (square / (count - 1.0)).sqrt())
-        };
-        let (points, scatter) = (0..sampled[0].len()).map(of_point).unzip();
+        let mut points = Vec::with_capacity(sampled[0].len());
+        let mut scatter = Vec::with_capacity(sampled[0].len());
+        for index in 0..sampled[0].len() {
+            let at_index: Vec<Point> = sampled.iter().map(|points| points[index]).collect();
+            let deformation = at_index.iter().map(|point| point.deformation).sum::<f64>() / count;
+            let load = at_index.iter().map(|point| point.load).sum::<f64>() / count;
+            let square = at_index.iter().map(|point| (point.load - load).powi(2)).sum::<f64>();
+            points.push(Point { deformation, load });
+            scatter.push((square / (count - 1.0)).sqrt());
+        }
         let mut mean = first.with_points(points);
         (mean.repeats, mean.scatter) = (repeats, scatter);
         Ok(mean)
     }
 }
 
-/// Returns the points of a curve at the fractions of its branches at which another was measured.
-fn sampled_as(pattern: &Curve, curve: &Curve) -> Vec<Point> {
+/// Returns points of `curve` at the fractions of its branches at which `pattern` was measured.
+fn sample_like(pattern: &Curve, curve: &Curve) -> Vec<Point> {
     let mut sampled = Vec::with_capacity(pattern.load().len());
-    for (index, (own, other)) in pattern.branches().iter().zip(curve.branches()).enumerate() {
+    let branches = pattern.branches().into_iter().zip(curve.branches());
+    for (index, (pattern_branch, branch)) in branches.enumerate() {
         let points: Vec<Point> =
-            curve.points().skip(other.points.start).take(other.points.len()).collect();
-        let fractions = fractions(&points);
-        let wanted: Vec<Point> =
-            pattern.points().skip(own.points.start).take(own.points.len()).collect();
+            curve.points().skip(branch.points.start).take(branch.points.len()).collect();
+        let pattern_points: Vec<Point> = pattern
+            .points()
+            .skip(pattern_branch.points.start)
+            .take(pattern_branch.points.len())
+            .collect();
+        let reached = fractions(&points);
         let (start, end) = (points[0].deformation, points[points.len() - 1].deformation);
+
         // A reversal is the last point of the branch before.
-        for fraction in self::fractions(&wanted).into_iter().skip(usize::from(index > 0)) {
-            let after = fractions.partition_point(|&other| other < fraction);
+        for fraction in fractions(&pattern_points).into_iter().skip(usize::from(index > 0)) {
+            let after = reached.partition_point(|&reached| reached < fraction);
             let after = after.clamp(1, points.len() - 1);
-            let (a, b) = (fractions[after - 1], fractions[after]);
+            let (a, b) = (reached[after - 1], reached[after]);
             let part = if b > a { ((fraction - a) / (b - a)).clamp(0.0, 1.0) } else { 1.0 };
             let load =
                 points[after - 1].load + part * (points[after].load - points[after - 1].load);
@@ -97,15 +109,16 @@ fn sampled_as(pattern: &Curve, curve: &Curve) -> Vec<Point> {
     sampled
 }
 
-/// Returns the fraction of the branch that each of its points has reached; it never falls.
+/// Returns the fraction of the branch that each of `points` has reached. The fractions never fall.
 fn fractions(points: &[Point]) -> Vec<f64> {
     let (start, end) = (points[0].deformation, points[points.len() - 1].deformation);
     let mut reached = 0.0_f64;
-    let of_point = |point: &Point| {
+    let mut fractions = Vec::with_capacity(points.len());
+    for point in points {
         reached = reached.max(((point.deformation - start) / (end - start)).clamp(0.0, 1.0));
-        reached
-    };
-    points.iter().map(of_point).collect()
+        fractions.push(reached);
+    }
+    fractions
 }
 
 #[cfg(test)]
@@ -137,6 +150,6 @@ mod tests {
         let line = vec![0.0, 0.02, 0.04];
         let loading = Curve::new(Test::Tensile, Direction::Warp, line.clone(), line).unwrap();
         let error = Curve::mean(vec![strip(0.04, 20), loading]).unwrap_err();
-        assert!(matches!(error, Error::UnlikeRepeats { repeat: 2, found: 1, wanted: 2 }));
+        assert!(matches!(error, Error::UnlikeRepeats { repeat: 2, branches: 1, expected: 2 }));
     }
 }

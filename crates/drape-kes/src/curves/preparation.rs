@@ -1,15 +1,15 @@
-//! What was done to a curve before a law is fitted to it.
+//! Changes of a curve before a law is fitted to it.
 
 use crate::curves::steady::SteadyPath;
 
-/// What was done to a curve before a law is fitted to it, and what it is.
+/// Changes of a curve before a law is fitted to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preparation {
-    /// Break of the strip, whose points after it were left out.
+    /// Break of the strip. The points after the break were removed.
     pub rupture: Option<Rupture>,
-    /// What was done to the path of the deformation; `None` where it is as measured.
+    /// Change of the path of the deformation; `None` for a path as measured.
     pub path: Option<SteadyPath>,
-    /// Whether the zero of its strain was given, so that nothing need be said of it.
+    /// Whether the zero of strain was given, so that no remark on the zero is needed.
     pub zero_is_given: bool,
 }
 
@@ -20,6 +20,6 @@ pub struct Rupture {
     pub strain: f64,
     /// Load per width at the break, in N/m.
     pub load: f64,
-    /// Number of points after it.
+    /// Number of points after the break.
     pub points_after: usize,
 }

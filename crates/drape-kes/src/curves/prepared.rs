@@ -1,4 +1,4 @@
-//! A curve as a law is fitted to it: without the points after a break, and with a steady path.
+//! Preparation of a curve for a fit: points after a break are removed, and the path is made steady.
 
 use std::borrow::Cow;
 
@@ -7,42 +7,43 @@ use crate::curves::preparation::{Preparation, Rupture};
 use crate::curves::steady::{Line, SteadyPath, steady_path};
 use crate::test::Test;
 
-/// Fall of the load over its largest value, on a strip that is stretched further, that is a break.
+/// Fall of the load, over its largest value, that is a break of a strip under further strain.
 ///
-/// Yarns that slip or break one by one make the load of a strip step down by less.
+/// Yarns that slip or break one by one let the load step down by less.
 const BREAK_FALL: f64 = 0.5;
 /// Part of the largest load of the curve that a strip must have carried before it can break.
 const BREAK_LOAD: f64 = 0.3;
-/// Strain over the largest strain within which the load of a recovery that is none vanishes.
+/// Strain, over the largest strain, within which the load vanishes after a break at the largest
+/// strain.
 const SUDDEN: f64 = 0.005;
-/// Step of a recovery over [`SUDDEN`] beyond which it does not tell how the load fell.
+/// Longest step of a recovery, over [`SUDDEN`], whose fall of the load can show a break.
 const SHORT: f64 = 4.0;
 /// Load over the largest load below which the load has vanished.
 const VANISHED: f64 = 0.1;
 
 /// Part of its range of loads above which the first load of a tensile test is a pretension.
 const PRETENSION: f64 = 0.02;
-/// Number of points whose line tells the load at the start.
+/// Number of points of the line that gives the load at the start.
 const START_POINTS: usize = 8;
-/// Load at the start over its error that is no chance.
+/// Load at the start, over its error, that is not due to chance.
 const CERTAIN: f64 = 4.0;
-/// Part of its range of loads below which a load is none.
+/// Part of the range of loads below which a load counts as zero.
 const NO_LOAD: f64 = 0.005;
-/// Part of the largest strain over which a load of none may be slack.
+/// Part of the largest strain over which a load of zero may mean a slack strip.
 const FLAT_START: f64 = 0.15;
 
-/// Part of the standard test's deformation that a loop should reach.
+/// Part of the standard test's deformation that a complete loop reaches.
 const REACHED: f64 = 0.9;
-/// Largest deformation to one side, over that to the other side, of half a loop.
+/// Largest deformation to one side, over the largest deformation to the other side, of half a loop.
 const HALF: f64 = 0.1;
 
 impl Curve {
-    /// Returns the curve as a law is fitted to it, with what was done and found.
+    /// Returns the curve prepared for a fit. [`Curve::preparation`] holds the changes.
     ///
-    /// The points after the break of a strip are left out. The deformation moves one way between its
-    /// turns: a turn is a reversal by more than the noise of the deformation explains, and the path
-    /// between two turns is smoothed and made monotone where it turns back. A prepared curve is
-    /// returned unchanged. [`Curve::preparation`] tells what was done.
+    /// The points after the break of a strip are removed. The deformation moves in one direction
+    /// between its turns. A turn is a reversal larger than the noise of the deformation. A path
+    /// that moves back between two turns is smoothed and made monotone. A prepared curve is
+    /// returned unchanged.
     ///
     /// ```
     /// use drape_kes::{Curve, Direction, Test};
@@ -66,27 +67,29 @@ impl Curve {
         }
         let mut curve = self.clone();
         curve.repeats = self.repeats.iter().map(|c| c.prepared().into_owned()).collect();
+
         let path = curve.make_steady();
-        let rupture = rupture(&curve);
+        let rupture = find_rupture(&curve);
         if let Some(rupture) = rupture {
             let kept = curve.load().len() - rupture.points_after;
             let points: Vec<Point> = curve.points().take(kept).collect();
             curve = curve.with_points(points);
         }
+
         curve.set_preparation(Preparation { rupture, path, zero_is_given: false });
         Cow::Owned(curve)
     }
 
-    /// Returns whether a tensile test begins under a load: the strain at which the strip carries
-    /// nothing is then unknown, unless it was given.
+    /// Returns whether a tensile test begins under a load. The strain without load is then unknown,
+    /// unless it was given to the sheet.
     #[must_use]
     pub fn has_pretension(&self) -> bool {
         let is_given = self.preparation().is_some_and(|done| done.zero_is_given);
         self.test == Test::Tensile && !self.slack && !is_given && self.begins_loaded()
     }
 
-    /// Returns whether the line through the first points begins above zero load, by more than their
-    /// noise explains.
+    /// Returns whether the line through the first [`START_POINTS`] points begins above zero load,
+    /// by more than noise explains.
     fn begins_loaded(&self) -> bool {
         let count = START_POINTS.min(self.load().len());
         let (strain, load) = (&self.deformation()[..count], &self.load()[..count]);
@@ -94,14 +97,15 @@ impl Curve {
         let start = line.at(strain[0]);
         let square: f64 =
             strain.iter().zip(load).map(|(strain, load)| (line.at(*strain) - load).powi(2)).sum();
-        // The end of a line of n points errs by twice their noise over the root of n.
+        // The end of a line of n points errs by twice the noise over the square root of n.
         let freedom = count.saturating_sub(2).max(1) as f64;
         let error = 2.0 * (square / freedom / count as f64).sqrt();
         start > PRETENSION * self.load_range().span() && start > CERTAIN * error
     }
 
-    /// Returns what a reader should know of a prepared curve, a sentence each, without a full stop:
-    /// a break, a noisy deformation, a pretension or a flat start, half a loop, a small loop.
+    /// Returns remarks on a prepared curve, one sentence each without a full stop: a break, a noisy
+    /// deformation, a pretension, a flat start, half a loop or a small loop. A curve that is not
+    /// prepared has no remark.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let Some(Preparation { rupture, path, zero_is_given }) = self.preparation() else {
@@ -115,6 +119,7 @@ impl Curve {
                 100.0 * strain
             ));
         }
+
         if let Some(path) = path {
             remarks.push(path.describe(self.deformation_range().span()));
         }
@@ -125,7 +130,7 @@ impl Curve {
         remarks
     }
 
-    /// Makes the path of the deformation steady; returns what was done.
+    /// Makes the path of the deformation steady. Returns the change, or `None` for a steady path.
     fn make_steady(&mut self) -> Option<SteadyPath> {
         let (deformation, path) = steady_path(self.deformation(), self.time())?;
         self.set_deformation(deformation);
@@ -133,19 +138,14 @@ impl Curve {
     }
 }
 
-/// Returns the break of the strip in a tensile test, if it breaks.
-fn rupture(curve: &Curve) -> Option<Rupture> {
+/// Returns the break of the strip of `curve`, if it is a tensile test that ends with a break.
+fn find_rupture(curve: &Curve) -> Option<Rupture> {
     if curve.test != Test::Tensile {
         return None;
     }
     let (strain, load) = (curve.deformation(), curve.load());
     let start = if curve.slack { curve.load_range().low } else { 0.0 };
-    let all_time = curve.load_range().high - start;
-    let at = |point: usize| Rupture {
-        strain: strain[point],
-        load: load[point],
-        points_after: load.len() - 1 - point,
-    };
+    let largest = curve.load_range().high - start;
     for branch in curve.branches() {
         let points = branch.points.clone();
         if branch.rising {
@@ -156,27 +156,35 @@ fn rupture(curve: &Curve) -> Option<Rupture> {
                     top = i;
                 }
                 let carried = load[top] - start;
-                if carried >= BREAK_LOAD * all_time && load[i] - start < BREAK_FALL * carried {
-                    return Some(at(top));
+                if carried >= BREAK_LOAD * largest && load[i] - start < BREAK_FALL * carried {
+                    return Some(rupture_at(curve, top));
                 }
             }
         } else {
-            // The load is gone as soon as the strip is released.
+            // The load vanishes as soon as the strip is released.
             let top = points.start;
             let carried = load[top] - start;
-            let released = |i: usize| (strain[top] - strain[i]) / strain[top].abs();
-            let Some(next) = points.clone().find(|&i| released(i) >= SUDDEN) else { continue };
-            // Over a long step of a curve of few points the load may fall by friction.
-            let enough = released(next) <= SHORT * SUDDEN && carried >= BREAK_LOAD * all_time;
-            if enough && load[next] - start < VANISHED * carried {
-                return Some(at(top));
+            let mut released = points
+                .map(|i| (i, (strain[top] - strain[i]) / strain[top].abs()))
+                .filter(|(_, released)| *released >= SUDDEN);
+            let Some((next, step)) = released.next() else { continue };
+            // Over a long step of a curve with few points the load may fall by friction.
+            let is_clear = step <= SHORT * SUDDEN && carried >= BREAK_LOAD * largest;
+            if is_clear && load[next] - start < VANISHED * carried {
+                return Some(rupture_at(curve, top));
             }
         }
     }
     None
 }
 
-/// Returns a remark on the zero of strain of a tensile curve.
+/// Returns a break of `curve` at the index `point`.
+fn rupture_at(curve: &Curve, point: usize) -> Rupture {
+    let (strain, load) = (curve.deformation(), curve.load());
+    Rupture { strain: strain[point], load: load[point], points_after: load.len() - 1 - point }
+}
+
+/// Returns a remark on the zero of strain of the tensile `curve`: a pretension, or a flat start.
 fn tensile_remark(curve: &Curve) -> Option<String> {
     if curve.slack {
         return None;
@@ -190,6 +198,8 @@ fn tensile_remark(curve: &Curve) -> Option<String> {
             load[0]
         ));
     }
+
+    // A long start without load may be the slack of a strip.
     let taut = load.iter().position(|&load| load > NO_LOAD * span)?;
     let flat = strain[taut] - strain[0];
     (flat > FLAT_START * curve.deformation_range().span()).then(|| {
@@ -203,7 +213,8 @@ fn tensile_remark(curve: &Curve) -> Option<String> {
     })
 }
 
-/// Returns a remark on a loop that is half a loop, or smaller than the loop of the standard test.
+/// Returns a remark on a `curve` that is half a loop, or that is smaller than the loop of the
+/// standard test.
 fn loop_remark(curve: &Curve) -> Option<String> {
     let standard = curve.test.standard_deformation()?;
     let range = curve.deformation_range();
@@ -214,6 +225,7 @@ fn loop_remark(curve: &Curve) -> Option<String> {
     if !to_one_side && !short {
         return None;
     }
+
     let (reach, standard) = (curve.test.describe(reaches), curve.test.describe(standard));
     let what = if to_one_side { "half a loop, to one side" } else { "a loop" };
     let goes = if short {

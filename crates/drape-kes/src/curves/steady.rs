@@ -1,53 +1,54 @@
-//! Path of a deformation between its turns, freed from the noise of its sensor.
+//! Removes the noise of a sensor from the path of a deformation between its turns.
 //!
-//! A fabric has memory, so every small step back of a noisy deformation would work like a cycle of
-//! its friction. Between two turns a test moves one way: the path is smoothed along the points, or
-//! along the time where it is known, and made monotone by isotonic regression \[BBBB72\].
+//! A fabric has memory, so each small step back of a noisy deformation would work as a cycle of the
+//! fabric's friction. Between two turns a test moves in one direction. The path is smoothed along
+//! the points, or along the time if it is known, and made monotone by isotonic regression
+//! \[BBBB72\].
 
 use crate::curves::branch::{REVERSAL_THRESHOLD, reversals_beyond};
+use crate::curves::curve::Extent;
 
-/// Median of the absolute value of a normal variate of unit deviation.
-const NORMAL_MEDIAN: f64 = 0.6745;
-
-/// Part of the steps that go back from which on the path is smoothed; with fewer it is made monotone
-/// only.
+/// Part of the steps that go back above which the path is smoothed. With fewer backward steps the
+/// path is only made monotone.
 const NOISY: f64 = 0.02;
 
-/// Part of the range of a deformation that a branch covers which is no noise.
+/// Part of the range of a deformation above which the extent of a branch is not noise.
 const CLEAR: f64 = 0.05;
 
-/// Trend over a window of the smoothing over the error of its mean.
+/// Change of the deformation over a smoothing window, relative to the error of the window's mean.
 ///
-/// With this much, the smoothed path hardly turns back, and the windows stay short against a branch.
+/// With this ratio the smoothed path hardly turns back, and the windows stay short relative to a
+/// branch.
 const TREND: f64 = 8.0;
 
-/// Least number of points on each side of a point in a window.
+/// Least number of points of a window on each side of its centre.
 const LEAST_HALF: usize = 2;
 
-/// Largest part of a branch on each side of a point in a window. A longer window would blur a change
-/// of the rate of the test.
+/// Largest part of a branch in a window on each side of its centre. A longer window would blur a
+/// change of the rate of the test.
 const LARGEST_HALF: f64 = 0.05;
 
-/// What was done to the path of a curve's deformation.
+/// Changes of the path of a curve's deformation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteadyPath {
     /// Number of steps that went back against their branch.
     pub backward_steps: usize,
-    /// Largest such step, in the unit of the deformation, in SI.
+    /// Largest backward step, in the unit of the deformation in SI.
     pub largest_step: f64,
     /// Standard deviation of the noise of the deformation, in SI.
     pub noise: f64,
     /// Number of turns between the branches.
     pub turns: usize,
-    /// Whether the path was smoothed; otherwise it was made monotone only.
+    /// Whether the path was smoothed. Otherwise the path was only made monotone.
     pub smoothed: bool,
 }
 
 impl SteadyPath {
-    /// Returns what was done in words, for a deformation that covers a `span`, in SI.
+    /// Returns the changes in words, for a deformation whose range has the width `span`, in SI.
     #[must_use]
     pub fn describe(&self, span: f64) -> String {
         let Self { backward_steps, largest_step, turns, smoothed, .. } = *self;
+
         let times =
             if backward_steps == 1 { "once".to_owned() } else { format!("{backward_steps} times") };
         let percent = 100.0 * largest_step / span;
@@ -59,6 +60,7 @@ impl SteadyPath {
             1 => "on both sides of its turn".to_owned(),
             _ => format!("between its {turns} turns"),
         };
+
         format!(
             "the deformation turns back {times}, by {most} % of its range; its path was {verb} \
              {between}"
@@ -66,17 +68,18 @@ impl SteadyPath {
     }
 }
 
-/// Returns a history that moves one way between its turns, and what was done; `None` where there is
-/// nothing to do.
+/// Returns the deformations `q` moved to a path that moves in one direction between its turns, and
+/// the changes. Returns `None` if `q` needs no change. The `time` of each point is used if it is
+/// known.
 pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, SteadyPath)> {
-    let range = q.iter().fold([q[0], q[0]], |[low, high], &q| [low.min(q), high.max(q)]);
-    if turns_only_at_ends(q) {
+    let span = Extent::from_values(q).span();
+    if has_clear_branches(q, span) {
         return None;
     }
-    let noise = noise(q);
-    let threshold = (REVERSAL_THRESHOLD * (range[1] - range[0])).max(excursion(noise, q.len()));
+    let noise = noise_of(q);
+    let threshold = (REVERSAL_THRESHOLD * span).max(noise_excursion(noise, q.len()));
     let turns = reversals_beyond(q, threshold);
-    let (backward_steps, largest_step) = steps_back(q, &turns);
+    let (backward_steps, largest_step) = backward_steps(q, &turns);
     if backward_steps == 0 {
         return None;
     }
@@ -86,7 +89,8 @@ pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, 
         Some(time) => time.to_vec(),
         None => (0..q.len()).map(|i| i as f64).collect(),
     };
-    let turns = if smoothed { vertices(&abscissa, q, &turns, noise) } else { turns };
+    let turns = if smoothed { move_turns(&abscissa, q, &turns, noise) } else { turns };
+
     let mut path = q.to_vec();
     for ends in turns.windows(2) {
         let points = ends[0]..ends[1] + 1;
@@ -105,6 +109,7 @@ pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, 
             path[ends[0]] = 0.5 * (before + branch[0]);
         }
     }
+
     // The mean at a turn must not undo the order of its neighbours.
     for ends in turns.windows(2) {
         let rising = q[ends[1]] > q[ends[0]];
@@ -114,22 +119,24 @@ pub(crate) fn steady_path(q: &[f64], time: Option<&[f64]>) -> Option<(Vec<f64>, 
     Some((path, SteadyPath { backward_steps, largest_step, noise, turns, smoothed }))
 }
 
-/// Returns whether every branch covers a good part of the range: then nothing goes back that could be
-/// noise, and steps of a curve of few points are not taken for noise.
-fn turns_only_at_ends(q: &[f64]) -> bool {
-    let range = q.iter().fold([q[0], q[0]], |[low, high], &q| [low.min(q), high.max(q)]);
-    let least = CLEAR * (range[1] - range[0]);
+/// Returns whether every branch of `q` covers a clear part of `span`. Such a history has no noise:
+/// coarse steps of a curve with few points are no noise.
+fn has_clear_branches(q: &[f64], span: f64) -> bool {
+    let least = CLEAR * span;
     let turns = reversals_beyond(q, 0.0);
     turns.windows(2).all(|ends| (q[ends[1]] - q[ends[0]]).abs() >= least)
 }
 
-/// Returns the standard deviation of the noise of a history that moves at a steady rate but for its
-/// turns.
+/// Returns the standard deviation of the noise of `q`, a history that moves at a steady rate except
+/// at its turns.
 ///
-/// It follows from the median of the second differences, whose variance is six times that of the
-/// noise. A sensor of coarse steps has a median of zero: there the mean square of all but the largest
-/// hundredth counts.
-fn noise(q: &[f64]) -> f64 {
+/// The deviation follows from the median of the second differences, whose variance is six times the
+/// variance of the noise. A sensor with coarse steps has a median of zero. Then the mean square of
+/// all second differences except the largest hundredth is used.
+fn noise_of(q: &[f64]) -> f64 {
+    /// Median of the absolute value of a normal variate of unit deviation.
+    const NORMAL_MEDIAN: f64 = 0.6745;
+
     let mut second: Vec<f64> =
         q.windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs()).collect();
     if second.is_empty() {
@@ -143,15 +150,18 @@ fn noise(q: &[f64]) -> f64 {
     deviation / 6_f64.sqrt()
 }
 
-/// Returns the largest distance between two of `count` noisy points that chance explains.
+/// Returns the largest distance between two of `count` points that the standard deviation `noise`
+/// explains.
 ///
-/// The largest of `$n$` normal variates is about `$\sqrt{2\ln n}$`, and as far below.
-fn excursion(noise: f64, count: usize) -> f64 {
+/// The largest of `$n$` normal variates is about `$\sqrt{2\ln n}$`, and the smallest is its
+/// negative.
+fn noise_excursion(noise: f64, count: usize) -> f64 {
     noise * (2.0 * (2.0 * (count as f64).ln()).sqrt() + 1.0)
 }
 
-/// Returns the number of steps that go back against their branch, and the largest of them.
-fn steps_back(q: &[f64], turns: &[usize]) -> (usize, f64) {
+/// Returns the number of steps of `q` that go back against their branch between two `turns`, and
+/// the largest such step.
+fn backward_steps(q: &[f64], turns: &[usize]) -> (usize, f64) {
     let mut count = 0;
     let mut largest = 0.0_f64;
     for ends in turns.windows(2) {
@@ -167,37 +177,43 @@ fn steps_back(q: &[f64], turns: &[usize]) -> (usize, f64) {
     (count, largest)
 }
 
-/// Returns the turns moved to where the lines through the points before and after them meet.
+/// Returns `turns` of `q` moved to the points where the lines through the points before and after
+/// meet.
 ///
-/// The extreme of noisy points is the one with the largest noise, and lies anywhere near the turn.
-fn vertices(abscissa: &[f64], q: &[f64], turns: &[usize], noise: f64) -> Vec<usize> {
-    let mut moved = turns.to_vec();
-    for k in 1..turns.len().saturating_sub(1) {
-        let (before, turn, after) = (turns[k - 1], turns[k], turns[k + 1]);
-        let reach = |points: usize| half_window(points, (q[turn] - q[before]).abs(), noise) * 2;
-        let left = reach(turn - before).min(turn - before);
-        let right = reach(after - turn).min(after - turn);
-        // Each place within the reach is tried as the corner of two lines.
-        let window = turn - left..turn + right + 1;
-        let candidates = turn - left / 2..turn + right / 2 + 1;
-        let error = |corner: usize| {
-            line_error(abscissa, q, window.start..corner + 1)
-                + line_error(abscissa, q, corner..window.end)
-        };
-        let best = candidates.min_by(|&a, &b| error(a).total_cmp(&error(b)));
-        moved[k] = best.unwrap_or(turn);
+/// The extreme of noisy points is the point with the largest noise, and may lie anywhere near the
+/// turn.
+fn move_turns(abscissa: &[f64], q: &[f64], turns: &[usize], noise: f64) -> Vec<usize> {
+    let mut moved_turns = turns.to_vec();
+    for index in 1..turns.len().saturating_sub(1) {
+        let (before, turn, after) = (turns[index - 1], turns[index], turns[index + 1]);
+        // The lines are fitted to twice the half window of smoothing on each side.
+        let span = (q[turn] - q[before]).abs();
+        let reach_before = (half_window(turn - before, span, noise) * 2).min(turn - before);
+        let reach_after = (half_window(after - turn, span, noise) * 2).min(after - turn);
+
+        // Each point within half the reach is tried as the corner of two lines.
+        let window = turn - reach_before..turn + reach_after + 1;
+        let candidates = turn - reach_before / 2..turn + reach_after / 2 + 1;
+        let errors = candidates.map(|corner| {
+            let error = line_error(abscissa, q, window.start..corner + 1)
+                + line_error(abscissa, q, corner..window.end);
+            (corner, error)
+        });
+        let best = errors.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        moved_turns[index] = best.map_or(turn, |(corner, _)| corner);
     }
-    moved
+    moved_turns
 }
 
-/// Returns the sum of squared distances of points from their line of least squares.
+/// Returns the sum of squared distances of the `points` of `x` and `y` from their least-squares
+/// line.
 fn line_error(x: &[f64], y: &[f64], points: std::ops::Range<usize>) -> f64 {
     let (x, y) = (&x[points.clone()], &y[points]);
     let line = Line::through(x, y);
     x.iter().zip(y).map(|(x, y)| (line.at(*x) - y).powi(2)).sum()
 }
 
-/// Straight line, from the mean of its points.
+/// Straight line through the mean of its points.
 pub(crate) struct Line {
     x: f64,
     y: f64,
@@ -205,24 +221,26 @@ pub(crate) struct Line {
 }
 
 impl Line {
+    /// Returns the least-squares line through the points of `x` and `y`.
     pub(crate) fn through(x: &[f64], y: &[f64]) -> Self {
         let count = x.len() as f64;
-        let (mx, my) = (x.iter().sum::<f64>() / count, y.iter().sum::<f64>() / count);
+        let (mean_x, mean_y) = (x.iter().sum::<f64>() / count, y.iter().sum::<f64>() / count);
         let (mut xx, mut xy) = (0.0, 0.0);
         for (x, y) in x.iter().zip(y) {
-            xx += (x - mx) * (x - mx);
-            xy += (x - mx) * (y - my);
+            xx += (x - mean_x) * (x - mean_x);
+            xy += (x - mean_x) * (y - mean_y);
         }
-        Self { x: mx, y: my, slope: if xx > 0.0 { xy / xx } else { 0.0 } }
+        Self { x: mean_x, y: mean_y, slope: if xx > 0.0 { xy / xx } else { 0.0 } }
     }
 
+    /// Returns the ordinate at `x`.
     pub(crate) fn at(&self, x: f64) -> f64 {
         self.y + self.slope * (x - self.x)
     }
 }
 
-/// Returns the number of points on each side of a point in a window, for a branch of some `points`
-/// that covers a `span`.
+/// Returns the number of points of a window on each side of its centre, for a branch of `points`
+/// points that covers `span`.
 ///
 /// Over a window of `$m$` points the path moves by `$m$` steps, and the mean of the window errs by
 /// `$\sigma/\sqrt m$`.
@@ -233,20 +251,23 @@ fn half_window(points: usize, span: f64, noise: f64) -> usize {
     (0.5 * needed).ceil().clamp(LEAST_HALF as f64, most as f64) as usize
 }
 
-/// Returns the points of one branch, each replaced by the line through the points around it.
+/// Returns the ordinates `y` of one branch, each replaced by the line through the points of its
+/// window.
 fn smooth(x: &[f64], y: &[f64], noise: f64) -> Vec<f64> {
     let last = y.len() - 1;
     let half = half_window(y.len(), (y[last] - y[0]).abs(), noise);
-    let at = |i: usize| {
-        // At an end of the branch the window reaches to one side only, as far as elsewhere.
+    let mut smoothed = Vec::with_capacity(y.len());
+    for (i, &x_i) in x.iter().enumerate() {
+        // At an end of the branch the window reaches to one side only, and keeps its length.
         let start = i.saturating_sub(half).min(last.saturating_sub(2 * half));
         let end = (start + 2 * half).min(last).max((i + half).min(last));
-        Line::through(&x[start..=end], &y[start..=end]).at(x[i])
-    };
-    (0..y.len()).map(at).collect()
+        smoothed.push(Line::through(&x[start..=end], &y[start..=end]).at(x_i));
+    }
+    smoothed
 }
 
-/// Replaces values by the nearest that never turn back, by pooling neighbours that do.
+/// Replaces `values` by the nearest values that never turn back. Neighbours that turn back are
+/// pooled.
 fn make_monotone(values: &mut [f64], rising: bool) {
     // Each pool has a mean and a size.
     let mut pools: Vec<(f64, usize)> = Vec::with_capacity(values.len());
@@ -326,7 +347,7 @@ mod tests {
         let mut random = Random(3);
         let q: Vec<f64> =
             wave(&[0.0, 1.0, 0.0], 2000).iter().map(|q| q + 2e-3 * random.normal()).collect();
-        assert!((noise(&q) / 2e-3 - 1.0).abs() < 0.1, "{}", noise(&q));
+        assert!((noise_of(&q) / 2e-3 - 1.0).abs() < 0.1, "{}", noise_of(&q));
     }
 
     #[test]

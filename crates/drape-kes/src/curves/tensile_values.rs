@@ -13,14 +13,14 @@ pub struct TensileValues {
     pub extension: f64,
     /// WT: work per area up to the largest load, in J/m².
     pub work: f64,
-    /// LT: work over that of a straight line to the largest load, a ratio.
+    /// LT: work over the work of a straight line to the largest load, a ratio.
     pub linearity: f64,
     /// RT: work recovered down to zero load over the work spent, a ratio; `None` without recovery.
     pub resilience: Option<f64>,
 }
 
 impl Curve {
-    /// Reads EM, WT, LT and RT off the first cycle of a tensile curve \[Kaw80\].
+    /// Reads EM, WT, LT and RT from the first cycle of a tensile curve \[Kaw80\].
     ///
     /// ```math
     /// W = \int_0^{\varepsilon_m} F\,d\varepsilon,\qquad
@@ -28,14 +28,14 @@ impl Curve {
     /// RT = \frac1W\int_{\varepsilon_m}^{F=0} F\,d\varepsilon
     /// ```
     ///
-    /// Strain and load count from the first point, and the integrals are trapezoids between points.
+    /// Strain counts from the first point, and the integrals are trapezoids between points.
     ///
     /// # Errors
     /// The curve is of another test, or its first branch does not rise.
     pub fn tensile_values(&self) -> Result<TensileValues, Error> {
         if self.test != Test::Tensile {
-            let (found, wanted) = (self.test.name(), Test::Tensile.name());
-            return Err(Error::WrongTest { found, wanted });
+            let (given, needed) = (self.test.name(), Test::Tensile.name());
+            return Err(Error::WrongTest { given, needed });
         }
         let branches = self.branches();
         let (strain, load) = (self.deformation(), self.load());
@@ -44,25 +44,27 @@ impl Curve {
             let range = self.deformation_range();
             return Err(Error::OutOfRange { deformation: first, low: range.low, high: range.high });
         };
+
         let top = loading.points.end - 1;
         let (maximum_tension, extension) = (load[top], strain[top] - first);
         let work = work(&strain[..=top], &load[..=top]);
         let resilience = branches.get(1).map(|recovery| {
             let (strain, load) = (&strain[recovery.points.clone()], &load[recovery.points.clone()]);
-            recovered(strain, load) / work
+            recovered_work(strain, load) / work
         });
         let linearity = work / (0.5 * maximum_tension * extension);
         Ok(TensileValues { maximum_tension, extension, work, linearity, resilience })
     }
 }
 
-/// Returns the work done on the fabric along some points, by trapezoids.
+/// Returns the work done on the fabric along the points of `strain` and `load`, by trapezoids.
 fn work(strain: &[f64], load: &[f64]) -> f64 {
     strain.windows(2).zip(load.windows(2)).map(|(q, f)| 0.5 * (f[0] + f[1]) * (q[1] - q[0])).sum()
 }
 
-/// Returns the work recovered until the load first reaches zero.
-fn recovered(strain: &[f64], load: &[f64]) -> f64 {
+/// Returns the work recovered along the points of `strain` and `load` until the load first reaches
+/// zero.
+fn recovered_work(strain: &[f64], load: &[f64]) -> f64 {
     let slack = load.iter().position(|&load| load <= 0.0);
     let Some(end) = slack.filter(|&end| end > 0) else {
         return -work(strain, load);

@@ -1,20 +1,20 @@
-//! Files of a laboratory, drafted as sheets.
+//! Sheets drafted from a laboratory's files.
 
 use std::path::{Path, PathBuf};
 
 use drape_input::{Diagnostic, Document, toml_string};
 
 use crate::error::Error;
-use crate::exports::curve_draft::{CurveDraft, plain};
-use crate::exports::fabrics::{OfFabric, by_fabric};
-use crate::exports::files::{Files, is_of_tables, relative};
-use crate::exports::found::OpenDraft;
-use crate::exports::parts::Parts;
+use crate::exports::contents::FileContents;
+use crate::exports::curve_draft::{CurveDraft, single_line};
+use crate::exports::fabrics::{FabricContents, by_fabric};
+use crate::exports::file_curves::OpenDraft;
+use crate::exports::files::{Files, holds_tables, relative};
 use crate::exports::value_lines::value_lines;
-use crate::results::converted::converted;
+use crate::results::converted::convert;
 use crate::sheets::sheet::Sheet;
 
-/// Sheet of one fabric drafted from the files of a laboratory.
+/// Sheet of one fabric, drafted from a laboratory's files.
 ///
 /// ```
 /// use drape_kes::SheetDraft;
@@ -33,63 +33,66 @@ use crate::sheets::sheet::Sheet;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetDraft {
-    /// Name of the fabric: in the files, else of the folder or the file.
+    /// Name of the fabric in the files. Files without a name give the name of the folder or the
+    /// file.
     pub name: String,
     /// Text of the sheet, as TOML with comments.
     pub text: String,
-    /// Curves of the sheet.
+    /// Number of curves of the sheet.
     pub curves: usize,
-    /// KES values of the sheet.
+    /// Number of KES values of the sheet.
     pub values: usize,
-    /// Sections that need a word, written as comments.
+    /// Number of sections that a person has to complete, written as comments.
     pub open: usize,
-    /// What each value was taken for, and where it stands, a line each.
+    /// Source and interpretation of each value, one line per value.
     pub readings: Vec<String>,
-    /// What was assumed, what needs a word, and what was left out, a line each.
+    /// Assumptions, questions and omissions, one line each.
     pub notes: Vec<String>,
     /// Folder of the files, which the sheet may name.
     folder: PathBuf,
 }
 
-/// Folder of the files, and the way to it from the folder of the sheet.
-struct Places<'a> {
+/// Folder of the files, and the path to it from the folder of the sheet.
+struct Folders<'a> {
     folder: &'a Path,
-    way: String,
+    path: String,
 }
 
-impl Places<'_> {
-    /// Returns a draft with the names of its files from the folder of the sheet.
-    fn placed(&self, draft: &CurveDraft) -> CurveDraft {
+impl Folders<'_> {
+    /// Returns `draft` with the names of its files relative to the folder of the sheet.
+    fn with_paths(&self, draft: &CurveDraft) -> CurveDraft {
         let mut draft = draft.clone();
-        if !self.way.is_empty() {
-            draft.files.iter_mut().for_each(|file| *file = format!("{}/{file}", self.way));
+        if !self.path.is_empty() {
+            draft.files.iter_mut().for_each(|file| *file = format!("{}/{file}", self.path));
         }
         draft
     }
 }
 
 impl SheetDraft {
-    /// Drafts the sheets of a workbook, a table, a zip archive, or all exports in a folder and the folders below: one
-    /// for each fabric. `beside` is the folder where the sheets will lie.
+    /// Drafts the sheets of the files at `path`, one sheet per fabric. The `path` is a workbook, a
+    /// table, a zip archive, or a folder whose exports and subfolders are read. `beside` is the
+    /// folder of the sheets.
     ///
     /// # Errors
-    /// The file or the folder cannot be read, or nothing in it is a curve or a value: each file is named with the
-    /// reason.
+    /// The file or the folder cannot be read, or no file holds a curve or a value. The error names
+    /// each file with the reason.
     pub fn of(path: &Path, beside: &Path) -> Result<Vec<Self>, Error> {
-        let files = Files::of(path)?;
-        let parts = Parts::of(&files);
-        if parts.is_empty() {
-            return Err(parts.nothing(path).into());
+        let files = Files::from_path(path)?;
+        let contents = FileContents::from_files(&files);
+        if contents.is_empty() {
+            return Err(contents.nothing(path).into());
         }
-        let places = Places { folder: &files.folder, way: relative(&files.folder, beside) };
-        let fabrics = by_fabric(parts);
-        Ok(fabrics.into_iter().map(|fabric| Self::of_fabric(fabric, &files, &places)).collect())
+        let folders = Folders { folder: &files.folder, path: relative(&files.folder, beside) };
+        let fabrics = by_fabric(contents);
+        Ok(fabrics.into_iter().map(|fabric| Self::draft_fabric(fabric, &files, &folders)).collect())
     }
 
-    /// Drafts the sheet of all exports of one fabric in a folder and the folders below, as [`of`](Self::of) does.
+    /// Drafts the sheet of the exports of one fabric in `folder` and its subfolders, in the manner
+    /// of [`of`](Self::of).
     ///
     /// # Errors
-    /// As for [`of`](Self::of); or the folder holds several fabrics.
+    /// The errors of [`of`](Self::of), or the folder holds several fabrics.
     pub fn of_folder(folder: &Path, beside: &Path) -> Result<Self, Error> {
         let mut drafts = Self::of(folder, beside)?;
         if drafts.len() > 1 {
@@ -101,11 +104,13 @@ impl SheetDraft {
         Ok(drafts.swap_remove(0))
     }
 
-    /// Reads a sheet, a file or the `sheet.toml` of a folder; or drafts and reads the sheet of a workbook, a table, an
-    /// archive or a folder of exports, that of one `fabric` where they hold several.
+    /// Reads the sheet at `path`, a file or a folder with a `sheet.toml`. For other files the sheet
+    /// is drafted and read: a workbook, a table, an archive or a folder of exports. `fabric` names
+    /// the fabric where the files hold several.
     ///
     /// # Errors
-    /// As for [`Sheet::read`] and [`of`](Self::of); or there are several fabrics, and none of them is named.
+    /// The errors of [`Sheet::read`] and [`of`](Self::of), or the files hold several fabrics and
+    /// `fabric` names none of them.
     pub fn sheet(path: &Path, fabric: Option<&str>) -> Result<Sheet, Error> {
         let is_folder = path.is_dir() && !path.join("sheet.toml").exists();
         if !is_folder && !Self::reads(path) {
@@ -116,20 +121,21 @@ impl SheetDraft {
         Self::chosen(drafts, path, fabric)?.read(beside)
     }
 
-    /// Returns the draft of a fabric, or the only one.
+    /// Returns the draft of the `fabric` among `drafts`, or the only draft. `path` is named in the
+    /// error.
     ///
     /// # Errors
-    /// There is no such fabric; or there are several, and none of them is named.
+    /// There is no such fabric, or `fabric` is `None` and there are several.
     pub fn chosen(drafts: Vec<Self>, path: &Path, fabric: Option<&str>) -> Result<Self, Error> {
         let names: Vec<String> = drafts.iter().map(|draft| draft.name.clone()).collect();
-        let found = match fabric {
+        let chosen = match fabric {
             None if drafts.len() == 1 => drafts.into_iter().next(),
             None => None,
-            Some(wanted) => drafts.into_iter().find(|draft| draft.name == wanted),
+            Some(fabric) => drafts.into_iter().find(|draft| draft.name == fabric),
         };
-        found.ok_or_else(|| {
+        chosen.ok_or_else(|| {
             let message = match fabric {
-                Some(wanted) => format!("there is no fabric \"{wanted}\" in it"),
+                Some(fabric) => format!("there is no fabric \"{fabric}\" in it"),
                 None => "it holds several fabrics".to_owned(),
             };
             let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
@@ -138,27 +144,28 @@ impl SheetDraft {
         })
     }
 
-    /// Returns whether a file holds tables, or is an archive of them: a workbook, a text file of one of the usual
-    /// endings, a zip.
+    /// Returns whether `file` holds tables, or is an archive of such files: a workbook, a text file
+    /// with a usual ending, or a zip archive.
     #[must_use]
     pub fn reads(file: &Path) -> bool {
-        is_of_tables(file)
+        holds_tables(file)
     }
 
-    /// Reads the sheet as if it were a file in the folder for which it was drafted; its readings say what each value
-    /// was taken for.
+    /// Reads the sheet as a file in the folder `beside`, for which it was drafted. The readings of
+    /// the sheet name the source of each value.
     ///
     /// # Errors
-    /// As for [`Sheet::from_document`].
+    /// The errors of [`Sheet::from_document`].
     pub fn read(&self, beside: &Path) -> Result<Sheet, Error> {
         let document = Document::new(beside.join("sheet.toml"), self.text.clone());
         self.read_document(document)
     }
 
-    /// Reads a document with the text of the draft, perhaps with values that were set, as [`read`](Self::read) does.
+    /// Reads a `document` with the text of the draft, in the manner of [`read`](Self::read). Values
+    /// of the document may have been changed.
     ///
     /// # Errors
-    /// As for [`Sheet::from_document`].
+    /// The errors of [`Sheet::from_document`].
     pub fn read_document(&self, document: Document) -> Result<Sheet, Error> {
         let allowed: Vec<PathBuf> =
             document.allowed().iter().cloned().chain([self.whole_folder()]).collect();
@@ -167,56 +174,63 @@ impl SheetDraft {
         Ok(sheet)
     }
 
+    /// Returns the folder of the files, `.` for the current folder.
     fn whole_folder(&self) -> PathBuf {
-        let here = self.folder.as_os_str().is_empty();
-        if here { PathBuf::from(".") } else { self.folder.clone() }
+        if self.folder.as_os_str().is_empty() { PathBuf::from(".") } else { self.folder.clone() }
     }
 
-    /// Writes the sheet of one fabric.
-    fn of_fabric(fabric: OfFabric, files: &Files, places: &Places<'_>) -> Self {
-        let OfFabric { name, values, parts } = fabric;
+    /// Drafts the sheet of one `fabric` from `files`.
+    fn draft_fabric(fabric: FabricContents, files: &Files, folders: &Folders<'_>) -> Self {
+        let FabricContents { name, values, contents } = fabric;
         let name = name.unwrap_or_else(|| files.name.clone());
         let mut draft = Self { folder: files.folder.clone(), ..Self::default() };
-        let lines = value_lines(&converted(values), places.folder);
+
+        let value_lines = value_lines(&convert(values), folders.folder);
         let head = format!(
             "# Sheet of {}, drafted by drape. Everything detected is a key\n\
              # with its reason: correct what is wrong. `drape check` reads it, `drape fit` fits it.\n\
              name = {}\n# source = \"who measured it, when, under which licence\"\n",
-            plain(&files.title),
+            single_line(&files.title),
             toml_string(&name)
         );
         draft.name = name;
-        draft.text = head + &lines.text;
-        (draft.values, draft.readings) = (lines.values, lines.readings);
-        draft.notes.extend(lines.notes);
-        draft.add_curves(&parts, places);
-        draft.notes.extend(parts.notes.iter().cloned());
-        if !parts.notes.is_empty() {
+        draft.text = head + &value_lines.text;
+        (draft.values, draft.readings) = (value_lines.values, value_lines.readings);
+        draft.notes.extend(value_lines.notes);
+        draft.add_curves(&contents, folders);
+
+        draft.notes.extend(contents.notes.iter().cloned());
+        if !contents.notes.is_empty() {
             draft.text += "\n# What else the files hold:\n";
-            parts.notes.iter().for_each(|note| draft.text += &format!("#   {}\n", plain(note)));
+            contents
+                .notes
+                .iter()
+                .for_each(|note| draft.text += &format!("#   {}\n", single_line(note)));
         }
-        if !parts.unread.is_empty() {
+        if !contents.unread.is_empty() {
             draft.text += "\n# Files that are not in the sheet:\n";
         }
-        for (file, reason) in &parts.unread {
-            let reason = plain(reason);
-            draft.text += &format!("#   {}: {reason}\n", plain(file));
+        for (file, reason) in &contents.unread {
+            let reason = single_line(reason);
+            draft.text += &format!("#   {}: {reason}\n", single_line(file));
             draft.notes.push(format!("{file} is left out: {reason}"));
         }
         draft
     }
 
-    /// Adds the remarks on a curve to the notes.
+    /// Adds the remarks on `curve` to the notes.
     fn add_remarks(&mut self, curve: &CurveDraft) {
         let files = curve.files.join(", ");
         self.notes.extend(curve.remarks.iter().map(|remark| format!("{files}: {remark}")));
     }
 
-    /// Writes the curves; those that need a word, and those on the bias, as comments.
-    fn add_curves(&mut self, parts: &Parts, places: &Places<'_>) {
-        for curve in &parts.curves {
-            self.text += &format!("\n{}", places.placed(curve).to_toml());
+    /// Writes the curves of `contents`. Curves that a person has to complete, and curves on the
+    /// bias, are written as comments.
+    fn add_curves(&mut self, contents: &FileContents, folders: &Folders<'_>) {
+        for curve in &contents.curves {
+            self.text += &format!("\n{}", folders.with_paths(curve).to_toml());
             let keys = curve.layout.iter().chain(curve.axes.iter().flatten());
+
             let file = curve.files.join(", ");
             let assumed = keys.map(|key| &key.why).chain([&curve.test.why]);
             let assumed = assumed.filter(|why| why.contains("ASSUMED"));
@@ -226,20 +240,22 @@ impl SheetDraft {
             }
             self.add_remarks(curve);
         }
-        (self.curves, self.open) = (parts.curves.len(), parts.open.len());
-        for OpenDraft { draft: curve, reason } in &parts.open {
-            let reason = plain(reason);
+
+        (self.curves, self.open) = (contents.curves.len(), contents.open.len());
+        for OpenDraft { draft: curve, reason } in &contents.open {
+            let reason = single_line(reason);
             self.text += &format!("\n# Not taken: {reason}.\n# Correct and uncomment:\n");
-            self.text += &places.placed(curve).to_comment();
+            self.text += &folders.with_paths(curve).to_comment();
             self.notes.push(format!("{} is not taken: {reason}", curve.files.join(", ")));
             self.add_remarks(curve);
         }
-        for OpenDraft { draft: curve, reason } in &parts.bias {
-            let (reason, files) = (plain(reason), curve.files.join(", "));
+
+        for OpenDraft { draft: curve, reason } in &contents.bias {
+            let (reason, files) = (single_line(reason), curve.files.join(", "));
             self.text += &format!(
                 "\n# Left out: {files}, since {reason}.\n# If it was cut along a yarn, correct and uncomment:\n"
             );
-            self.text += &places.placed(curve).to_comment();
+            self.text += &folders.with_paths(curve).to_comment();
             self.notes.push(format!("{files} is left out: {reason}"));
         }
     }

@@ -1,4 +1,4 @@
-//! Texts near a table, the nearest first, and the test and direction that they name.
+//! Texts near a table, nearest texts first, and the test and direction that they name.
 
 use std::path::Path;
 
@@ -8,39 +8,40 @@ use crate::tables::heading::{self, normal};
 use crate::tables::series::Series;
 use crate::test::{Direction, Test};
 
-/// Value with the reason why it was taken.
+/// Value with the reason for it.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Told<T> {
+pub(crate) struct Reasoned<T> {
     pub(crate) value: T,
     pub(crate) why: String,
 }
 
-/// Texts about a table, the nearest first.
+/// Texts about a table, nearest texts first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Evidence {
-    scopes: Vec<Scope>,
+    texts: Vec<Text>,
     /// Whether a text names the Kawabata instruments.
     pub(crate) is_kes: bool,
     /// Whether a text names an arch between two clamps.
     pub(crate) is_arch: bool,
 }
 
-/// Text with its place, in words.
+/// Text with its place in words.
 #[derive(Clone, Debug)]
-struct Scope {
+struct Text {
     text: String,
     place: String,
-    /// Whether it is the name of the file or of its folder.
+    /// Whether the text is the name of the file or of its folder.
     is_path: bool,
 }
 
-impl Scope {
+impl Text {
+    /// Returns a text that is no name of a file, at `place`.
     fn new(text: String, place: String) -> Self {
         Self { text, place, is_path: false }
     }
 }
 
-/// Words of the key of a line that says the direction.
+/// Words of a key whose value is the direction.
 const DIRECTION_KEYS: [&str; 12] = [
     "direction",
     "richtung",
@@ -55,7 +56,7 @@ const DIRECTION_KEYS: [&str; 12] = [
     "axis",
     "系列",
 ];
-/// Words of the key of a line that says the test.
+/// Words of a key whose value is the test.
 const TEST_KEYS: [&str; 14] = [
     "test",
     "method",
@@ -72,14 +73,14 @@ const TEST_KEYS: [&str; 14] = [
     "measurement",
     "instrument",
 ];
-/// Words of lines about yarns, which name both directions in turn.
-const YARN: [&str; 10] =
+/// Words of lines about yarns. Such a line names both directions in turn.
+const YARN_WORDS: [&str; 10] =
     ["density", "yarn", "count", "ends", "picks", "thread", "faden", "garn", "密度", "糸"];
 /// Words of the Kawabata instruments.
-const KES: [&str; 7] = ["kes", "kesf", "fb1", "fb2", "fb3", "kato", "カトーテック"];
+const KES_WORDS: [&str; 7] = ["kes", "kesf", "fb1", "fb2", "fb3", "kato", "カトーテック"];
 /// Words of an arch between two clamps.
-const ARCH: [&str; 4] = ["loop", "arch", "buckling", "ループ"];
-/// Words of the tests that a sheet takes as values.
+const ARCH_WORDS: [&str; 4] = ["loop", "arch", "buckling", "ループ"];
+/// Words of the tests whose results a sheet takes as values.
 const OTHER_TESTS: [(&str, &[&str]); 2] = [
     (
         "compression",
@@ -89,66 +90,75 @@ const OTHER_TESTS: [(&str, &[&str]); 2] = [
 ];
 
 impl Evidence {
-    /// Collects the texts about a series: its columns, its title, its sheet, the lines above, the
-    /// names of the file and its folder.
-    pub(crate) fn of_series(series: &Series, path: &Path) -> Self {
+    /// Collects the texts about `series`: its columns, its title, its sheet, the lines above, and
+    /// the names of the file and its folder.
+    pub(crate) fn from_series(series: &Series, path: &Path) -> Self {
         let Series { block, pair, around, .. } = series;
-        let mut scopes = Vec::new();
-        let mut add = |text: String, place: String| scopes.push(Scope::new(text, place));
-        add(pair.label.clone(), format!("the title \"{}\" of the columns", pair.label));
-        let names = [pair.deformation, pair.load].map(|column| block.headings.get(column));
-        let names: Vec<&str> = names.into_iter().flatten().map(|h| h.name.as_str()).collect();
+        let headings = [pair.deformation, pair.load].map(|column| block.headings.get(column));
+        let names: Vec<&str> =
+            headings.into_iter().flatten().map(|heading| heading.name.as_str()).collect();
         let names = names.join(" ");
-        add(names.clone(), format!("the headings \"{names}\""));
         let title = block.title();
-        add(title.clone(), format!("the title \"{title}\""));
-        let mut evidence = Self { scopes, ..Self::default() };
+        let texts = vec![
+            Text::new(pair.label.clone(), format!("the title \"{}\" of the columns", pair.label)),
+            Text::new(names.clone(), format!("the headings \"{names}\"")),
+            Text::new(title.clone(), format!("the title \"{title}\"")),
+        ];
+        let mut evidence = Self { texts, ..Self::default() };
         evidence.add_lines(&block.above);
-        evidence.add_place(&block.sheet, &around.rows, path);
+        evidence.add_surroundings(&block.sheet, &around.rows, path);
         evidence
     }
 
-    /// Collects the texts about a whole sheet of a file.
-    pub(crate) fn of_rows(sheet: &str, rows: &[Row], path: &Path) -> Self {
+    /// Collects the texts about a whole `sheet` of the file `path`.
+    pub(crate) fn from_rows(sheet: &str, rows: &[Row], path: &Path) -> Self {
         let mut evidence = Self::default();
-        evidence.add_place(sheet, rows, path);
+        evidence.add_surroundings(sheet, rows, path);
         evidence
     }
 
-    fn add_place(&mut self, sheet: &str, rows: &[Row], path: &Path) {
-        self.scopes.push(Scope::new(parted(sheet), format!("the sheet \"{sheet}\"")));
+    /// Adds the name of the `sheet`, its `rows`, and the names of the file `path` and its folder.
+    fn add_surroundings(&mut self, sheet: &str, rows: &[Row], path: &Path) {
+        self.texts.push(Text::new(split_words(sheet), format!("the sheet \"{sheet}\"")));
         self.add_lines(rows);
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let folder = path.parent().and_then(Path::file_name);
         let folder = folder.map(|name| name.to_string_lossy().into_owned());
+
         for (text, place) in [(stem, "the name of the file"), (folder, "the name of its folder")] {
-            let scope = Scope::new(parted(&text.unwrap_or_default()), place.into());
-            self.scopes.push(Scope { is_path: true, ..scope });
+            let scope = Text::new(split_words(&text.unwrap_or_default()), place.into());
+            self.texts.push(Text { is_path: true, ..scope });
         }
-        let mut words: Vec<String> = self.scopes.iter().map(|scope| normal(&scope.text)).collect();
-        words.extend(rows.iter().map(|row| normal(&of_row(row))));
-        let names =
-            |known: &[&str]| words.iter().any(|text| known.iter().any(|word| has(text, word)));
-        (self.is_kes, self.is_arch) = (names(&KES), names(&ARCH));
+
+        // Words of the instruments count in every row.
+        let mut names: Vec<String> = self.texts.iter().map(|text| normal(&text.text)).collect();
+        names.extend(rows.iter().map(|row| normal(&row_text(row))));
+        let has_any = [&KES_WORDS[..], &ARCH_WORDS].map(|words| {
+            names.iter().any(|name| words.iter().any(|word| contains_word(name, word)))
+        });
+        [self.is_kes, self.is_arch] = has_any;
     }
 
-    /// Adds the lines that are titles, or that say direction or test by their key.
+    /// Adds the lines that are titles, or whose key names direction or test.
     fn add_lines(&mut self, rows: &[Row]) {
         for row in rows {
             let cells: Vec<String> = row.filled().map(|(_, cell)| Cell::text(cell)).collect();
             let key = normal(cells.first().map_or("", String::as_str));
-            let keyed = |keys: &[&str]| keys.iter().any(|word| has(&key, word));
-            let told = cells.len() == 1 || keyed(&DIRECTION_KEYS) || keyed(&TEST_KEYS);
-            if told && cells.len() <= 4 && !YARN.iter().any(|word| has(&key, word)) {
+            let is_evidence = cells.len() == 1 || is_keyed(&key);
+            if is_evidence
+                && cells.len() <= 4
+                && !YARN_WORDS.iter().any(|word| contains_word(&key, word))
+            {
                 let text = cells.join(" ");
                 let place = format!("line {}, \"{text}\"", row.line);
-                self.scopes.push(Scope::new(text, place));
+                self.texts.push(Text::new(text, place));
             }
         }
         rows.windows(2).for_each(|pair| self.add_values_below(&pair[0], &pair[1]));
     }
 
-    /// Adds the values that stand below keys of direction or test.
+    /// Adds the values in the row `values` that stand below keys of direction or test in the row
+    /// `keys`.
     fn add_values_below(&mut self, keys: &Row, values: &Row) {
         let is_table = keys.filled().count() > 1 && keys.numbers() == 0;
         if !is_table || values.line != keys.line + 1 {
@@ -156,20 +166,20 @@ impl Evidence {
         }
         for (column, key) in keys.filled() {
             let key = normal(&key.text());
-            let is_keyed = DIRECTION_KEYS.iter().chain(&TEST_KEYS).any(|word| has(&key, word));
             let value = values.cells.get(column).filter(|cell| !cell.is_empty());
-            if let Some(value) = value.filter(|_| is_keyed) {
+            if let Some(value) = value.filter(|_| is_keyed(&key)) {
                 let text = value.text();
                 let place = format!("line {}, \"{text}\"", values.line);
-                self.scopes.push(Scope::new(text, place));
+                self.texts.push(Text::new(text, place));
             }
         }
     }
 
-    /// Returns the text that says that the strip was cut at 45° to its yarns; `None` where there is none, or a nearer
-    /// text of the file says warp or weft. The names of the file and of its folder are equally near.
+    /// Returns the place that names a strip cut at 45° to its yarns. Returns `None` if there is
+    /// none, or if a nearer text of the file names warp or weft. The names of the file and its
+    /// folder are equally near.
     pub(crate) fn bias(&self) -> Option<String> {
-        for Scope { text, place, .. } in self.scopes.iter().filter(|scope| !scope.is_path) {
+        for Text { text, place, .. } in self.texts.iter().filter(|scope| !scope.is_path) {
             if heading::is_bias(text) {
                 return Some(place.clone());
             }
@@ -177,65 +187,79 @@ impl Evidence {
                 return None;
             }
         }
-        let mut names = self.scopes.iter().filter(|scope| scope.is_path);
+        let mut names = self.texts.iter().filter(|scope| scope.is_path);
         names.find(|scope| heading::is_bias(&scope.text)).map(|scope| scope.place.clone())
     }
 
-    /// Returns the direction that the nearest text names; `Err` holds why there is none.
-    pub(crate) fn direction(&self) -> Result<Told<Direction>, String> {
-        let of_text = |text: &str| {
-            let mut found = heading::directions(text);
-            let tokens = normal(text);
-            let tokens =
-                tokens.split(' ').map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()));
-            for direction in tokens.filter_map(spelling::direction) {
-                if !found.contains(&direction) {
-                    found.push(direction);
+    /// Returns the direction that the nearest text names. `Err` holds the reason why no direction
+    /// is known.
+    pub(crate) fn direction(&self) -> Result<Reasoned<Direction>, String> {
+        let nearest = self.nearest(|text| {
+            let mut directions = heading::directions(text);
+            let words = normal(text);
+            let words =
+                words.split(' ').map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()));
+            for direction in words.filter_map(spelling::direction) {
+                if !directions.contains(&direction) {
+                    directions.push(direction);
                 }
             }
-            found
-        };
-        self.nearest(of_text).map_err(|both| match both {
+            directions
+        });
+        nearest.map_err(|ambiguous| match ambiguous {
             Some(place) => format!("{place} names both directions, and nothing nearer names one"),
             None => "neither its titles nor the names of file and folder say warp or weft".into(),
         })
     }
 
-    /// Returns the test of a curve that the nearest text names; `None` where none does.
-    pub(crate) fn test(&self) -> Option<Told<Test>> {
+    /// Returns the test of a curve that the nearest text names; `None` if no text names one test.
+    pub(crate) fn test(&self) -> Option<Reasoned<Test>> {
         self.nearest(heading::tests).ok()
     }
 
-    /// Returns the test without curves in a sheet that a text names.
-    pub(crate) fn other_test(&self) -> Option<Told<&'static str>> {
-        let of_text = |text: &str| {
+    /// Returns the test without curves in a sheet that the nearest text names.
+    pub(crate) fn other_test(&self) -> Option<Reasoned<&'static str>> {
+        self.nearest(|text| {
             let text = normal(text);
-            let named = |(_, words): &&(&str, &[&str])| words.iter().any(|word| has(&text, word));
-            OTHER_TESTS.iter().filter(named).map(|(name, _)| *name).collect()
-        };
-        self.nearest(of_text).ok()
+            OTHER_TESTS
+                .iter()
+                .filter(|(_, words)| words.iter().any(|word| contains_word(&text, word)))
+                .map(|(name, _)| *name)
+                .collect()
+        })
+        .ok()
     }
 
-    /// Returns what the nearest text names that names one; `Err` holds a place that names several.
-    fn nearest<T: Copy>(&self, of: impl Fn(&str) -> Vec<T>) -> Result<Told<T>, Option<String>> {
-        let mut several = None;
-        for Scope { text, place, .. } in &self.scopes {
-            match of(text).as_slice() {
+    /// Returns the value of the nearest text in which `find` finds exactly one value. `Err` holds
+    /// the nearest place with several values.
+    fn nearest<T: Copy>(
+        &self,
+        find: impl Fn(&str) -> Vec<T>,
+    ) -> Result<Reasoned<T>, Option<String>> {
+        let mut ambiguous = None;
+        for Text { text, place, .. } in &self.texts {
+            match find(text).as_slice() {
                 [] => {}
-                [value] => return Ok(Told { value: *value, why: format!("by {place}") }),
-                _ => _ = several.get_or_insert_with(|| place.clone()),
+                [value] => return Ok(Reasoned { value: *value, why: format!("by {place}") }),
+                _ => _ = ambiguous.get_or_insert_with(|| place.clone()),
             }
         }
-        Err(several)
+        Err(ambiguous)
     }
 }
 
-/// Returns the texts of a row, a blank between.
-fn of_row(row: &Row) -> String {
+/// Returns whether `key` names direction or test.
+fn is_keyed(key: &str) -> bool {
+    DIRECTION_KEYS.iter().chain(&TEST_KEYS).any(|word| contains_word(key, word))
+}
+
+/// Returns the texts of `row`, separated by blanks.
+fn row_text(row: &Row) -> String {
     row.filled().map(|(_, cell)| cell.text()).collect::<Vec<_>>().join(" ")
 }
 
-fn has(text: &str, word: &str) -> bool {
+/// Returns whether `text` has `word`. A short word must stand alone.
+fn contains_word(text: &str, word: &str) -> bool {
     text.match_indices(word).any(|(place, _)| {
         let before = text[..place].chars().next_back();
         let after = text[place + word.len()..].chars().next();
@@ -245,19 +269,19 @@ fn has(text: &str, word: &str) -> bool {
     })
 }
 
-/// Parts the words of a name where small letters meet capitals, and letters meet digits after them.
-fn parted(name: &str) -> String {
-    let mut parted = String::with_capacity(name.len() + 4);
+/// Splits the words of `name` where small letters meet capitals, and where digits meet letters.
+fn split_words(name: &str) -> String {
+    let mut words = String::with_capacity(name.len() + 4);
     let mut before = ' ';
     for letter in name.chars() {
-        let capital = before.is_lowercase() && letter.is_uppercase();
-        if capital || (before.is_ascii_digit() && letter.is_alphabetic()) {
-            parted.push(' ');
+        let is_capital = before.is_lowercase() && letter.is_uppercase();
+        if is_capital || (before.is_ascii_digit() && letter.is_alphabetic()) {
+            words.push(' ');
         }
-        parted.push(letter);
+        words.push(letter);
         before = letter;
     }
-    parted
+    words
 }
 
 #[cfg(test)]
@@ -267,7 +291,7 @@ mod tests {
 
     fn of(path: &str, text: &str) -> Evidence {
         let rows = Separator::Semicolon.split(text).expect("it splits");
-        Evidence::of_rows("", &rows, Path::new(path))
+        Evidence::from_rows("", &rows, Path::new(path))
     }
 
     #[test]

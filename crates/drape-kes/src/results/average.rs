@@ -1,4 +1,4 @@
-//! Specimens of one fabric averaged: a value with its standard deviation.
+//! Averages the specimens of one fabric: a value with its standard deviation.
 
 use std::collections::BTreeMap;
 
@@ -9,64 +9,67 @@ use crate::results::label::{Cut, Statistic};
 use crate::results::reading::Reading;
 use crate::test::Direction;
 
-/// Part by which a mean in a table may differ from the mean of its specimens: such means are rounded.
+/// Relative difference up to which a mean in a table agrees with the mean of its specimens, because
+/// printed means are rounded.
 const ROUNDED: f64 = 0.006;
 
-/// Value of a fabric, averaged over its specimens.
+/// Value of a fabric, averaged over the specimens.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Averaged {
+pub(crate) struct AveragedValue {
     pub(crate) item: Item,
     pub(crate) direction: Option<Direction>,
-    /// Number, in the unit, or bare.
+    /// Number in `unit`, or a number without unit.
     pub(crate) number: f64,
-    /// Standard deviation, as the number; `None` where it is not known.
+    /// Standard deviation in the unit of `number`; `None` if it is not known.
     pub(crate) deviation: Option<f64>,
     pub(crate) unit: Option<Unit>,
-    /// Lines of the numbers, first and last.
+    /// First and last line of the numbers.
     pub(crate) lines: (usize, usize),
-    /// How the number came about; empty where it stands in the table.
+    /// Computation of the number; empty for a number that stands in the table.
     pub(crate) remark: String,
 }
 
-impl Averaged {
-    /// Adds a remark.
-    pub(crate) fn remarked(mut self, remark: &str) -> Self {
+impl AveragedValue {
+    /// Returns the value with `remark` behind its other remarks.
+    pub(crate) fn with_remark(mut self, remark: &str) -> Self {
         let before = if self.remark.is_empty() { "" } else { "; " };
         self.remark = format!("{}{before}{remark}", self.remark);
         self
     }
 
-    /// Returns the number in SI; `None` for a bare number.
+    /// Returns the number in SI; `None` for a number without unit.
     pub(crate) fn si(&self) -> Option<f64> {
         self.unit.map(|unit| self.number * unit.factor)
     }
 }
 
-/// Direction that the name of a sheet or of a file gives, with the reason.
-pub(crate) struct Given {
+/// Direction that the name of a sheet or a file gives, with the reason.
+pub(crate) struct AssumedDirection {
     pub(crate) direction: Direction,
     pub(crate) why: String,
 }
 
-/// Averages the readings of one fabric; adds what has no use to the notes.
+/// Averages the readings of one fabric, and adds to `notes` what has no use.
 ///
-/// `given` is the direction of readings of a sheet that names no direction at all.
-pub(crate) fn averaged(
+/// `assumed` is the direction of a sheet whose readings name no direction.
+pub(crate) fn average_fabric(
     readings: &[Reading],
-    given: Option<&Given>,
+    assumed: Option<&AssumedDirection>,
     notes: &mut Vec<String>,
-) -> Vec<Averaged> {
+) -> Vec<AveragedValue> {
     let is_directed = readings.iter().any(|reading| reading.cut.is_some());
-    let why = given.filter(|_| !is_directed).map(|given| given.why.as_str());
-    let given = given.filter(|_| !is_directed).map(|given| Cut::Along(given.direction));
+    let why = assumed.filter(|_| !is_directed).map(|assumed| assumed.why.as_str());
+    let assumed = assumed.filter(|_| !is_directed).map(|assumed| Cut::Along(assumed.direction));
+
     let mut groups: Vec<Group<'_>> = Vec::new();
     for reading in readings {
-        let Some((item, cut)) = place(reading, given, notes) else { continue };
+        let Some((item, cut)) = key_of(reading, assumed, notes) else { continue };
         match groups.iter_mut().find(|(key, _)| *key == (item, cut)) {
             Some((_, group)) => group.push(reading),
             None => groups.push(((item, cut), vec![reading])),
         }
     }
+
     join_statistics(&mut groups);
     let both: Vec<Item> = groups
         .iter()
@@ -91,7 +94,7 @@ pub(crate) fn averaged(
         let averaged = average(*item, direction, group, notes);
         all.extend(averaged.map(|averaged| match (direction, why) {
             (Some(direction), Some(why)) => {
-                averaged.remarked(&format!("{} {why}", direction.name()))
+                averaged.with_remark(&format!("{} {why}", direction.name()))
             }
             _ => averaged,
         }));
@@ -99,19 +102,20 @@ pub(crate) fn averaged(
     all
 }
 
-/// Item and direction with their readings.
+/// Readings with their item and direction.
 type Group<'r> = ((Item, Option<Cut>), Vec<&'r Reading>);
 
-/// Joins means and deviations without a direction with the readings of the only direction that their item has.
+/// Joins means and deviations without direction with the only directed readings of their item.
 fn join_statistics(groups: &mut Vec<Group<'_>>) {
-    let of_statistics = |group: &Group<'_>| {
-        let ((item, cut), readings) = group;
-        item.is_directed() && cut.is_none() && readings.iter().all(|r| r.statistic.is_some())
-    };
-    let (open, mut kept): (Vec<_>, Vec<_>) = groups.drain(..).partition(of_statistics);
-    for ((item, cut), readings) in open {
-        let mut own = kept.iter_mut().filter(|((other, _), _)| *other == item);
-        match (own.next(), own.next()) {
+    let (undirected, mut kept): (Vec<_>, Vec<_>) =
+        groups.drain(..).partition(|((item, cut), readings)| {
+            item.is_directed()
+                && cut.is_none()
+                && readings.iter().all(|reading| reading.statistic.is_some())
+        });
+    for ((item, cut), readings) in undirected {
+        let mut same_item = kept.iter_mut().filter(|((other, _), _)| *other == item);
+        match (same_item.next(), same_item.next()) {
             (Some((_, group)), None) => group.extend(readings),
             _ => kept.push(((item, cut), readings)),
         }
@@ -119,9 +123,9 @@ fn join_statistics(groups: &mut Vec<Group<'_>>) {
     *groups = kept;
 }
 
-/// Returns the item and the direction under which a reading is averaged; `None` for one on the bias, which has no use
-/// but as the extension that gives the shear stiffness.
-fn place(
+/// Returns the item and direction under which `reading` is averaged. Returns `None` for a reading
+/// on the bias, unless it is the extension that gives the shear stiffness.
+fn key_of(
     reading: &Reading,
     given: Option<Cut>,
     notes: &mut Vec<String>,
@@ -143,10 +147,11 @@ fn place(
             return None;
         }
     }
+
     Some((item, if item.is_directed() { reading.cut.or(given) } else { None }))
 }
 
-/// Returns the mean of numbers and their standard deviation, that of a sample.
+/// Returns the mean of `numbers` and their sample standard deviation.
 pub(crate) fn moments(numbers: &[f64]) -> (f64, Option<f64>) {
     let count = numbers.len() as f64;
     let mean = numbers.iter().sum::<f64>() / count;
@@ -154,35 +159,27 @@ pub(crate) fn moments(numbers: &[f64]) -> (f64, Option<f64>) {
     (mean, (numbers.len() > 1).then(|| (squares / (count - 1.0)).sqrt()))
 }
 
-/// Returns the root of the mean square of standard deviations; `None` where one is missing.
+/// Returns the root mean square of standard deviations; `None` if one is missing.
 fn pooled(deviations: impl ExactSizeIterator<Item = Option<f64>>) -> Option<f64> {
     let count = deviations.len() as f64;
-    let square = |deviation: Option<f64>| deviation.map(|deviation| deviation.powi(2));
-    let squares = deviations.map(square).sum::<Option<f64>>()?;
+    let squares = deviations.map(|deviation| deviation.map(|d| d.powi(2))).sum::<Option<f64>>()?;
     (count > 0.0).then(|| (squares / count).sqrt())
 }
 
-/// Averages the readings of one item and direction.
+/// Averages the readings of one item and direction. Returns `None` for a `group` without a value.
 fn average(
     item: Item,
     direction: Option<Direction>,
     group: &[&Reading],
     notes: &mut Vec<String>,
-) -> Option<Averaged> {
+) -> Option<AveragedValue> {
     let unit = group.iter().find_map(|reading| reading.unit);
-    let own = |reading: &Reading, number: f64| match (reading.unit, unit) {
-        (Some(from), Some(to)) => number * (from.factor / to.factor),
-        _ => number,
-    };
-    let of = |statistic: Option<Statistic>| {
-        group.iter().copied().filter(move |reading| reading.statistic == statistic)
-    };
     let lines: Vec<usize> = group.iter().map(|reading| reading.line).collect();
     let lines = (*lines.iter().min()?, *lines.iter().max()?);
-    let singles = of_one_table(of(None).collect(), item, notes);
-    let means: Vec<&Reading> = of(Some(Statistic::Mean)).collect();
+    let singles = keep_first_table(with_statistic(group, None).collect(), item, notes);
+    let means: Vec<&Reading> = with_statistic(group, Some(Statistic::Mean)).collect();
     let stated = means.first().copied();
-    let mut averaged = Averaged {
+    let mut averaged = AveragedValue {
         item,
         direction,
         number: 0.0,
@@ -191,12 +188,13 @@ fn average(
         lines,
         remark: String::new(),
     };
+
     if singles.is_empty() {
         let stated = stated?;
-        averaged.number = own(stated, stated.number);
-        averaged.deviation = stated.deviation.map(|deviation| own(stated, deviation));
+        averaged.number = stated.in_unit(stated.number, unit);
+        averaged.deviation = stated.deviation.map(|deviation| stated.in_unit(deviation, unit));
     } else {
-        let specimens = specimens(&singles, own);
+        let specimens = join_faces(&singles, unit);
         let numbers: Vec<f64> = specimens.iter().map(|specimen| specimen.number).collect();
         let (mean, deviation) = moments(&numbers);
         let are_tagged = singles.iter().any(|reading| reading.specimen.is_some());
@@ -205,59 +203,78 @@ fn average(
         } else {
             rounded(mean, 7)
         };
-        averaged.remark = remark(&singles, specimens.len());
+        averaged.remark = describe(&singles, specimens.len());
+
         averaged.deviation = if specimens.len() > 1 && (are_tagged || specimens.len() > 2) {
             deviation.filter(|deviation| *deviation > 0.0)
         } else {
             pooled(specimens.iter().map(|specimen| specimen.deviation))
         };
-        // Means of face and back stand for one.
-        let of_table: Vec<f64> = means.iter().map(|mean| own(mean, mean.number)).collect();
-        compare(&averaged, (!of_table.is_empty()).then(|| moments(&of_table).0), notes);
+        // The means of face and back stand for one mean.
+        let of_table: Vec<f64> = means.iter().map(|mean| mean.in_unit(mean.number, unit)).collect();
+        let of_table = (!of_table.is_empty()).then(|| moments(&of_table).0);
+        compare_with_stated(&averaged, of_table, notes);
     }
-    // A standard deviation of the table stands for one that could not be computed.
-    let by_table = || {
-        let deviation = of(Some(Statistic::Deviation)).next().map(|r| own(r, r.number));
-        let variation = of(Some(Statistic::Variation)).next();
-        deviation.or(variation.map(|r| 0.01 * r.number * averaged.number.abs()))
-    };
-    averaged.deviation = averaged.deviation.or_else(by_table).filter(|deviation| *deviation > 0.0);
+
+    // A standard deviation of the table replaces a deviation that could not be computed.
+    if averaged.deviation.is_none() {
+        let stated = with_statistic(group, Some(Statistic::Deviation)).next();
+        let variation = with_statistic(group, Some(Statistic::Variation)).next();
+        averaged.deviation = stated
+            .map(|reading| reading.in_unit(reading.number, unit))
+            .or(variation.map(|reading| 0.01 * reading.number * averaged.number.abs()));
+    }
+    averaged.deviation = averaged.deviation.filter(|deviation| *deviation > 0.0);
     averaged.deviation = averaged.deviation.map(|deviation| rounded(deviation, 4));
     Some(averaged)
 }
 
-/// Keeps the readings of the first table where several say different things of the same specimens: before washing and
-/// after it, perhaps.
-fn of_one_table<'r>(
+/// Returns the readings of `group` with a `statistic`.
+fn with_statistic<'r>(
+    group: &[&'r Reading],
+    statistic: Option<Statistic>,
+) -> impl Iterator<Item = &'r Reading> {
+    group.iter().copied().filter(move |reading| reading.statistic == statistic)
+}
+
+/// Keeps the readings of the first table if several tables contradict each other about the same
+/// specimens, such as before and after washing.
+fn keep_first_table<'r>(
     readings: Vec<&'r Reading>,
     item: Item,
     notes: &mut Vec<String>,
 ) -> Vec<&'r Reading> {
-    // The same number in other units is no other specimen.
     let Some(first) = readings.first().copied() else { return readings };
+
+    // The same number in another unit is no other specimen.
     let factor = |reading: &Reading| reading.unit.map(|unit| unit.factor);
-    let is_repeated = |reading: &&Reading| {
-        reading.specimen.is_none() && factor(reading) != factor(first) && reading.cut == first.cut
-    };
-    let readings: Vec<&Reading> = match first.specimen {
-        None => readings.into_iter().filter(|reading| !is_repeated(reading)).collect(),
-        Some(_) => readings,
-    };
-    let key = |reading: &Reading| (reading.specimen, reading.face.is_some(), reading.cut);
-    let is_of_first = |reading: &&Reading| reading.item_at == first.item_at;
-    let own: Vec<_> = readings.iter().copied().filter(is_of_first).collect();
-    let others: Vec<_> = readings.iter().copied().filter(|reading| !is_of_first(reading)).collect();
-    let collides = |other: &&&Reading| {
-        own.iter().any(|reading| {
-            key(reading) == key(other) && (reading.number / other.number - 1.0).abs() > ROUNDED
+    let readings: Vec<&Reading> = readings
+        .into_iter()
+        .filter(|reading| {
+            first.specimen.is_some()
+                || reading.specimen.is_some()
+                || factor(reading) == factor(first)
+                || reading.cut != first.cut
         })
-    };
-    // Repeats in rows that follow each other are specimens without numbers.
-    let is_next = |pair: &[&Reading]| pair[1].line - pair[0].line <= 1;
-    let are_named_alike = readings.iter().all(|reading| reading.item_text == first.item_text);
-    let are_neighbours =
-        readings.windows(2).all(is_next) && first.specimen.is_none() && are_named_alike;
-    let Some(other) = others.iter().find(collides).filter(|_| !are_neighbours) else {
+        .collect();
+
+    // Readings of one specimen contradict each other if their numbers differ.
+    let (of_first, others): (Vec<&Reading>, Vec<&Reading>) =
+        readings.iter().copied().partition(|reading| reading.item_position == first.item_position);
+    let contradicting = others.iter().find(|other| {
+        of_first.iter().any(|reading| {
+            reading.specimen == other.specimen
+                && reading.face.is_some() == other.face.is_some()
+                && reading.cut == other.cut
+                && (reading.number / other.number - 1.0).abs() > ROUNDED
+        })
+    });
+
+    // Repeats of one name in neighbouring rows are specimens without numbers.
+    let are_neighbours = readings.windows(2).all(|pair| pair[1].line - pair[0].line <= 1);
+    let have_one_name = readings.iter().all(|reading| reading.item_text == first.item_text);
+    let are_specimens = first.specimen.is_none() && are_neighbours && have_one_name;
+    let Some(contradicting) = contradicting.filter(|_| !are_specimens) else {
         return readings;
     };
     notes.push(format!(
@@ -265,34 +282,36 @@ fn of_one_table<'r>(
          number the specimens",
         item.symbol(),
         first.line,
-        other.line
+contradicting.line
     ));
-    own
+    of_first
 }
 
-/// Specimen: its number, over face and back where there are both.
+/// Number of one specimen, averaged over face and back.
 struct Specimen {
     number: f64,
     deviation: Option<f64>,
 }
 
-/// Joins the readings of each specimen, those of face and back.
-fn specimens(readings: &[&Reading], own: impl Fn(&Reading, f64) -> f64) -> Vec<Specimen> {
+/// Joins the readings of each specimen, such as face and back, in `unit`.
+fn join_faces(readings: &[&Reading], unit: Option<Unit>) -> Vec<Specimen> {
     let has_faces = readings.iter().any(|reading| reading.face.is_some());
     let mut parts: BTreeMap<(usize, u32, Option<Cut>), Vec<&Reading>> = BTreeMap::new();
     for (index, reading) in readings.iter().enumerate() {
-        // Without a number each reading is a specimen, unless the readings are of two faces.
+        // Without a number each reading is a specimen, unless the readings are of face and back.
         let alone = if reading.specimen.is_none() && !has_faces { index } else { usize::MAX };
         let cut = reading.cut.filter(|_| !reading.item.is_directed());
         parts.entry((alone, reading.specimen.unwrap_or(0), cut)).or_default().push(reading);
     }
-    let joined = |parts: Vec<&Reading>| {
-        let numbers: Vec<f64> = parts.iter().map(|part| own(part, part.number)).collect();
-        let deviation = |part: &&Reading| Some(own(part, part.deviation?));
-        Specimen { number: moments(&numbers).0, deviation: pooled(parts.iter().map(deviation)) }
-    };
-    let mut specimens: Vec<Specimen> = parts.into_values().map(joined).collect();
-    // A value without a direction that stands under both is one value.
+
+    let mut specimens = Vec::with_capacity(parts.len());
+    for parts in parts.into_values() {
+        let numbers: Vec<f64> = parts.iter().map(|part| part.in_unit(part.number, unit)).collect();
+        let deviations = parts.iter().map(|part| Some(part.in_unit(part.deviation?, unit)));
+        specimens.push(Specimen { number: moments(&numbers).0, deviation: pooled(deviations) });
+    }
+
+    // One number that stands under both directions is one value.
     let first = specimens.first().map(|specimen| specimen.number);
     let is_tagged = readings.iter().any(|reading| reading.specimen.is_some());
     if !is_tagged && specimens.iter().all(|specimen| Some(specimen.number) == first) {
@@ -301,8 +320,8 @@ fn specimens(readings: &[&Reading], own: impl Fn(&Reading, f64) -> f64) -> Vec<S
     specimens
 }
 
-/// Returns how the mean of readings came about.
-fn remark(readings: &[&Reading], specimens: usize) -> String {
+/// Returns the computation of the mean of `readings` in words.
+fn describe(readings: &[&Reading], specimens: usize) -> String {
     let has_faces = readings.iter().filter(|reading| reading.face.is_some()).count() > 1;
     let faces = if has_faces { "of face and back" } else { "" };
     match (specimens, faces) {
@@ -313,8 +332,8 @@ fn remark(readings: &[&Reading], specimens: usize) -> String {
     }
 }
 
-/// Notes a mean of the table that is not the mean of its specimens.
-fn compare(averaged: &Averaged, stated: Option<f64>, notes: &mut Vec<String>) {
+/// Notes a mean that the table states, if it differs from the mean of the specimens.
+fn compare_with_stated(averaged: &AveragedValue, stated: Option<f64>, notes: &mut Vec<String>) {
     let Some(stated) = stated else { return };
     let last_digit = 10_f64.powi(-(fraction_digits(stated) as i32));
     let difference = (averaged.number - stated).abs();
@@ -328,13 +347,13 @@ fn compare(averaged: &Averaged, stated: Option<f64>, notes: &mut Vec<String>) {
     }
 }
 
-/// Returns the number of digits behind the point of a number.
+/// Returns the number of digits behind the decimal point of `number`.
 fn fraction_digits(number: f64) -> usize {
     let text = number.to_string();
     text.split_once('.').map_or(0, |(_, fraction)| fraction.len())
 }
 
-/// Returns a number with some digits.
+/// Returns `number` rounded to the given number of significant `digits`.
 pub(crate) fn rounded(number: f64, digits: usize) -> f64 {
     format!("{number:.*e}", digits - 1).parse().unwrap_or(number)
 }

@@ -1,92 +1,101 @@
-//! Averaged values made into values of a sheet: bare numbers get their units, and values of FAST and of cantilevers
-//! become those of a sheet.
+//! Converts averaged values to values of a sheet. Numbers without unit get their units, and values
+//! of FAST and of cantilevers are converted to values that a sheet has keys for.
 
 use drape_input::{Quantity, Unit, figure, parse_unit};
 
-use crate::results::average::{Averaged, rounded};
+use crate::results::average::{AveragedValue, rounded};
 use crate::results::item::Item;
-use crate::results::sheet_value::{Converted, SheetValue, Sourced, Values, why};
+use crate::results::sheet_value::{
+    ConvertedValues, DraftValue, FabricValues, SourcedValue, source_of,
+};
 use crate::results::{cantilever, fast};
 
-/// Largest bare W, in mg/cm², that a garment's fabric has; a larger number is in g/m².
-const HEAVIEST: f64 = 60.0;
-/// RT and RC in percent below which no fabric gives back: the number is a ratio.
-const RESILIENCE_LEAST: f64 = 1.5;
-/// EM in percent below which no fabric extends: the number is a ratio.
-const EXTENSION_LEAST: f64 = 0.35;
-/// Bending length and overhang above which a bare number is in mm and not in cm.
-const CENTIMETRES_MOST: f64 = 8.0;
+/// Converts the `values` of one fabric.
+pub(crate) fn convert(values: Vec<SourcedValue>) -> ConvertedValues {
+    let mut converted = ConvertedValues::default();
+    let mut values = FabricValues { values };
+    let are_fast = values.are_fast();
+    mark_ratios(&mut values, &mut converted);
+    add_units(&mut values, are_fast, &mut converted);
 
-/// Converts the values of one fabric.
-pub(crate) fn converted(all: Vec<Sourced>) -> Converted {
-    let mut converted = Converted::default();
-    let mut values = Values { all };
-    give_units(&mut values, &mut converted);
-    cantilever::rigidities(&mut values, &mut converted);
-    let own = values.all.iter().filter_map(|one| match one.value.item {
-        Item::Key(key) => Some(of_key(key, one)),
-        _ => None,
-    });
-    let own: Vec<SheetValue> = own.collect();
-    converted.values.splice(0..0, own);
+    cantilever::convert_lengths(&mut values, &mut converted);
+    let mut with_keys = Vec::new();
+    for sourced in &values.values {
+        let AveragedValue { item, number, deviation, unit, direction, .. } = sourced.value;
+        if let Item::Key(key) = item {
+            let (unit, why) = (unit.map(spelling), source_of(sourced));
+            with_keys.push(DraftValue { key, direction, number, deviation, unit, why });
+        }
+    }
+    converted.values.splice(0..0, with_keys);
     fast::convert(&values, &mut converted);
     converted
 }
 
-/// Returns a value of a key with its unit.
-fn of_key(key: &'static str, one: &Sourced) -> SheetValue {
-    let Averaged { number, deviation, unit, direction, .. } = one.value;
-    SheetValue { key, direction, number, deviation, unit: unit.map(spelling), why: why(one) }
-}
-
-/// Returns the spelling of a unit; of units that are the same, that of the laboratory.
+/// Returns the spelling of `unit`. The laboratory's spelling is preferred among equal units.
 fn spelling(unit: Unit) -> &'static str {
-    let own = unit.quantity.laboratory();
-    if unit.factor == own.factor { own.spelling } else { unit.spelling }
+    let laboratory = unit.quantity.laboratory();
+    if unit.factor == laboratory.factor { laboratory.spelling } else { unit.spelling }
 }
 
-/// Gives bare numbers the units that they can only have, and percentages that are ratios their unit.
-fn give_units(values: &mut Values, converted: &mut Converted) {
-    let is_fast = values.is_fast();
-    let unit =
-        |text: &str, quantity: Quantity| -> Option<Unit> { parse_unit(text, &[quantity]).ok() };
-    let is_ratio = |one: &Sourced| {
-        let Averaged { item, number, unit, .. } = one.value;
-        let is_percent = unit.is_none_or(|unit| unit.spelling == "%");
-        let least = match item {
-            Item::Key("RT" | "RC") => RESILIENCE_LEAST,
-            Item::Key("EM") | Item::Extension(100) => EXTENSION_LEAST,
-            _ => return false,
-        };
-        is_percent && number > 0.0 && number < least
-    };
-    let are_ratios =
-        values.all.iter().any(|one| one.value.item == Item::Extension(100) && is_ratio(one));
-    for one in &mut values.all {
-        let of_fast =
-            are_ratios && matches!(one.value.item, Item::Extension(_) | Item::BiasExtension);
-        if is_ratio(one) || of_fast {
-            let Sourced { value, source } = one;
-            let symbol = value.item.symbol();
-            converted.notes.push(format!(
-                "ASSUMED: {symbol} of {}, {source}, is a ratio and no percentage: no fabric has so little",
-                figure(value.number)
-            ));
-            value.unit = unit("%", Quantity::Ratio);
-            value.number = rounded(100.0 * value.number, 10);
-            value.deviation = value.deviation.map(|deviation| rounded(100.0 * deviation, 10));
-            *value = value.clone().remarked("ASSUMED: a ratio, no percentage");
+/// Gives the unit percent to numbers that must be ratios, because no fabric has so small a
+/// percentage.
+fn mark_ratios(values: &mut FabricValues, converted: &mut ConvertedValues) {
+    // All extensions of a table are in one unit.
+    let has_extension_ratio = values
+        .values
+        .iter()
+        .any(|sourced| sourced.value.item == Item::Extension(100) && must_be_ratio(&sourced.value));
+    for SourcedValue { value, source } in &mut values.values {
+        let is_extension = matches!(value.item, Item::Extension(_) | Item::BiasExtension);
+        if !(must_be_ratio(value) || has_extension_ratio && is_extension) {
+            continue;
         }
+        let symbol = value.item.symbol();
+        converted.notes.push(format!(
+"ASSUMED: {symbol} of {}, {source}, is a ratio and no percentage: no fabric has so little",
+figure(value.number)
+));
+        value.unit = parse_unit("%", &[Quantity::Ratio]).ok();
+        value.number = rounded(100.0 * value.number, 10);
+        value.deviation = value.deviation.map(|deviation| rounded(100.0 * deviation, 10));
+        *value = value.clone().with_remark("ASSUMED: a ratio, no percentage");
     }
-    for Sourced { value, source } in &mut values.all {
+}
+
+/// Returns whether `value` must be a ratio, because it is too small for a percentage.
+fn must_be_ratio(value: &AveragedValue) -> bool {
+    /// RT and RC in percent below which no fabric recovers.
+    const RESILIENCE_LEAST: f64 = 1.5;
+    /// EM in percent below which no fabric extends.
+    const EXTENSION_LEAST: f64 = 0.35;
+
+    let least = match value.item {
+        Item::Key("RT" | "RC") => RESILIENCE_LEAST,
+        Item::Key("EM") | Item::Extension(100) => EXTENSION_LEAST,
+        _ => return false,
+    };
+    let may_be_percent = value.unit.is_none_or(|unit| unit.spelling == "%");
+    may_be_percent && value.number > 0.0 && value.number < least
+}
+
+/// Gives numbers without unit the only unit that they can have. The values `are_fast` if they come
+/// from FAST or a cantilever.
+fn add_units(values: &mut FabricValues, are_fast: bool, converted: &mut ConvertedValues) {
+    /// Largest W without unit, in mg/cm², of a garment's fabric. A larger number is in g/m².
+    const HEAVIEST: f64 = 60.0;
+    /// Bending length and overhang without unit above which the number is in mm, and else in cm.
+    const CENTIMETRES_MOST: f64 = 8.0;
+
+    for SourcedValue { value, source } in &mut values.values {
         if value.unit.is_some() {
             continue;
         }
         let (text, is_assumed) = match value.item {
-            Item::Key("W") if is_fast => ("g/m2", false),
+            Item::Key("W") if are_fast => ("g/m2", false),
             Item::Key("W") if value.number > HEAVIEST => ("g/m2", true),
-            Item::Key("B") if is_fast => ("uN.m", true),
-            Item::Key("G") if is_fast => ("N/m", true),
+            Item::Key("B") if are_fast => ("uN.m", true),
+            Item::Key("G") if are_fast => ("N/m", true),
             Item::BendingLength | Item::Overhang | Item::SteepOverhang
                 if value.number < CENTIMETRES_MOST =>
             {
@@ -99,7 +108,7 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
             _ => continue,
         };
         let Some(quantity) = value.item.quantity() else { continue };
-        value.unit = unit(text, quantity);
+        value.unit = parse_unit(text, &[quantity]).ok();
         if is_assumed {
             let symbol = value.item.symbol();
             let number = figure(value.number);
@@ -107,7 +116,7 @@ fn give_units(values: &mut Values, converted: &mut Converted) {
                 "ASSUMED: {symbol} {number}, {source}, is in {text}: the table gives no unit"
             ));
             let remark = format!("ASSUMED: in {text}, the table gives no unit");
-            *value = value.clone().remarked(&remark);
+            *value = value.clone().with_remark(&remark);
         }
     }
 }

@@ -14,7 +14,7 @@ pub(crate) enum Item {
     BendingLength,
     /// Overhang of a cantilever at 41.5°.
     Overhang,
-    /// Overhang of a cantilever at 45°, as in JIS L 1096.
+    /// Overhang of a cantilever at 45°, according to JIS L 1096.
     SteepOverhang,
     /// Extension of FAST at a load in gf/cm: 5, 20 or 100.
     Extension(u32),
@@ -22,11 +22,11 @@ pub(crate) enum Item {
     BiasExtension,
     /// Thickness of FAST at a pressure in gf/cm²: 2 or 100.
     Thickness(u32),
-    /// Value that is known, and that a sheet has no key for.
+    /// Known value without a key in a sheet.
     Unused(&'static str),
 }
 
-/// Symbols of items that are no keys of a sheet, in small letters without signs between.
+/// Symbols of items that are not keys of a sheet, in small letters without signs between.
 const SYMBOLS: [(&str, Item); 26] = [
     ("emt", Item::Key("EM")),
     ("fm", Item::Key("FM")),
@@ -56,42 +56,41 @@ const SYMBOLS: [(&str, Item); 26] = [
     ("fukurami", Item::Unused("hand value")),
 ];
 
-/// Symbol as it is written: its item, and what stands behind it.
+/// Symbol as written: its item, and the signs behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Written {
+pub(crate) struct WrittenSymbol {
     pub(crate) item: Item,
-    /// Digit behind the symbol: 1 and 2 for warp and weft, or the number of a specimen.
+    /// Digit behind the symbol: 1 for warp and 2 for weft, or the number of a specimen.
     pub(crate) suffix: Option<u32>,
-    /// Sign behind the symbol: bent or sheared forward, or backward.
+    /// Sign behind the symbol: `+` for bending or shearing forward, `-` for backward.
     pub(crate) sign: Option<char>,
 }
 
 impl Item {
-    /// Returns the item of a symbol; `None` where it is none.
+    /// Parses the symbol `text`; `None` for a text that is no symbol.
     ///
     /// ```text
     /// B   2HG5   T_0   C-1   E20-2   B+
     /// ```
-    pub(crate) fn of_symbol(text: &str) -> Option<Written> {
+    pub(crate) fn parse_symbol(text: &str) -> Option<WrittenSymbol> {
         let plain: String =
             text.to_lowercase().chars().filter(|letter| !"_- .·'\"°".contains(*letter)).collect();
-        let written = |item: Item, suffix: Option<u32>| Written { item, suffix, sign: None };
-        if let Some(item) = exact(&plain) {
+        if let Some(item) = item_of(&plain) {
             let sign = text.trim_end().chars().next_back().filter(|sign| "-−".contains(*sign));
-            return Some(Written { sign: sign.and(Some('-')), ..written(item, None) });
+            return Some(WrittenSymbol { item, suffix: None, sign: sign.and(Some('-')) });
         }
-        if let Some(symbol) = plain.strip_suffix('+') {
-            return exact(symbol).map(|item| Written { sign: Some('+'), ..written(item, None) });
-        }
-        if let Some(symbol) = plain.strip_suffix('−') {
-            return exact(symbol).map(|item| Written { sign: Some('-'), ..written(item, None) });
+        for (end, sign) in [('+', '+'), ('−', '-')] {
+            if let Some(symbol) = plain.strip_suffix(end) {
+                let item = item_of(symbol)?;
+                return Some(WrittenSymbol { item, suffix: None, sign: Some(sign) });
+            }
         }
         let last = plain.chars().next_back()?.to_digit(10).filter(|digit| *digit > 0)?;
-        let item = exact(&plain[..plain.len() - 1]).filter(|item| item.is_directed())?;
-        Some(written(item, Some(last)))
+        let item = item_of(&plain[..plain.len() - 1]).filter(|item| item.is_directed())?;
+        Some(WrittenSymbol { item, suffix: Some(last), sign: None })
     }
 
-    /// Returns the quantity of the item; `None` where it has no use.
+    /// Returns the quantity of the item; `None` for an [`Item::Unused`].
     pub(crate) fn quantity(self) -> Option<Quantity> {
         Some(match self {
             Self::Key(key) => match key {
@@ -113,12 +112,12 @@ impl Item {
         })
     }
 
-    /// Returns whether a bare number of the item is a ratio, where others are percentages.
-    pub(crate) fn is_bare_ratio(self) -> bool {
+    /// Returns whether a number of the item without unit is a ratio. Other ratios are percentages.
+    pub(crate) fn is_ratio(self) -> bool {
         matches!(self, Self::Key("LT" | "LC" | "MIU" | "MMD"))
     }
 
-    /// Returns whether the item has a value for the warp and another for the weft.
+    /// Returns whether the item has one value for the warp and another for the weft.
     pub(crate) fn is_directed(self) -> bool {
         match self {
             Self::Key(key) => spelling::KEYS.contains(&key),
@@ -127,18 +126,18 @@ impl Item {
         }
     }
 
-    /// Returns whether the item is one of a KES test in which FAST has nothing.
-    pub(crate) fn is_of_kes(self) -> bool {
-        let of_kes = |key: &str| Symbol::ALL.iter().any(|symbol| symbol.name() == key);
-        matches!(self, Self::Key(key) if of_kes(key) && !["B", "G"].contains(&key))
+    /// Returns whether the item is a value of a KES test that FAST does not measure.
+    pub(crate) fn is_only_of_kes(self) -> bool {
+        let Self::Key(key) = self else { return false };
+        !["B", "G"].contains(&key) && Symbol::ALL.iter().any(|symbol| symbol.name() == key)
     }
 
-    /// Returns whether the item is one of FAST or of a cantilever.
-    pub(crate) fn is_of_fast(self) -> bool {
+    /// Returns whether the item is a value of FAST or of a cantilever.
+    pub(crate) fn is_fast(self) -> bool {
         !matches!(self, Self::Key(_) | Self::Unused(_))
     }
 
-    /// Returns the symbol for messages.
+    /// Returns the symbol of the item in messages.
     pub(crate) fn symbol(self) -> String {
         match self {
             Self::Key(key) => key.to_owned(),
@@ -152,10 +151,10 @@ impl Item {
     }
 }
 
-/// Returns the item of a symbol in small letters without signs between.
-fn exact(plain: &str) -> Option<Item> {
-    let key = || spelling::key(plain).map(Item::Key);
-    SYMBOLS.iter().find(|(symbol, _)| *symbol == plain).map(|(_, item)| *item).or_else(key)
+/// Returns the item of the symbol `plain`, in small letters without signs between.
+fn item_of(plain: &str) -> Option<Item> {
+    let item = SYMBOLS.iter().find(|(symbol, _)| *symbol == plain).map(|(_, item)| *item);
+    item.or_else(|| spelling::key(plain).map(Item::Key))
 }
 
 #[cfg(test)]
@@ -182,14 +181,14 @@ mod tests {
             ("EMT", Item::Key("EM"), None),
         ];
         for (text, item, suffix) in cases {
-            let found = Item::of_symbol(text).expect(text);
+            let found = Item::parse_symbol(text).expect(text);
             assert_eq!((found.item, found.suffix, found.sign), (item, suffix, None), "{text}");
         }
-        assert_eq!(Item::of_symbol("2HB+").and_then(|found| found.sign), Some('+'));
-        assert_eq!(Item::of_symbol("B−").and_then(|found| found.sign), Some('-'));
+        assert_eq!(Item::parse_symbol("2HB+").and_then(|found| found.sign), Some('+'));
+        assert_eq!(Item::parse_symbol("B−").and_then(|found| found.sign), Some('-'));
         // The mass and the thickness have no directions: these are names of fabrics or specimens.
         for text in ["W1", "RC-1", "A", "Warp", "10"] {
-            assert_eq!(Item::of_symbol(text), None, "{text}");
+            assert_eq!(Item::parse_symbol(text), None, "{text}");
         }
     }
 }

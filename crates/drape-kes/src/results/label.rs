@@ -1,31 +1,28 @@
-//! Text of a cell beside numbers, taken apart: item, unit, direction, specimen, statistic, face, name.
+//! Text of a cell beside numbers, split into item, unit, direction, specimen, statistic, face and
+//! name.
 
 pub(crate) mod letters;
 mod names;
 mod tags;
 pub(crate) mod written_unit;
 
-pub(crate) use self::tags::{Axis, Cut, Face, Statistic};
+pub(crate) use self::tags::{Cut, Face, HeadKind, Statistic};
 
 use drape_input::{Quantity, parse_unit};
 
-use crate::results::item::Item;
-use crate::results::label::letters::{half_width, numbers, take};
+use crate::results::item::{Item, WrittenSymbol};
+use crate::results::label::letters::{half_width, numbers, take_words};
 use crate::results::label::names::{
     BACK, COUNT, DEVIATION, ERROR, FABRIC, FACE, GENERIC, ITEMS, MEAN, OTHER, OTHER_TESTS, SAMPLE,
     SPECIMEN, UNIT, VARIATION,
 };
-use crate::results::label::written_unit::{WrittenUnit, behind_sign, bracket};
+use crate::results::label::written_unit::{WrittenUnit, find_bracket, split_unit};
 use crate::sheets::spelling;
-use crate::tables::heading::words::single;
+use crate::tables::heading::words::{BIAS, single};
 use crate::tables::heading::{self, has_word, normal};
 
-/// Letters of a label at most: a longer text is a sentence.
+/// Largest number of letters of a label. A longer text is a sentence.
 const LETTERS_MAX: usize = 100;
-/// Letters of a unit that is not known, at most.
-const UNKNOWN_UNIT_MAX: usize = 12;
-/// Number of a specimen at most.
-const SPECIMEN_MAX: u32 = 99;
 
 /// Parts of the text of a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,20 +30,20 @@ pub(crate) struct Label {
     pub(crate) item: Option<Item>,
     pub(crate) unit: Option<WrittenUnit>,
     pub(crate) cut: Option<Cut>,
-    /// Number behind a symbol: that of a direction, or of a specimen.
+    /// Digit behind a symbol: the number of a direction, or of a specimen.
     pub(crate) suffix: Option<u32>,
     pub(crate) specimen: Option<u32>,
     pub(crate) statistic: Option<Statistic>,
     pub(crate) face: Option<Face>,
-    pub(crate) axis: Option<Axis>,
-    /// Whether the item is known by its name alone, without a symbol.
+    pub(crate) axis: Option<HeadKind>,
+    /// Whether the item has a name without a symbol.
     pub(crate) is_named: bool,
-    /// Text that is nothing of the above; empty where there is none.
+    /// Name of a fabric or a specimen, or a text without a meaning; empty if there is none.
     pub(crate) name: String,
 }
 
 impl Label {
-    /// Takes the text of a cell apart.
+    /// Splits the `text` of a cell into its parts.
     pub(crate) fn parse(text: &str) -> Self {
         let text = half_width(text);
         let mut label = Self::default();
@@ -58,15 +55,18 @@ impl Label {
             label.statistic = Some(Statistic::Deviation);
             return label;
         }
+
         let (outside, inside) = label.take_unit(&text);
-        // A symbol alone, with what its signs mean, goes before words.
+        // A symbol that stands alone is recognised before words are.
         if inside.is_empty()
-            && let Some(written) = Item::of_symbol(&outside)
+            && let Some(written) = Item::parse_symbol(&outside)
             && is_plain_symbol(&outside)
         {
             label.set_symbol(written);
             return label;
         }
+
+        // Each step removes the words that it recognises.
         let mut words = format!(" {} {} ", normal(&outside), normal(&inside.join(" ")));
         label.take_name(&mut words, &text);
         label.take_tags(&mut words, &inside);
@@ -74,15 +74,15 @@ impl Label {
         label.take_symbol(&mut words);
         label.drop_condition();
         label.take_unknown_unit(&words, &inside);
-        let rest: Vec<&str> = words.split_whitespace().collect();
-        let is_said = |word: &&str| word.chars().any(char::is_alphanumeric);
-        if rest.iter().any(is_said) {
+
+        // Words that remain are a name.
+        if words.chars().any(char::is_alphanumeric) {
             label.name = outside.trim().trim_end_matches([':', '：']).trim().to_owned();
         }
         label
     }
 
-    /// Returns whether the text says anything but a name.
+    /// Returns whether the text states a direction, a specimen, a statistic or a face.
     pub(crate) fn is_tagged(&self) -> bool {
         self.cut.is_some()
             || self.specimen.is_some()
@@ -98,8 +98,8 @@ impl Label {
             && !self.is_tagged()
     }
 
-    /// Returns the label with what it does not say taken from another.
-    pub(crate) fn or(mut self, other: &Self) -> Self {
+    /// Returns the label with missing parts taken from `other`.
+    pub(crate) fn or_from(mut self, other: &Self) -> Self {
         self.unit = self.unit.or_else(|| other.unit.clone());
         self.cut = self.cut.or(other.cut);
         self.specimen = self.specimen.or(other.specimen);
@@ -111,27 +111,28 @@ impl Label {
         self
     }
 
-    /// Takes the unit: the whole text, behind a sign or a blank, or in brackets. Returns the text without it, and the
-    /// texts in brackets that are no unit.
+    /// Splits the unit off `text`: the whole text, behind a sign or a blank, or in brackets.
+    /// Returns the text without the unit, and the texts in brackets that are no unit.
     fn take_unit(&mut self, text: &str) -> (String, Vec<String>) {
         let (mut outside, mut inside) = (text.trim().to_owned(), Vec::new());
-        let is_symbol = |text: &str| Item::of_symbol(text).is_some();
-        let whole = WrittenUnit::of(&outside, false).filter(|unit| unit.is_known);
+        let is_symbol = |text: &str| Item::parse_symbol(text).is_some();
+        let whole = WrittenUnit::parse(&outside, false).filter(|unit| unit.is_known);
         if let Some(unit) = whole.filter(|_| !is_symbol(text)) {
             self.unit = Some(unit);
             return (String::new(), inside);
         }
-        // A unit may have brackets: "G, gf/(cm.deg)".
+        // A unit may have brackets itself: "G, gf/(cm.deg)".
         if outside.ends_with([')', ']'])
-            && let Some((words, unit)) = behind_sign(&outside)
+            && let Some((words, unit)) = split_unit(&outside)
         {
             self.unit = Some(unit);
             return (words, inside);
         }
-        while let Some((start, end)) = bracket(&outside) {
+
+        while let Some((start, end)) = find_bracket(&outside) {
             let within = outside[start + 1..end].trim().to_owned();
             outside.replace_range(start..=end, " ");
-            let unit = WrittenUnit::of(&within, true);
+            let unit = WrittenUnit::parse(&within, true);
             match unit.filter(|_| self.unit.is_none()) {
                 Some(unit) => self.unit = Some(unit),
                 None => inside.push(within),
@@ -141,20 +142,25 @@ impl Label {
         if self.unit.is_some() || is_symbol(&outside) {
             return (outside, inside);
         }
-        let Some((words, unit)) = behind_sign(&outside) else { return (outside, inside) };
+        let Some((words, unit)) = split_unit(&outside) else { return (outside, inside) };
         self.unit = Some(unit);
         (words, inside)
     }
 
-    /// Takes the longest name of an item, with the load or the pressure that it names.
+    /// Removes the longest name of an item from `words`, and sets the item. The load or the
+    /// pressure in `text` selects among items of one name.
     fn take_name(&mut self, words: &mut String, text: &str) {
-        let all = ITEMS.iter().flat_map(|(item, names)| single(names).map(|name| (*item, name)));
-        let there = all.filter(|(_, name)| words.contains(*name) && has_word(words, name));
-        let Some((item, name)) = there.max_by_key(|(_, name)| name.chars().count()) else { return };
-        // At break, or before a body slides, the quantity is another one.
+        let longest = ITEMS
+            .iter()
+            .flat_map(|(item, names)| single(names).map(|name| (*item, name)))
+            .filter(|(_, name)| words.contains(*name) && has_word(words, name))
+            .max_by_key(|(_, name)| name.chars().count());
+        let Some((item, name)) = longest else { return };
+        // At break, or before a body slides, the quantity is not the quantity of KES.
         if single(OTHER_TESTS).any(|word| has_word(words, word)) {
             return;
         }
+
         let numbers = numbers(text);
         let has = |number: f64| numbers.contains(&number);
         let is_loaded =
@@ -169,81 +175,49 @@ impl Label {
             Item::Key("EM") | Item::Extension(_) if is_loaded && has(20.0) => Item::Extension(20),
             Item::Key("EM") | Item::Extension(_) if is_loaded && has(100.0) => Item::Extension(100),
             Item::Extension(_) if is_loaded && has(500.0) => Item::Key("EM"),
-            // An extension at a load that is not told is no value of either system.
+            // An extension at an unknown load is no value of KES or FAST.
             Item::Extension(_) => return,
             item => item,
         };
+
+        // The numbers and units of the load are removed with the name.
         *words = words.replacen(name, " ", 1);
-        let is_condition = |word: &str| word.chars().any(|letter| letter.is_ascii_digit());
         if is_loaded || item == Item::Key("2HG5") || item == Item::Key("2HG") {
             let kept = words.split_whitespace().filter(|word| {
-                let symbol = Item::of_symbol(word).is_some();
-                symbol || !(is_condition(word) || ["gf", "cm2", "cm", "deg", "°"].contains(word))
+                let is_load = word.chars().any(|letter| letter.is_ascii_digit())
+                    || ["gf", "cm2", "cm", "deg", "°"].contains(word);
+                Item::parse_symbol(word).is_some() || !is_load
             });
             *words = format!(" {} ", kept.collect::<Vec<_>>().join(" "));
         }
         self.item = Some(item);
     }
 
-    /// Takes direction, statistic, face, the head of an axis, and words that say nothing.
+    /// Removes direction, statistic, face, the head of names, and words without meaning from
+    /// `words`, and sets the parts.
     fn take_tags(&mut self, words: &mut String, inside: &[String]) {
+        /// Largest number of a specimen.
+        const SPECIMEN_MAX: u32 = 99;
+
         if heading::is_bias(words) {
             self.cut = Some(Cut::Bias);
         }
-        let mut kept = Vec::new();
-        let mut named_directions = Vec::new();
-        for word in words.split_whitespace() {
-            let short = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
-            let named = heading::directions(short).first().copied();
-            let direction = named.or_else(|| spelling::direction(short));
-            let Some(direction) = direction else {
-                kept.push(word.to_owned());
-                continue;
-            };
-            named_directions.push(direction);
-            // "Warp1" has a number, "経方向" says no more than a direction.
-            kept.push(word[short.len()..].to_owned());
-        }
-        *words = format!(" {} ", kept.join(" "));
-        // "Warp and weft" is neither.
-        named_directions.dedup();
-        if let ([direction], None) = (named_directions.as_slice(), self.cut) {
-            self.cut = Some(Cut::Along(*direction));
-        }
+        self.take_directions(words);
         if self.cut == Some(Cut::Bias) {
             words.retain(|letter| letter != '°' && letter != '±');
             *words = words.replacen("45", " ", 1).replace(" deg ", " ");
-            take(
-                words,
-                &[
-                    "bias, biais, sbieco, bies, sesgo, viés, verev, schräg, diagonal, バイアス, 斜め, 斜向",
-                ],
-            );
+            take_words(words, BIAS);
         }
+
         self.take_statistic(words, inside);
         for (face, known) in [(Face::Face, FACE), (Face::Back, BACK)] {
-            if take(words, known) {
+            if take_words(words, known) {
                 self.face = Some(face);
             }
         }
-        for (axis, known) in
-            [(Axis::Specimen, SPECIMEN), (Axis::Fabric, FABRIC), (Axis::Sample, SAMPLE)]
-        {
-            let before = words.clone();
-            if self.axis.is_none() && take(words, known) {
-                self.axis = Some(axis);
-                // "Fabric A" keeps its words, "Specimen 3" its number.
-                if axis != Axis::Specimen && words.split_whitespace().next().is_some() {
-                    *words = before;
-                    self.axis = None;
-                    break;
-                }
-            }
-        }
-        if single(UNIT).any(|word| words.trim() == word) {
-            self.axis = Some(Axis::Unit);
-        }
-        take(words, GENERIC);
+        self.take_head_kind(words);
+
+        take_words(words, GENERIC);
         let rest: Vec<&str> = words.split_whitespace().collect();
         if let [number] = rest.as_slice()
             && self.item.is_none()
@@ -255,12 +229,59 @@ impl Label {
         }
     }
 
+    /// Removes the words of directions from `words`, and sets the direction if there is only one.
+    fn take_directions(&mut self, words: &mut String) {
+        let mut kept = Vec::new();
+        let mut directions = Vec::new();
+        for word in words.split_whitespace() {
+            let short = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
+            let named = heading::directions(short).first().copied();
+            let Some(direction) = named.or_else(|| spelling::direction(short)) else {
+                kept.push(word);
+                continue;
+            };
+            directions.push(direction);
+            // "Warp1" has a number; "経方向" has nothing but a direction.
+            kept.push(&word[short.len()..]);
+        }
+        *words = format!(" {} ", kept.join(" "));
+        // "Warp and weft" is no direction.
+        directions.dedup();
+        if let ([direction], None) = (directions.as_slice(), self.cut) {
+            self.cut = Some(Cut::Along(*direction));
+        }
+    }
+
+    /// Removes the head of a row or column of names from `words`, and sets its kind.
+    fn take_head_kind(&mut self, words: &mut String) {
+        for (kind, known) in
+            [(HeadKind::Specimen, SPECIMEN), (HeadKind::Fabric, FABRIC), (HeadKind::Sample, SAMPLE)]
+        {
+            let before = words.clone();
+            if self.axis.is_none() && take_words(words, known) {
+                self.axis = Some(kind);
+                // "Fabric A" keeps its words, "Specimen 3" only its number.
+                if kind != HeadKind::Specimen && words.split_whitespace().next().is_some() {
+                    *words = before;
+                    self.axis = None;
+                    break;
+                }
+            }
+        }
+        if single(UNIT).any(|word| words.trim() == word) {
+            self.axis = Some(HeadKind::Unit);
+        }
+    }
+
+    /// Removes the words of statistics from `words`, and sets the statistic.
     fn take_statistic(&mut self, words: &mut String, inside: &[String]) {
-        let taken = [MEAN, DEVIATION, VARIATION, ERROR, OTHER].map(|known| take(words, known));
+        let found =
+            [MEAN, DEVIATION, VARIATION, ERROR, OTHER].map(|known| take_words(words, known));
         let is_count =
             words.split_whitespace().all(|word| single(COUNT).any(|known| known == word))
                 || single(COUNT).any(|name| name.contains(' ') && words.trim() == name);
-        self.statistic = match taken {
+
+        self.statistic = match found {
             [true, _, true, ..] => Some(Statistic::MeanWithVariation),
             [true, _, _, true, _] => Some(Statistic::MeanWithError),
             [true, ..] => Some(Statistic::Mean),
@@ -276,18 +297,23 @@ impl Label {
         };
     }
 
-    /// Takes the symbol of an item: the words together, or one word of several letters among others. A symbol beside a
-    /// name says which of its kind it is.
+    /// Removes the symbol of an item from `words`, and sets the item: all words together, or one
+    /// word of several letters. A symbol beside a name selects the item among items of one kind.
     fn take_symbol(&mut self, words: &mut String) {
         let joined: String = words.split_whitespace().collect();
-        // Symbols that are words of a language too.
+        // These symbols are words of a language too.
         let is_word = |word: &str| ["to", "et", "hb", "hg", "bl", "st", "he", "rs"].contains(&word);
-        let together = Item::of_symbol(&joined).filter(|_| !is_word(&joined));
-        let long = |word: &&str| word.chars().count() > 1 && !is_word(word);
-        let single = || words.split_whitespace().filter(long).find_map(Item::of_symbol);
-        let Some(written) = together.or_else(single) else { return };
+        let together = Item::parse_symbol(&joined).filter(|_| !is_word(&joined));
+        let written = together.or_else(|| {
+            words
+                .split_whitespace()
+                .filter(|word| word.chars().count() > 1 && !is_word(word))
+                .find_map(Item::parse_symbol)
+        });
+        let Some(written) = written else { return };
+
         match self.item {
-            None if together.is_none() && !is_alone_enough(words) => {}
+            None if together.is_none() && !is_short(words) => {}
             None => {
                 self.set_symbol(written);
                 words.clear();
@@ -296,39 +322,45 @@ impl Label {
                 self.set_symbol(written);
                 words.clear();
             }
-            // A name tells more than a letter: the flexural rigidity of a cantilever is G too.
+            // A name is more certain than a letter: the flexural rigidity of a cantilever is G too.
             Some(_) => words.clear(),
         }
     }
 
-    /// Takes a text in brackets behind an item for a unit that is not known, where it is none of the words.
+    /// Takes a short text in brackets behind an item as an unknown unit, if the text is not among
+    /// the recognised words.
     fn take_unknown_unit(&mut self, words: &str, inside: &[String]) {
         if self.item.is_none() || self.unit.is_some() {
             return;
         }
-        let is_unit = |text: &&String| {
-            let is_left = normal(text).split(' ').all(|word| words.contains(&format!(" {word} ")));
-            let is_short = text.chars().count() <= UNKNOWN_UNIT_MAX && !text.contains(' ');
-            is_left && is_short && text.chars().any(char::is_alphabetic)
-        };
-        let unit = inside.iter().find(is_unit).cloned();
-        self.unit = unit.map(|text| WrittenUnit { text, is_known: false });
+        /// Largest number of letters of an unknown unit.
+        const LONGEST: usize = 12;
+
+        let unit = inside.iter().find(|text| {
+            let is_unrecognised =
+                normal(text).split(' ').all(|word| words.contains(&format!(" {word} ")));
+            let is_short = text.chars().count() <= LONGEST && !text.contains(' ');
+            is_unrecognised && is_short && text.chars().any(char::is_alphabetic)
+        });
+        self.unit = unit.map(|text| WrittenUnit { text: text.clone(), is_known: false });
     }
 
-    /// Removes the unit of a load or a pressure at which the item was measured: `Thickness at 2 gf/cm²`.
+    /// Removes a unit that is the unit of a load or a pressure at which the item was measured:
+    /// `Thickness at 2 gf/cm²`.
     fn drop_condition(&mut self) {
         const CONDITIONS: [Quantity; 3] =
             [Quantity::Pressure, Quantity::ForcePerWidth, Quantity::Angle];
         let (Some(unit), Some(quantity)) = (&self.unit, self.item.and_then(Item::quantity)) else {
             return;
         };
-        let is_own = parse_unit(&unit.text, &[quantity]).is_ok();
-        if !is_own && parse_unit(&unit.text, &CONDITIONS).is_ok() {
+        let is_of_item = parse_unit(&unit.text, &[quantity]).is_ok();
+        if !is_of_item && parse_unit(&unit.text, &CONDITIONS).is_ok() {
             self.unit = None;
         }
     }
 
-    fn set_symbol(&mut self, written: crate::results::item::Written) {
+    /// Sets the item, the suffix and the face of a symbol.
+    fn set_symbol(&mut self, written: WrittenSymbol) {
         self.is_named = false;
         self.item = Some(written.item);
         self.suffix = written.suffix;
@@ -337,26 +369,31 @@ impl Label {
     }
 }
 
-/// Returns whether a symbol stands alone: with signs and digits, but no word.
+/// Returns whether `text` is short enough for a symbol with signs and digits.
 fn is_plain_symbol(text: &str) -> bool {
     text.split_whitespace().count() <= 2 && text.chars().count() <= 9
 }
 
-/// Returns whether a text is so short, four words at most, that a symbol in it is the symbol of an item.
-fn is_alone_enough(words: &str) -> bool {
+/// Returns whether `words` are at most four, so that a symbol among them is the symbol of an item.
+fn is_short(words: &str) -> bool {
     words.split_whitespace().count() <= 4
 }
 
-/// Returns whether a symbol may stand beside a name of another item of its kind.
+/// Returns whether `symbol` may stand beside the name of the item `named`: both are of one kind.
 fn are_akin(named: Item, symbol: Item) -> bool {
-    let kind = |item: Item| match item {
+    named == symbol || (kind(named) > 0 && kind(named) == kind(symbol))
+}
+
+/// Returns a number for the kind of items that share names; 0 for items with a name that no other
+/// item has.
+fn kind(item: Item) -> u32 {
+    match item {
         Item::Key("2HG" | "2HG5") => 1,
         Item::Key("T" | "T0" | "TM") | Item::Thickness(_) => 2,
         Item::Key("EM") | Item::Extension(_) | Item::BiasExtension => 3,
         Item::Key("MIU" | "MMD") => 4,
         _ => 0,
-    };
-    named == symbol || (kind(named) > 0 && kind(named) == kind(symbol))
+    }
 }
 
 #[cfg(test)]
@@ -443,9 +480,9 @@ mod tests {
         assert_eq!((label.item, label.cut), (Some(Item::Key("G")), WARP));
         let label = Label::parse("B-2");
         assert_eq!((label.item, label.suffix), (Some(Item::Key("B")), Some(2)));
-        assert_eq!(Label::parse("Specimen").axis, Some(Axis::Specimen));
-        assert_eq!(Label::parse("Fabric:").axis, Some(Axis::Fabric));
-        assert_eq!(Label::parse("Sample").axis, Some(Axis::Sample));
+        assert_eq!(Label::parse("Specimen").axis, Some(HeadKind::Specimen));
+        assert_eq!(Label::parse("Fabric:").axis, Some(HeadKind::Fabric));
+        assert_eq!(Label::parse("Sample").axis, Some(HeadKind::Sample));
         assert_eq!(Label::parse("Fabric A").name, "Fabric A");
         assert_eq!(Label::parse("sateen 11").name, "sateen 11");
     }

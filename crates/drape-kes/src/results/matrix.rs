@@ -1,6 +1,7 @@
-//! Cells of a sheet with what they say, in rows or turned by a quarter.
+//! Cells of a sheet with their labels, as rows or transposed.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::results::label::letters::half_width;
 use crate::results::label::{Face, Label};
@@ -8,125 +9,132 @@ use crate::results::number::is_number;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Heading, Kind};
 
-/// Numbers below each other from which on they may be a curve: a table of results has as many rows as items.
+/// Least number of numbers below each other that may be a curve. A table of results has only as
+/// many rows as items.
 const CURVE_LEAST: usize = 16;
-/// Part of the rows of a column of numbers that begin with an item, where the column is one of results.
+/// Part of the rows of a column of numbers that must begin with an item, if the column holds
+/// results.
 const SHARE_OF_ITEMS: f64 = 0.8;
-/// Rows above a column of numbers in which its heading is looked for.
+/// Number of rows above a column of numbers in which the heading is searched.
 const HEADING_ROWS: usize = 4;
 
-/// Cell with its place.
+/// Cell with its position and its label.
 #[derive(Clone, Debug)]
 pub(crate) struct Slot {
     pub(crate) cell: Cell,
-    /// Parts of its text; `None` for a number or an empty cell.
+    /// Parts of the text of the cell; `None` for a number or an empty cell.
     pub(crate) label: Option<Label>,
     pub(crate) is_number: bool,
     pub(crate) line: usize,
-    /// Row and column of the matrix before it is turned.
-    pub(crate) at: (usize, usize),
+    /// Row and column in the matrix that is not transposed.
+    pub(crate) position: (usize, usize),
 }
 
 impl Slot {
-    fn new(cell: Cell, line: usize, at: (usize, usize)) -> Self {
+    /// Returns the slot of `cell`, with the parts of its text.
+    fn new(cell: Cell, line: usize, position: (usize, usize)) -> Self {
         let is_number = !cell.is_empty() && is_number(&cell);
         let label = (!cell.is_empty() && !is_number).then(|| Label::parse(&cell.text()));
-        Self { cell, label, is_number, line, at }
+        Self { cell, label, is_number, line, position }
     }
 
-    /// Removes what the cell says.
+    /// Removes the content of the cell.
     fn clear(&mut self) {
         self.cell = Cell::Text(String::new());
         self.label = None;
         self.is_number = false;
     }
 
-    /// Returns whether the cell has an item.
+    /// Returns whether the label of the cell has an item.
     pub(crate) fn has_item(&self) -> bool {
         self.label.as_ref().is_some_and(|label| label.item.is_some())
     }
 }
 
-/// Cells of a sheet, each row as long as the others; an empty row stands for lines that are left out.
+/// Cells of a sheet in rows of equal length. An empty row stands for lines that are skipped.
 #[derive(Clone, Debug)]
 pub(crate) struct Matrix {
     pub(crate) rows: Vec<Vec<Slot>>,
 }
 
 impl Matrix {
-    /// Makes the matrix of a sheet, without the cells of curves and without the lines of other tests.
-    pub(crate) fn of(grid: &Grid, without: &BTreeSet<usize>) -> Self {
+    /// Returns the matrix of the sheet `grid`, without the cells of curves and without the lines
+    /// `without`.
+    pub(crate) fn from_grid(grid: &Grid, without: &BTreeSet<usize>) -> Self {
         let mut rows: Vec<Row> = Vec::new();
         for row in grid.rows.iter().filter(|row| !without.contains(&row.line)) {
             if rows.last().is_some_and(|before| before.line + 1 < row.line) {
                 rows.push(Row { line: row.line - 1, cells: Vec::new() });
             }
-            rows.push(keys_parted(row));
+            rows.push(split_keys(row));
         }
         let width = rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
-        let slots = |(r, row): (usize, Row)| {
+        let mut slots = Vec::with_capacity(rows.len());
+        for (r, row) in rows.into_iter().enumerate() {
             let mut cells = row.cells;
             cells.resize(width, Cell::Text(String::new()));
-            let slot = |(c, cell): (usize, Cell)| Slot::new(cell, row.line, (r, c));
-            cells.into_iter().enumerate().map(slot).collect()
-        };
-        let mut matrix = Self { rows: rows.into_iter().enumerate().map(slots).collect() };
+            let row =
+                cells.into_iter().enumerate().map(|(c, cell)| Slot::new(cell, row.line, (r, c)));
+            slots.push(row.collect());
+        }
+
+        // Names are recognised along rows, then along columns.
+        let mut matrix = Self { rows: slots };
         matrix.name_signs();
-        let mut turned = matrix.turned();
-        turned.name_signs();
-        let mut matrix = turned.turned();
+        let mut transposed = matrix.transposed();
+        transposed.name_signs();
+        let mut matrix = transposed.transposed();
         matrix.clear_curves();
         matrix.clear_profiles();
         matrix
     }
 
-    /// Returns the matrix with rows in place of columns.
-    pub(crate) fn turned(&self) -> Self {
+    /// Returns the matrix with its columns as rows.
+    pub(crate) fn transposed(&self) -> Self {
         let width = self.width();
         let column = |c: usize| self.rows.iter().map(|row| row[c].clone()).collect();
         Self { rows: (0..width).map(column).collect() }
     }
 
+    /// Returns the number of columns.
     pub(crate) fn width(&self) -> usize {
         self.rows.first().map_or(0, Vec::len)
     }
 
+    /// Returns the label in row `r` and column `c`.
     pub(crate) fn label(&self, r: usize, c: usize) -> Option<&Label> {
         self.rows[r][c].label.as_ref()
     }
 
-    /// Makes a cell, which seemed to be a symbol, a name.
-    pub(crate) fn make_name(&mut self, at: (usize, usize)) {
-        for slot in self.rows.iter_mut().flatten().filter(|slot| slot.at == at) {
+    /// Makes the cell at `position`, which seemed to be a symbol, a name.
+    pub(crate) fn make_name(&mut self, position: (usize, usize)) {
+        for slot in self.rows.iter_mut().flatten().filter(|slot| slot.position == position) {
             let name = slot.cell.text();
             slot.label = Some(Label { name, ..Label::default() });
         }
     }
 
-    /// Makes single letters names where they are a list, as in `A, B, C`: a symbol of KES has no A before it. A plus
-    /// beside a minus are the two senses of a test.
+    /// Makes single letters names if they are a list, such as `A, B, C`: no symbol of KES has an A
+    /// before it. A plus beside a minus are the two senses of a test.
     fn name_signs(&mut self) {
-        let plain = |slot: &Slot| half_width(&slot.cell.text()).to_uppercase().replace('−', "-");
         for row in &mut self.rows {
             let filled: Vec<(usize, String)> = row
                 .iter()
                 .enumerate()
                 .filter(|(_, slot)| !slot.cell.is_empty())
-                .map(|(c, slot)| (c, plain(slot)))
+                .map(|(c, slot)| {
+                    (c, half_width(&slot.cell.text()).to_uppercase().replace('−', "-"))
+                })
                 .collect();
-            let follows = |pair: &[(usize, String)], one: &str, next: &str| {
-                pair[0].1 == one && pair[1].1 == next
-            };
-            let mut pairs = filled.windows(2);
-            if pairs.any(|pair| follows(pair, "A", "B")) {
-                let is_letter =
-                    |text: &String| text.len() == 1 && text.as_bytes()[0].is_ascii_alphabetic();
-                for (c, _) in filled.iter().filter(|(_, text)| is_letter(text)) {
-                    let name = row[*c].cell.text();
-                    row[*c].label = Some(Label { name, ..Label::default() });
+            if has_neighbours(&filled, ["A", "B"]) {
+                for (c, text) in &filled {
+                    if text.len() == 1 && text.as_bytes()[0].is_ascii_alphabetic() {
+                        let name = row[*c].cell.text();
+                        row[*c].label = Some(Label { name, ..Label::default() });
+                    }
                 }
             }
-            if filled.windows(2).any(|pair| follows(pair, "+", "-")) {
+            if has_neighbours(&filled, ["+", "-"]) {
                 for (c, text) in &filled {
                     let face = match text.as_str() {
                         "+" => Face::Face,
@@ -139,8 +147,8 @@ impl Matrix {
         }
     }
 
-    /// Removes the columns of curves: long columns of numbers below a heading of a deformation or a load, and those
-    /// that no items stand beside.
+    /// Removes the columns of curves: long columns of numbers below the heading of a deformation or
+    /// a load, and columns without items beside them.
     fn clear_curves(&mut self) {
         for c in 0..self.width() {
             let mut r = 0;
@@ -155,42 +163,51 @@ impl Matrix {
         }
     }
 
-    /// Removes the numbers below an item that stand beside those of a deformation or a load, as MIU along a distance.
+    /// Removes the numbers below an item that stand beside a deformation or a load, such as MIU
+    /// along a distance.
     fn clear_profiles(&mut self) {
         for r in 0..self.rows.len() {
-            let below = |matrix: &Self, c: usize| {
-                let numbers = matrix.rows[r + 1..].iter().skip_while(|row| !row[c].is_number);
-                let before =
-                    matrix.rows[r + 1..].iter().take_while(|row| !row[c].is_number).count();
-                (r + 1 + before, numbers.take_while(|row| row[c].is_number).count())
-            };
-            let is_axis = |c: &usize| {
-                let slot = &self.rows[r][*c];
-                let plain = slot.label.as_ref().is_some_and(|l| l.item.is_none() && !l.is_tagged());
-                plain && is_of_curves(&slot.cell) && below(self, *c).1 > 1
-            };
-            if !(0..self.width()).any(|c| is_axis(&c)) {
+            let is_profile = (0..self.width()).any(|c| {
+                let slot = &self.rows[r][c];
+                let is_plain = slot
+                    .label
+                    .as_ref()
+                    .is_some_and(|label| label.item.is_none() && !label.is_tagged());
+                is_plain && names_curve(&slot.cell) && self.numbers_below(r, c).len() > 1
+            });
+            if !is_profile {
                 continue;
             }
-            for c in (0..self.width()).filter(|&c| self.rows[r][c].has_item()).collect::<Vec<_>>() {
-                let (first, count) = below(self, c);
-                self.rows[first..first + count].iter_mut().for_each(|row| row[c].clear());
+            for c in 0..self.width() {
+                if self.rows[r][c].has_item() {
+                    let numbers = self.numbers_below(r, c);
+                    self.rows[numbers].iter_mut().for_each(|row| row[c].clear());
+                }
             }
         }
     }
 
-    /// Returns the row of the heading of a column of numbers from a row on.
-    fn heading_row(&self, r: usize, c: usize) -> Option<usize> {
-        let text =
-            |row: &usize| self.rows[*row][c].label.as_ref().is_some_and(|label| !label.is_unit());
-        (r.saturating_sub(HEADING_ROWS)..r).rev().find(text)
+    /// Returns the first run of numbers below the row `r` in the column `c`, as rows.
+    fn numbers_below(&self, r: usize, c: usize) -> Range<usize> {
+        let below = &self.rows[r + 1..];
+        let before = below.iter().take_while(|row| !row[c].is_number).count();
+        let count = below[before..].iter().take_while(|row| row[c].is_number).count();
+        r + 1 + before..r + 1 + before + count
     }
 
+    /// Returns the row of the heading above the row `r` of the column `c`.
+    fn heading_row(&self, r: usize, c: usize) -> Option<usize> {
+        (r.saturating_sub(HEADING_ROWS)..r)
+            .rev()
+            .find(|&row| self.label(row, c).is_some_and(|label| !label.is_unit()))
+    }
+
+    /// Returns whether `length` numbers from the row `r` in the column `c` are a curve.
     fn is_curve(&self, r: usize, c: usize, length: usize) -> bool {
         let heading = self.heading_row(r, c);
         if let Some(row) = heading {
             let slot = &self.rows[row][c];
-            if is_of_curves(&slot.cell)
+            if names_curve(&slot.cell)
                 && !slot.has_item()
                 && !slot.label.as_ref().is_some_and(Label::is_tagged)
             {
@@ -201,36 +218,45 @@ impl Matrix {
                 return false;
             }
         }
-        let has_item = |row: &&Vec<Slot>| row[..c].iter().any(Slot::has_item);
-        let begun = self.rows[r..r + length].iter().filter(has_item).count();
-        (begun as f64) < SHARE_OF_ITEMS * length as f64
+
+        // In a table of results most rows begin with an item.
+        let rows = &self.rows[r..r + length];
+        let with_item = rows.iter().filter(|row| row[..c].iter().any(Slot::has_item)).count();
+        (with_item as f64) < SHARE_OF_ITEMS * length as f64
     }
 }
 
-/// Returns whether a heading is that of a deformation or a load.
-fn is_of_curves(cell: &Cell) -> bool {
+/// Returns whether `cell` is the heading of a deformation or a load.
+fn names_curve(cell: &Cell) -> bool {
     let heading = Heading::parse(&cell.text());
-    // F1 may be a fabric: a symbol is one of a curve where it has a unit.
+    // F1 may be a fabric: a symbol is the heading of a curve only if it has a unit.
     let is_word = heading.name.chars().count() > 3 || !heading.name.is_ascii();
     let kind = heading::kind(&heading.name).filter(|_| is_word || heading.unit.is_some());
     kind.is_some_and(|kind| !matches!(kind, Kind::Specimen | Kind::Other))
 }
 
-/// Parts the cells of a row that hold a key with its value, `W: 21.3 mg/cm2`, where each cell of the row is such a
-/// pair.
-fn keys_parted(row: &Row) -> Row {
-    let pair = |cell: &Cell| -> Option<[Cell; 2]> {
-        let Cell::Text(text) = cell else { return None };
-        let (key, value) = text.split_once([':', '=', '：', '＝'])?;
-        let cells = [key, value].map(|text| Cell::Text(text.trim().to_owned()));
-        (is_number(&cells[1]) && Label::parse(key).item.is_some()).then_some(cells)
-    };
+/// Returns whether two neighbouring texts are the given `pair`.
+fn has_neighbours(texts: &[(usize, String)], pair: [&str; 2]) -> bool {
+    texts.windows(2).any(|texts| texts[0].1 == pair[0] && texts[1].1 == pair[1])
+}
+
+/// Splits the cells of `row` into keys and values, if each cell is a key with its value, such as
+/// `W: 21.3 mg/cm2`.
+fn split_keys(row: &Row) -> Row {
     let filled: Vec<&Cell> = row.filled().map(|(_, cell)| cell).collect();
-    let pairs: Vec<[Cell; 2]> = filled.iter().filter_map(|cell| pair(cell)).collect();
+    let pairs: Vec<[Cell; 2]> = filled.iter().filter_map(|cell| key_and_value(cell)).collect();
     if pairs.is_empty() || pairs.len() < filled.len() {
         return row.clone();
     }
     Row { line: row.line, cells: pairs.concat() }
+}
+
+/// Returns the key and the value that `cell` holds; `None` for another cell.
+fn key_and_value(cell: &Cell) -> Option<[Cell; 2]> {
+    let Cell::Text(text) = cell else { return None };
+    let (key, value) = text.split_once([':', '=', '：', '＝'])?;
+    let cells = [key, value].map(|text| Cell::Text(text.trim().to_owned()));
+    (is_number(&cells[1]) && Label::parse(key).item.is_some()).then_some(cells)
 }
 
 #[cfg(test)]
@@ -240,7 +266,7 @@ mod tests {
 
     fn of(text: &str) -> Matrix {
         let rows = Separator::Semicolon.split(text).expect("it splits");
-        Matrix::of(&Grid { rows, ..Grid::default() }, &BTreeSet::new())
+        Matrix::from_grid(&Grid { rows, ..Grid::default() }, &BTreeSet::new())
     }
 
     #[test]

@@ -1,60 +1,66 @@
-//! Values of one sheet of a file, averaged, by fabric.
+//! Averaged values of one sheet of a file, by fabric.
 
 use std::collections::BTreeSet;
 
-use crate::results::average::{Averaged, Given, averaged};
-use crate::results::fabrics::by_fabric;
+use crate::results::average::{AssumedDirection, AveragedValue, average_fabric};
+use crate::results::fabrics::split_by_fabric;
 use crate::results::item::Item;
 use crate::results::matrix::Matrix;
 use crate::results::reading::readings;
-use crate::results::table::found;
+use crate::results::table::read_table;
 use crate::tables::grid::Grid;
 use crate::tables::heading::is_bias;
 
-/// Values of a sheet, and what has no use in it.
+/// Values of a sheet, and notes on what has no use.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SheetResults {
     /// Name of each fabric, where the table gives one, and its values.
-    pub(crate) fabrics: Vec<(Option<String>, Vec<Averaged>)>,
+    pub(crate) fabrics: Vec<(Option<String>, Vec<AveragedValue>)>,
     pub(crate) notes: Vec<String>,
 }
 
-/// Reads the values of a sheet.
+/// Reads the values of a sheet `grid`.
 ///
-/// Lines `without` results, those of curves, are left out. The direction is `given` by the name of the sheet or of the
-/// file; it counts where the table names none.
+/// Lines in `without`, such as lines of curves, are skipped. `assumed` is the direction that the
+/// name of the sheet or the file gives, for tables that name none.
 pub(crate) fn results(
     grid: &Grid,
     without: &BTreeSet<usize>,
-    given: Option<&Given>,
+    assumed: Option<&AssumedDirection>,
 ) -> SheetResults {
     let mut results = SheetResults::default();
-    let entries = found(&Matrix::of(grid, without));
+    let entries = read_table(&Matrix::from_grid(grid, without));
     let mut readings = readings(entries, &mut results.notes);
     if is_at_45(grid) {
         for reading in readings.iter_mut().filter(|reading| reading.item == Item::Overhang) {
             reading.item = Item::SteepOverhang;
         }
     }
-    // A mistake in a row is one for each of its numbers.
+    // A mistake in a row is repeated for each number of the row.
     results.notes.dedup();
+
     if readings.is_empty() {
         return results;
     }
-    for fabric in by_fabric(readings, &mut results.notes) {
-        let values = averaged(&fabric.readings, given, &mut results.notes);
+    for fabric in split_by_fabric(readings, &mut results.notes) {
+        let values = average_fabric(&fabric.readings, assumed, &mut results.notes);
         results.fabrics.push((fabric.name, values));
     }
     results
 }
 
-/// Returns whether a sheet says that its cantilever is one of 45°.
+/// Returns whether the sheet `grid` says that its cantilever is bent to 45°.
 fn is_at_45(grid: &Grid) -> bool {
-    let texts = || grid.rows.iter().flat_map(|row| row.filled()).map(|(_, cell)| cell.text());
-    let has = |words: &[&str]| {
-        texts().any(|text| words.iter().any(|word| text.to_lowercase().contains(word)))
-    };
-    texts().any(|text| is_bias(&text)) && has(&["cantilever", "カンチレバー", "1096", "悬臂"])
+    let texts: Vec<String> = grid
+        .rows
+        .iter()
+        .flat_map(|row| row.filled())
+        .map(|(_, cell)| cell.text().to_lowercase())
+        .collect();
+    texts.iter().any(|text| is_bias(text))
+        && texts.iter().any(|text| {
+            ["cantilever", "カンチレバー", "1096", "悬臂"].iter().any(|word| text.contains(word))
+        })
 }
 
 #[cfg(test)]
@@ -72,7 +78,7 @@ mod tests {
     fn get(found: &SheetResults, key: &'static str, direction: Option<Direction>) -> (f64, f64) {
         let [(_, values)] = &found.fabrics[..] else { panic!("not one fabric: {found:?}") };
         let is_it =
-            |value: &&Averaged| value.item == Item::Key(key) && value.direction == direction;
+            |value: &&AveragedValue| value.item == Item::Key(key) && value.direction == direction;
         let value = values.iter().find(is_it).unwrap_or_else(|| panic!("no {key}: {found:?}"));
         (value.number, value.deviation.unwrap_or(0.0))
     }

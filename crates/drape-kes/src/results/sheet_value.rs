@@ -1,74 +1,78 @@
 //! Values of one fabric on the way to a sheet.
 
-use crate::results::average::{Averaged, rounded};
+use crate::results::average::{AveragedValue, rounded};
 use crate::results::item::Item;
 use crate::test::Direction;
 
 /// Averaged value with its place in the files.
 #[derive(Clone, Debug)]
-pub(crate) struct Sourced {
-    pub(crate) value: Averaged,
+pub(crate) struct SourcedValue {
+    pub(crate) value: AveragedValue,
     pub(crate) source: String,
 }
 
-/// Value of a sheet.
+/// Value of a drafted sheet.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SheetValue {
+pub(crate) struct DraftValue {
     pub(crate) key: &'static str,
     pub(crate) direction: Option<Direction>,
     pub(crate) number: f64,
     pub(crate) deviation: Option<f64>,
-    /// Spelling of the unit; `None` for a bare number.
+    /// Spelling of the unit; `None` for a number without unit.
     pub(crate) unit: Option<&'static str>,
-    /// Where it comes from and how.
+    /// Source and computation of the value.
     pub(crate) why: String,
 }
 
-/// Values of a sheet, and what a sheet has no key for.
+/// Values of a drafted sheet, and values that a sheet has no key for.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Converted {
-    pub(crate) values: Vec<SheetValue>,
-    /// Values that stand in the files and have no use in the sheet, each with the reason.
+pub(crate) struct ConvertedValues {
+    pub(crate) values: Vec<DraftValue>,
+    /// Values without a use in the sheet, each with the reason.
     pub(crate) unused: Vec<String>,
     pub(crate) notes: Vec<String>,
 }
 
-/// Values of one fabric while they are converted.
-pub(crate) struct Values {
-    pub(crate) all: Vec<Sourced>,
+/// Values of one fabric during the conversion.
+pub(crate) struct FabricValues {
+    pub(crate) values: Vec<SourcedValue>,
 }
 
-impl Values {
-    /// Returns the value of an item and a direction.
-    pub(crate) fn get(&self, item: Item, direction: Option<Direction>) -> Option<&Sourced> {
-        self.all.iter().find(|one| one.value.item == item && one.value.direction == direction)
+impl FabricValues {
+    /// Returns the value of `item` and `direction`.
+    pub(crate) fn get(&self, item: Item, direction: Option<Direction>) -> Option<&SourcedValue> {
+        self.values
+            .iter()
+            .find(|sourced| sourced.value.item == item && sourced.value.direction == direction)
     }
 
-    /// Returns whether there is a value of an item in any direction.
+    /// Returns whether there is a value of `item` in any direction.
     pub(crate) fn has(&self, item: Item) -> bool {
-        self.all.iter().any(|one| one.value.item == item)
+        self.values.iter().any(|sourced| sourced.value.item == item)
     }
 
-    /// Returns whether there are values of FAST or of a cantilever, and none that only KES has.
-    pub(crate) fn is_fast(&self) -> bool {
-        let has = |is: fn(Item) -> bool| self.all.iter().any(|one| is(one.value.item));
-        has(Item::is_of_fast) && !has(Item::is_of_kes)
+    /// Returns whether there are values of FAST or of a cantilever, and no value that only KES
+    /// measures.
+    pub(crate) fn are_fast(&self) -> bool {
+        let mut items = self.values.iter().map(|sourced| sourced.value.item);
+        items.clone().any(Item::is_fast) && !items.any(Item::is_only_of_kes)
     }
 
-    /// Removes the value of an item and a direction.
+    /// Removes the value of `item` and `direction`.
     pub(crate) fn remove(&mut self, item: Item, direction: Option<Direction>) {
-        self.all.retain(|one| (one.value.item, one.value.direction) != (item, direction));
+        self.values
+            .retain(|sourced| (sourced.value.item, sourced.value.direction) != (item, direction));
     }
 }
 
-/// Returns where a value comes from.
-pub(crate) fn why(one: &Sourced) -> String {
-    let remark = &one.value.remark;
+/// Returns the source and the remark of a value.
+pub(crate) fn source_of(sourced: &SourcedValue) -> String {
+    let remark = &sourced.value.remark;
     let remark = if remark.is_empty() { String::new() } else { format!(": {remark}") };
-    format!("{}{remark}", one.source)
+    format!("{}{remark}", sourced.source)
 }
 
-/// Returns a computed number with its digits.
+/// Returns a computed number with five significant digits.
 pub(crate) fn computed(number: f64) -> f64 {
     rounded(number, 5)
 }

@@ -1,4 +1,4 @@
-//! Values of the compression test, and what they give together.
+//! Values of the compression test, and the values that follow from them.
 //!
 //! With the pressure `$P_m$` of 50 gf/cm² at which TM is measured \[Kaw80\],
 //!
@@ -17,13 +17,15 @@ use drape_input::Quantity;
 const LARGEST_PRESSURE: f64 = 50.0;
 /// Millimetres of a centimetre, the length in WC.
 const MILLIMETRES: f64 = 10.0;
-/// Difference between LC as given and as the other values give it that is told.
+/// Relative difference between the given LC and the LC of the other values from which a warning is
+/// given.
 ///
-/// The values are printed with two or three digits, and TM is the mean of other specimens than WC.
-const REPORTED: f64 = 0.25;
+/// The values are printed with two or three digits, and TM is measured on other specimens than WC.
+const REPORTED_DIFFERENCE: f64 = 0.25;
 
 impl Sheet {
-    /// Returns TM: thickness under 50 gf/cm², which is 4.9 kPa, in metres; as given, or by LC and WC.
+    /// Returns TM: thickness under 50 gf/cm² (4.9 kPa), in metres. A missing `tm` is computed from
+    /// `lc` and `wc`.
     ///
     /// ```
     /// use drape_kes::Sheet;
@@ -40,41 +42,45 @@ impl Sheet {
         given.map(|tm| tm * Quantity::Length.laboratory().factor)
     }
 
-    /// Returns LC: linearity of the compression curve, a ratio; as given, or by T0, TM and WC.
+    /// Returns LC: linearity of the compression curve, a ratio. A missing `lc` is computed from
+    /// `t0`, `tm` and `wc`.
     #[must_use]
     pub fn compression_linearity(&self) -> Option<f64> {
         self.lc.or_else(|| self.linearity_by_work()).filter(|lc| (0.0..=1.0).contains(lc))
     }
 
-    /// Returns TM by T0, LC and WC, in mm; `None` where nothing would be left of the thickness.
+    /// Returns TM from `t0`, `lc` and `wc`, in mm. Returns `None` where the computed TM is less
+    /// than a tenth of T0.
     fn pressed_by_work(&self) -> Option<f64> {
         let (t0, lc, wc) = (self.t0.or(self.t)?, self.lc?, self.wc?);
-        let given_way = MILLIMETRES * 2.0 * wc / (lc * LARGEST_PRESSURE);
-        Some(t0 - given_way).filter(|tm| *tm > 0.1 * t0)
+        let compressed = MILLIMETRES * 2.0 * wc / (lc * LARGEST_PRESSURE);
+        Some(t0 - compressed).filter(|tm| *tm > 0.1 * t0)
     }
 
-    /// Returns LC by T0, TM and WC.
+    /// Returns LC from `t0`, `tm` and `wc`.
     fn linearity_by_work(&self) -> Option<f64> {
         let (t0, tm, wc) = (self.t0.or(self.t)?, self.tm?, self.wc?);
         (t0 > tm).then(|| MILLIMETRES * 2.0 * wc / (LARGEST_PRESSURE * (t0 - tm)))
     }
 
-    /// Warns where the values of the compression test do not agree.
+    /// Warns about values of the compression test that contradict each other. `root` is the sheet's
+    /// table.
     pub(crate) fn compare_compression(&self, root: &Section<'_>, findings: &mut Findings<'_>) {
         let key = root.key("LC");
-        if let (Some(given), Some(found)) = (self.lc, self.linearity_by_work())
-            && (found / given - 1.0).abs() > REPORTED
+        if let (Some(given), Some(computed)) = (self.lc, self.linearity_by_work())
+            && (computed / given - 1.0).abs() > REPORTED_DIFFERENCE
         {
             let message =
-                format!("{given} does not agree with T0, TM and WC, which give {found:.3}");
+                format!("{given} does not agree with T0, TM and WC, which give {computed:.3}");
             findings.warn(
                 &key,
                 message,
                 "check the four values and their units; LC and TM were taken",
             );
         }
-        let all = self.t0.or(self.t).is_some() && self.lc.is_some() && self.wc.is_some();
-        if all && self.tm.is_none() && self.pressed_by_work().is_none() {
+
+        let has_all = self.t0.or(self.t).is_some() && self.lc.is_some() && self.wc.is_some();
+        if has_all && self.tm.is_none() && self.pressed_by_work().is_none() {
             let message = "with WC leaves nothing of the thickness at 50 gf/cm²";
             findings.warn(&key, message, "check T, LC and WC and their units; a default was taken");
         }

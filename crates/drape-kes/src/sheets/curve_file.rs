@@ -1,6 +1,6 @@
-//! A `[[curve]]` of a sheet and the files that it names, made into a curve in SI.
+//! A `[[curve]]` of a sheet and its table files, read into curves in SI.
 //!
-//! Each axis is read once, as numbers with their parsed unit; conversion and checks use that unit.
+//! Each axis is read once, as numbers with their parsed unit. Conversion and checks use that unit.
 
 use std::path::{Path, PathBuf};
 
@@ -9,22 +9,19 @@ use drape_input::{Diagnostic, Quantity, closest};
 use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::sheets::axis::AxisKeys;
-use crate::sheets::checks::suspect::{AxesAsWritten, Keys, examine};
+use crate::sheets::checks::suspect::{AxesAsWritten, CurveKeyPaths, examine};
 use crate::sheets::convert::{deformation, load};
 use crate::sheets::findings::Findings;
 use crate::sheets::section::{Choice, Section};
 use crate::tables::block::Lines;
 use crate::tables::encoding;
 use crate::tables::file;
-use crate::tables::find::{Found, Request, find};
+use crate::tables::find::{FoundSeries, Request, find};
 use crate::tables::grid::Separator;
 use crate::tables::layout::Layout;
 use crate::tables::number::Decimal;
 use crate::tables::series::Series;
 use crate::test::{Direction, Test};
-
-/// Largest number of bytes in the name of a file.
-const FILE_NAME_MAX: usize = 255;
 
 pub(crate) const CURVE_KEYS: [&str; 17] = [
     "name",
@@ -58,22 +55,23 @@ pub(crate) const SEPARATOR: Choice<'_, Separator> =
 pub(crate) const DECIMAL: Choice<'_, Decimal> =
     Choice { key: "decimal", values: &Decimal::ALL, name: Decimal::name };
 
-/// What the sheet says of a curve.
+/// Keys of a `[[curve]]`, checked.
 struct CurveKeys {
     test: Test,
     direction: Direction,
     slack: bool,
-    /// Strain of the file at which the strip is taut and carries nothing, if the sheet says it.
+    /// Strain of the file at which the strip is taut and carries no load, if the sheet gives it.
     zero_strain: Option<f64>,
     deformation: AxisKeys,
     load: AxisKeys,
     layout: Layout,
-    paths: Keys,
+    paths: CurveKeyPaths,
 }
 
-/// Reads the curves that a section describes; none after reporting why there is none.
+/// Reads the curves that `section` describes. Returns no curve after reporting a mistake.
 ///
-/// Repeats are one curve, their mean; strips of loop bending are fitted together, and stay apart.
+/// Repeats are returned as one curve, their mean. Strips of loop bending are fitted together, and
+/// are returned one by one.
 pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Curve> {
     let errors = findings.errors.len();
     section.allow(&CURVE_KEYS, findings);
@@ -85,19 +83,25 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
     let zero_strain = section.measured("zero_strain", Quantity::Ratio, findings);
     let files = section.required_texts("file", "\"tensile-warp.csv\"", findings);
     let layout = layout(section, findings);
+
+    // The axes of an unknown test are only checked for unknown keys.
     let axes = match test {
         Some(test) => (
             AxisKeys::deformation(section, test, findings),
             AxisKeys::load(section, test, findings),
         ),
         None => {
-            AxisKeys::check(section, findings);
+            AxisKeys::check_keys(section, findings);
             (None, None)
         }
     };
+
+    // All keys have been read, so that all mistakes are reported before the first one ends the
+    // reading.
     let (Some(test), Some(direction), Some(files)) = (test, direction, files) else {
         return Vec::new();
     };
+
     if let Some(zero) = zero_strain.as_ref().filter(|_| slack || test != Test::Tensile) {
         let (message, help) = if slack {
             (
@@ -110,24 +114,28 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
         findings.error(&zero.key, message, help);
         return Vec::new();
     }
+
     let ((Some(deformation), Some(load)), Some(layout)) = (axes, layout) else {
         return Vec::new();
     };
-    // A key that is misspelt leaves what it would have said unknown.
+    // A misspelt key may have changed the meaning of the others.
     if !keys_are_known {
         return Vec::new();
     }
-    let paths = Keys {
+
+    let paths = CurveKeyPaths {
         file: section.key("file"),
         deformation: section.key("deformation"),
         load: section.key("load"),
         zero_strain: section.key("zero_strain"),
-        turned: deformation.reversed.is_some() || load.reversed.is_some(),
+        sign_is_declared: deformation.reversed.is_some() || load.reversed.is_some(),
     };
     let zero_strain = zero_strain.map(|zero| zero.si);
     let keys = CurveKeys { test, direction, slack, zero_strain, deformation, load, layout, paths };
+
+    // Repeats of a test are averaged; strips of loop bending stay apart.
     let curves: Option<Vec<Vec<Curve>>> =
-        files.iter().map(|file| keys.curves(file, findings)).collect();
+        files.iter().map(|file| keys.read_file(file, findings)).collect();
     let Some(mut curves) = curves.map(|curves| curves.concat()) else { return Vec::new() };
     if test != Test::LoopBending && curves.len() > 1 {
         curves = match Curve::mean(curves) {
@@ -140,6 +148,7 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
             }
         };
     }
+
     if let Some(name) = name {
         let several = curves.len() > 1;
         for (index, curve) in curves.iter_mut().enumerate() {
@@ -149,7 +158,7 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
     curves
 }
 
-/// Reads the declared layout of the file.
+/// Reads the layout of the file that `section` declares. Returns `None` after reporting a mistake.
 fn layout(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Layout> {
     let errors = findings.errors.len();
     let label = section.text("encoding", findings);
@@ -175,28 +184,29 @@ fn layout(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Layout> 
 }
 
 impl CurveKeys {
-    /// Reads the curves of one file; `None` after reporting why there is none. What is reported says
+    /// Reads the curves of `file`. Returns `None` after reporting a mistake. Every finding names
     /// test, direction and file.
-    fn curves(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
+    fn read_file(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
+        /// Largest number of bytes in the name of a file.
+        const FILE_NAME_MAX: usize = 255;
+
         let (errors, warnings) = (findings.errors.len(), findings.warnings.len());
-        let curves = self.curves_of(file, findings);
+        let curves = self.read_curves(file, findings);
         let test = format!("{} {}", self.test.name(), self.direction.name());
-        let name = |mistake: &mut Diagnostic| {
-            // A mistake in the file itself has its name already, and a name that no file can have is
-            // told once.
+        let added = findings.errors[errors..].iter_mut().chain(&mut findings.warnings[warnings..]);
+        for mistake in added {
+            // A mistake in the file itself has its name already. A name that no file can have is
+            // printed once.
             let is_named = mistake.file.ends_with(file) || file.len() > FILE_NAME_MAX;
             mistake.message +=
                 &if is_named { format!(" ({test})") } else { format!(" ({test}, {file})") };
-        };
-        findings.errors[errors..]
-            .iter_mut()
-            .chain(&mut findings.warnings[warnings..])
-            .for_each(name);
+        }
         curves
     }
 
-    fn curves_of(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
-        let path = self.locate(file, findings)?;
+    /// Reads the curves of `file`, and adds a reading. Returns `None` after reporting a mistake.
+    fn read_curves(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
+        let path = self.path_of(file, findings)?;
         let table_file = findings.collect(file::read(&path, &self.layout))?;
         let request = Request {
             test: self.test,
@@ -204,39 +214,44 @@ impl CurveKeys {
             deformation: self.deformation.query("deformation", self.test),
             load: self.load.query("load", self.test),
         };
-        let Found { series, mut reading, warnings } =
+
+        let FoundSeries { series, mut reading, warnings } =
             findings.collect(find(&path, &table_file, &self.layout, &request))?;
         for warning in warnings {
             findings.warn(&self.paths.file, warning.message, warning.help);
         }
+
         let mut points = 0;
         let mut curves = Vec::new();
         for (index, mut series) in series.into_iter().enumerate() {
-            series.trim();
+            series.drop_empty_rows();
             points += series.block.rows.len();
-            let (curve, scales) = self.curve(&series, findings)?;
+            let (name, scales) = self.curve(&series, findings)?;
             if index == 0 {
                 reading.extend(scales);
             }
-            reading.extend(curve.remarks());
-            curves.push(curve);
+            reading.extend(name.remarks());
+            curves.push(name);
         }
-        let curve = format!("{file}, {} {}", self.test.name(), self.direction.name());
-        let words = format!("{curve}: {points} points; {}", reading.join("; "));
+
+        let name = format!("{file}, {} {}", self.test.name(), self.direction.name());
+        let words = format!("{name}: {points} points; {}", reading.join("; "));
         findings.readings.push(words);
         Some(curves)
     }
 
-    /// Makes one series into a curve, and says what its axes were taken for.
+    /// Converts `series` to a curve. Returns the curve and what its axes were taken for, or `None`
+    /// after reporting a mistake.
     fn curve(&self, series: &Series, findings: &mut Findings<'_>) -> Option<(Curve, [String; 2])> {
         let deformation = deformation(self.test, &self.deformation, series, findings)?;
         let load = load(self.test, &self.load, series, findings)?;
         let words = [deformation.reading, load.reading];
         let (q, f) = (deformation.written, load.written);
+
         match Curve::new(self.test, self.direction, deformation.si, load.si) {
             Ok(mut curve) => {
                 (curve.gauge, curve.slack) = (q.size, self.slack);
-                // The unit of the times tells nothing: they only tell how far apart points are.
+                // The unit of the times has no effect: only ratios of times are used.
                 let curve = match series.times() {
                     Some(times) => curve.with_time(times),
                     None => curve,
@@ -258,8 +273,8 @@ impl CurveKeys {
         }
     }
 
-    /// Returns the path of a table file, which is beside the sheet.
-    fn locate(&self, file: &str, findings: &mut Findings<'_>) -> Option<PathBuf> {
+    /// Returns the path of the table file `file`, which is in the folder of the sheet.
+    fn path_of(&self, file: &str, findings: &mut Findings<'_>) -> Option<PathBuf> {
         let path = match findings.document.beside(file) {
             Ok(path) => path,
             Err(misplaced) => {
@@ -270,15 +285,15 @@ impl CurveKeys {
         if file::is_there(&path) {
             return Some(path);
         }
-        let help = suggestion(&path, file);
+        let help = suggest_name(&path, file);
         let message = format!("there is no file {}", path.display());
         findings.error(&self.paths.file, message, help);
         None
     }
 }
 
-/// Suggests the file that was meant by a name that does not exist.
-fn suggestion(path: &Path, written: &str) -> String {
+/// Suggests an existing file whose name is close to `written`, in the folder of `path`.
+fn suggest_name(path: &Path, written: &str) -> String {
     let mut names: Vec<String> = path
         .parent()
         .and_then(|folder| std::fs::read_dir(folder).ok())
@@ -289,6 +304,7 @@ fn suggestion(path: &Path, written: &str) -> String {
         .filter(|name| !name.ends_with(".toml"))
         .collect();
     names.sort();
+
     match closest(written, names.iter().map(String::as_str)) {
         Some(close) => format!("did you mean \"{close}\"?"),
         None => "files are looked for beside the sheet".to_owned(),

@@ -8,15 +8,16 @@ pub(crate) struct Findings<'t> {
     pub(crate) document: &'t Document,
     pub(crate) errors: Vec<Diagnostic>,
     pub(crate) warnings: Vec<Diagnostic>,
-    /// What was taken for what, a line for each file.
+    /// What each curve file was taken for, one line per file.
     pub(crate) readings: Vec<String>,
-    /// Key paths of values whose standard deviations have no use.
+    /// Key paths of values whose standard deviations are not used.
     pub(crate) unused_scatter: Vec<String>,
-    /// Those standard deviations.
+    /// Standard deviations that are not used.
     pub(crate) other_scatter: Vec<OtherScatter>,
 }
 
 impl<'t> Findings<'t> {
+    /// Returns findings for `document`, with no error or warning yet.
     pub(crate) fn new(document: &'t Document) -> Self {
         Self {
             document,
@@ -28,30 +29,30 @@ impl<'t> Findings<'t> {
         }
     }
 
-    /// Warns about standard deviations that have no use, all together.
-    pub(crate) fn tell_unused_scatter(&mut self) {
+    /// Warns about all standard deviations that are not used, in one warning.
+    pub(crate) fn warn_unused_scatter(&mut self) {
         let Some(first) = self.unused_scatter.first().cloned() else { return };
-        let others = self.unused_scatter[1..].join(", ");
-        let message = if others.is_empty() {
+        let other_keys = self.unused_scatter[1..].join(", ");
+        let message = if other_keys.is_empty() {
             "its standard deviation is not used".to_owned()
         } else {
-            format!("its standard deviation is not used, nor are those of {others}")
+            format!("its standard deviation is not used, nor are those of {other_keys}")
         };
         let help = "those of B, 2HB, G, 2HG, 2HG5, LT, WT, RT and EM give intervals";
         self.warn(&first, message, help);
     }
 
-    /// Adds an error in the value at a key path.
+    /// Adds an error about the value at the key path `key`, with its remedy `help`.
     pub(crate) fn error(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(self.document.at(key, message).help(help));
     }
 
-    /// Adds a warning about the value at a key path.
+    /// Adds a warning about the value at the key path `key`, with its remedy `help`.
     pub(crate) fn warn(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.warnings.push(self.document.at(key, message).help(help));
     }
 
-    /// Returns a result, or `None` after collecting its mistakes.
+    /// Returns the value of `result`, or `None` after collecting its mistakes.
     pub(crate) fn collect<T>(&mut self, result: Result<T, Diagnostics>) -> Option<T> {
         result.map_err(|Diagnostics(mistakes)| self.errors.extend(mistakes)).ok()
     }

@@ -1,4 +1,4 @@
-//! Values of a sheet in a list, each with what the model uses it for.
+//! Values of a sheet in a list, each with its use in the model.
 
 use std::ops::RangeInclusive;
 
@@ -6,6 +6,9 @@ use crate::sheets::checks::plausible;
 use crate::sheets::sheet::Sheet;
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
+
+/// Symbol, name in words, value, unit and use of a value.
+type Row = (&'static str, &'static str, Option<f64>, &'static str, Option<&'static str>);
 
 /// Value of a sheet, as the laboratory wrote it.
 ///
@@ -31,11 +34,11 @@ pub struct SheetValue {
     pub value: f64,
     /// Laboratory's unit; empty for a ratio.
     pub unit: &'static str,
-    /// Part of the model that it gives; `None` where the model does not use it.
+    /// Part of the model that the value gives; `None` where the model does not use the value.
     pub used_for: Option<&'static str>,
 }
 
-/// Returns the words of a symbol.
+/// Returns the name of `symbol` in words.
 fn words(symbol: Symbol) -> &'static str {
     match symbol {
         Symbol::B => "bending rigidity",
@@ -51,52 +54,37 @@ fn words(symbol: Symbol) -> &'static str {
 }
 
 impl Sheet {
-    /// Returns every value of the sheet, in the order in which laboratories print them: tension,
+    /// Returns every value of the sheet, in the order in which laboratories print values: tension,
     /// shear, bending, compression, surface, thickness and mass.
     ///
-    /// A value whose test has a curve in the sheet is not used: the curve is.
+    /// A value whose test has a curve in the sheet is not used, because the law follows the curve.
     #[must_use]
     pub fn listed(&self) -> Vec<SheetValue> {
         use Symbol::{B, Em, G, Lt, Rt, TwoHb, TwoHg, TwoHg5, Wt};
         let mut listed = Vec::new();
-        let has_curve = |test: Test, direction: Direction| match test {
-            // One law for both directions.
-            Test::Shear => self.curves.iter().any(|curve| curve.test == test),
-            Test::Bending => self.curves.iter().any(|curve| {
-                curve.direction == direction
-                    && matches!(curve.test, Test::Bending | Test::LoopBending)
-            }),
-            _ => self.curves_of(test, direction).next().is_some(),
-        };
         for symbol in [Lt, Wt, Rt, Em, G, TwoHg, TwoHg5, B, TwoHb] {
             for direction in [Direction::Warp, Direction::Weft] {
-                let Some(value) = self.values(direction).get(symbol) else { continue };
                 let law = match symbol.test() {
                     Test::Tensile => "traction",
                     Test::Shear => "shear",
                     Test::Bending | Test::LoopBending => "bending",
                 };
-                let used_for = (!has_curve(symbol.test(), direction)).then_some(law);
-                listed.push(SheetValue {
-                    symbol: symbol.name(),
-                    name: words(symbol),
-                    direction: Some(direction),
-                    value,
-                    unit: symbol.unit(),
-                    used_for,
-                });
+                let used_for = (!self.has_curve(symbol.test(), direction)).then_some(law);
+                let value = self.values(direction).get(symbol);
+                let row = (symbol.name(), words(symbol), value, symbol.unit(), used_for);
+                add(&mut listed, Some(direction), &[row]);
             }
         }
-        let mut add = |direction, symbol, name, value: Option<f64>, unit, used_for| {
-            let one =
-                value.map(|value| SheetValue { symbol, name, direction, value, unit, used_for });
-            listed.extend(one);
-        };
+
+        // The contact needs WC only where TM or LC is missing.
         let contact = Some("contact");
-        let needed = self.tm.is_none() || self.lc.is_none();
-        add(None, "LC", "compression linearity", self.lc, "", contact);
-        add(None, "WC", "compression work", self.wc, "gf·cm/cm²", contact.filter(|_| needed));
-        add(None, "RC", "compression resilience", self.rc, "%", None);
+        let is_needed = self.tm.is_none() || self.lc.is_none();
+        let compression = [
+            ("LC", "compression linearity", self.lc, "", contact),
+            ("WC", "compression work", self.wc, "gf·cm/cm²", contact.filter(|_| is_needed)),
+            ("RC", "compression resilience", self.rc, "%", None),
+        ];
+        add(&mut listed, None, &compression);
         for direction in [Direction::Warp, Direction::Weft] {
             let values = self.values(direction);
             let surface = [
@@ -104,30 +92,48 @@ impl Sheet {
                 ("MMD", "deviation of the friction", values.mmd, "", None),
                 ("SMD", "surface roughness", values.smd, "µm", None),
             ];
-            for (symbol, name, value, unit, used_for) in surface {
-                add(Some(direction), symbol, name, value, unit, used_for);
-            }
+            add(&mut listed, Some(direction), &surface);
         }
-        add(None, "T0", "thickness at 0.5 gf/cm²", self.t0, "mm", Some("thickness, contact"));
-        add(None, "TM", "thickness at 50 gf/cm²", self.tm, "mm", contact);
-        let thickness = Some("thickness, contact").filter(|_| self.t0.is_none());
-        add(None, "T", "thickness", self.t, "mm", thickness);
-        add(None, "W", "mass per area", self.w, "mg/cm²", Some("mass"));
-        add(None, "FM", "largest load of the tensile test", self.fm, "gf/cm", Some("traction"));
+
+        let of_thickness = Some("thickness, contact");
+        let of_t = of_thickness.filter(|_| self.t0.is_none());
+        let whole = [
+            ("T0", "thickness at 0.5 gf/cm²", self.t0, "mm", of_thickness),
+            ("TM", "thickness at 50 gf/cm²", self.tm, "mm", contact),
+            ("T", "thickness", self.t, "mm", of_t),
+            ("W", "mass per area", self.w, "mg/cm²", Some("mass")),
+            ("FM", "largest load of the tensile test", self.fm, "gf/cm", Some("traction")),
+        ];
+        add(&mut listed, None, &whole);
         listed
     }
 
-    /// Returns the range, in SI, that nine fabrics in ten have of a value, by its symbol; `c` stands for
-    /// the bending length. That of G is for fabrics of the sheet's mass per area.
+    /// Returns whether the sheet has a curve that replaces the values of `test` in `direction`.
+    fn has_curve(&self, test: Test, direction: Direction) -> bool {
+        match test {
+            // Shear has one law for both directions.
+            Test::Shear => self.curves.iter().any(|curve| curve.test == test),
+            Test::Bending => self.curves.iter().any(|curve| {
+                curve.direction == direction
+                    && matches!(curve.test, Test::Bending | Test::LoopBending)
+            }),
+            _ => self.curves_of(test, direction).next().is_some(),
+        }
+    }
+
+    /// Returns the range of the value `symbol` that nine in ten fabrics have, in SI. The symbol `c`
+    /// stands for the bending length. The range of G is the range of fabrics of the sheet's mass
+    /// per area.
     ///
-    /// `None` where the value was not measured on many fabrics.
+    /// Returns `None` where the value was not measured on many fabrics.
     ///
     /// ```
     /// use drape_kes::Sheet;
     ///
     /// let mut sheet = Sheet::default();
     /// sheet.w = Some(11.0);
-    /// let [least, most] = sheet.usual_range("G", None).map(|range| [*range.start(), *range.end()]).expect("known");
+    /// let range = sheet.usual_range("G", None).expect("known");
+    /// let [least, most] = [*range.start(), *range.end()];
     /// // 0.18 to 1.6 gf/(cm·deg).
     /// assert!((least - 9.9).abs() < 0.1 && (most - 87.2).abs() < 0.1);
     /// assert_eq!(sheet.usual_range("MMD", None), None);
@@ -141,17 +147,27 @@ impl Sheet {
         plausible::usual_range(symbol, direction, self.density())
     }
 
-    /// Returns where the range of [`Sheet::usual_range`] was published; `None` where there is none.
+    /// Returns the publication of the range that [`Sheet::usual_range`] has for `symbol`; `None`
+    /// where there is no range.
     #[must_use]
     pub fn usual_source(symbol: &str) -> Option<&'static str> {
         plausible::usual_source(symbol)
     }
 
-    /// Returns the bending length of a direction, the cube root of rigidity over weight, in m; none
-    /// without B or W.
+    /// Returns the bending length of `direction`, the cube root of rigidity over weight per area,
+    /// in m. Returns `None` without B or W.
     #[must_use]
     pub fn bending_length(&self, direction: Direction) -> Option<f64> {
         let rigidity = self.values(direction).bending_rigidity()?;
         Some(plausible::bending_length(rigidity, self.density()?))
+    }
+}
+
+/// Adds the values of `rows` that are given to `listed`, with their `direction`.
+fn add(listed: &mut Vec<SheetValue>, direction: Option<Direction>, rows: &[Row]) {
+    for &(symbol, name, value, unit, used_for) in rows {
+        let value =
+            value.map(|value| SheetValue { symbol, name, direction, value, unit, used_for });
+        listed.extend(value);
     }
 }

@@ -1,7 +1,7 @@
 //! Law that a sheet asks for.
 
-/// Law that the bending and shear loops of a sheet are to be fitted with, in place of the one that
-/// the data support.
+/// Law that the bending and shear loops of a sheet are to be fitted with. Without a law the data
+/// select one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Model {
     /// Linear backbone with one friction element.
@@ -21,7 +21,7 @@ impl Model {
     pub const ALL: [Self; 5] =
         [Self::FirstOrder, Self::TwoElements, Self::SecondOrder, Self::Varying, Self::Breen1994];
 
-    /// Returns the name used in sheets.
+    /// Returns the name in sheets, such as `"first-order"`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

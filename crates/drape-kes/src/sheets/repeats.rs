@@ -1,21 +1,16 @@
-//! Curves of further specimens of one test: the sheet keeps their mean and their scatter.
+//! Repeats of one test on further specimens: the sheet keeps the mean of the curves and their
+//! scatter.
 //!
-//! Specimens of one fabric differ by some 5 to 10 %. The law of the first would be the law of one
-//! specimen; the law of the mean is that of the fabric, and the scatter is in its intervals
-//! ([`Curve::repeats`]).
+//! Specimens of one fabric differ by some 5 to 10 %. The law of the first curve would be the law of
+//! one specimen. The law of the mean curve is the law of the fabric, and the intervals contain the
+//! scatter ([`Curve::repeats`]).
 
 use crate::curves::curve::Curve;
 use crate::sheets::findings::Findings;
 use crate::test::Test;
 
-/// Relative difference of two largest deformations, or loads of a tensile test, up to which two
-/// curves are of the same test.
-const SAME_LIMIT: f64 = 0.1;
-/// Relative difference of two gauges up to which they are the same.
-const SAME_GAUGE: f64 = 0.01;
-
-/// Returns the curves with the mean of repeats in the place of the first of them.
-pub(crate) fn joined(curves: Vec<Curve>, findings: &mut Findings<'_>) -> Vec<Curve> {
+/// Replaces each group of repeats in `curves` by its mean, in the place of the first repeat.
+pub(crate) fn with_means(curves: Vec<Curve>, findings: &mut Findings<'_>) -> Vec<Curve> {
     let mut groups: Vec<Vec<Curve>> = Vec::new();
     for curve in curves {
         match groups.iter_mut().find(|group| is_repeat(&group[0], &curve)) {
@@ -23,17 +18,17 @@ pub(crate) fn joined(curves: Vec<Curve>, findings: &mut Findings<'_>) -> Vec<Cur
             None => groups.push(vec![curve]),
         }
     }
-    groups.into_iter().map(|group| mean(group, findings)).collect()
+    groups.into_iter().map(|group| group_mean(group, findings)).collect()
 }
 
-/// Returns the mean of a group, and tells of it.
-fn mean(group: Vec<Curve>, findings: &mut Findings<'_>) -> Curve {
+/// Returns the mean of `group`, and adds a reading about the group.
+fn group_mean(group: Vec<Curve>, findings: &mut Findings<'_>) -> Curve {
     let (first, count) = (group[0].clone(), group.len());
     if count == 1 {
         return first;
     }
-    // A mean of specimens is one of them: a curve of three repeats weighs three times.
-    let specimens = group.into_iter().flat_map(specimens).collect();
+    // A curve that is a mean itself weighs as many times as it has specimens.
+    let specimens = group.into_iter().flat_map(specimens_of).collect();
     match Curve::mean(specimens) {
         Ok(mean) => {
             findings.readings.push(format!(
@@ -49,31 +44,41 @@ fn mean(group: Vec<Curve>, findings: &mut Findings<'_>) -> Curve {
     }
 }
 
-/// Returns the specimens of a curve: itself, if it is no mean.
-fn specimens(curve: Curve) -> Vec<Curve> {
+/// Returns the specimens of `curve`: the curve itself, if the curve is not a mean.
+fn specimens_of(curve: Curve) -> Vec<Curve> {
     if curve.repeats().is_empty() { vec![curve] } else { curve.repeats().to_vec() }
 }
 
-/// Returns whether another curve is of the same test: in the same way, to the same limit.
+/// Returns whether `second` repeats the test of `curve`, with equal settings and to an equal limit.
 ///
 /// Strips of loop bending are fitted together without a mean.
-fn is_repeat(curve: &Curve, other: &Curve) -> bool {
-    let near = |a: f64, b: f64, limit: f64| (a - b).abs() <= limit * a.abs().max(b.abs());
-    let same_gauge = match (curve.gauge, other.gauge) {
-        (Some(a), Some(b)) => near(a, b, SAME_GAUGE),
+fn is_repeat(curve: &Curve, second: &Curve) -> bool {
+    /// Relative difference of the limits of two curves up to which the curves are repeats: largest
+    /// deformations, or largest loads of a tensile test.
+    const SAME_LIMIT: f64 = 0.1;
+    /// Relative difference of two gauges up to which the gauges count as equal.
+    const SAME_GAUGE: f64 = 0.01;
+
+    let same_gauge = match (curve.gauge, second.gauge) {
+        (Some(a), Some(b)) => are_near(a, b, SAME_GAUGE),
         (a, b) => a == b,
     };
-    curve.test == other.test
+    curve.test == second.test
         && curve.test != Test::LoopBending
-        && curve.direction == other.direction
-        && curve.slack == other.slack
+        && curve.direction == second.direction
+        && curve.slack == second.slack
         && same_gauge
-        && curve.branches().len() == other.branches().len()
-        && near(limit(curve), limit(other), SAME_LIMIT)
+        && curve.branches().len() == second.branches().len()
+        && are_near(limit(curve), limit(second), SAME_LIMIT)
 }
 
-/// Returns the quantity at which a test turns back: the load of a tensile test, the deformation of
-/// another.
+/// Returns whether `a` and `b` differ by at most `tolerance` times the larger magnitude.
+fn are_near(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance * a.abs().max(b.abs())
+}
+
+/// Returns the quantity at which `curve` turns back: the load of a tensile test, else the
+/// deformation.
 fn limit(curve: &Curve) -> f64 {
     let range = match curve.test {
         Test::Tensile => curve.load_range(),
@@ -105,15 +110,15 @@ mod tests {
             strip(Direction::Warp, 49.0, 0.02),
             strip(Direction::Warp, 495.0, 0.07),
         ];
-        let joined = joined(curves, &mut findings);
-        assert_eq!(joined.len(), 3);
-        assert_eq!(joined[0].repeats().len(), 2);
-        assert!((joined[0].deformation()[2] - 0.06).abs() < 1e-12, "{:?}", joined[0]);
-        assert!(joined[1..].iter().all(|curve| curve.repeats().is_empty()));
-        let told = &findings.readings;
+        let with_means = with_means(curves, &mut findings);
+        assert_eq!(with_means.len(), 3);
+        assert_eq!(with_means[0].repeats().len(), 2);
+        assert!((with_means[0].deformation()[2] - 0.06).abs() < 1e-12, "{:?}", with_means[0]);
+        assert!(with_means[1..].iter().all(|curve| curve.repeats().is_empty()));
+        let readings = &findings.readings;
         assert!(
-            told[0].starts_with("tensile warp: 2 curves of one test are 2 specimens"),
-            "{told:?}"
+            readings[0].starts_with("tensile warp: 2 curves of one test are 2 specimens"),
+            "{readings:?}"
         );
     }
 }

@@ -1,15 +1,17 @@
-//! JSON Schema of sheets, from the keys, words and quantities by which they are read.
+//! JSON Schema of sheets, built from the keys, words and quantities of the reader.
 
 use drape_input::{Quantity, laboratory_schema, unit_schema};
 use serde_json::{Map, Value, json};
 
-use crate::sheets::axis::{DEFORMATION_KEYS, LOAD_KEYS, ZERO, deformations, loads};
+use crate::sheets::axis::{
+    DEFORMATION_KEYS, LOAD_KEYS, ZERO, deformation_quantities, load_quantities,
+};
 use crate::sheets::curve_file::{CURVE_KEYS, DECIMAL, DIRECTION, SEPARATOR, TEST};
 use crate::sheets::section::Choice;
 use crate::sheets::sheet::{MODEL, SHEET_KEYS};
 use crate::sheets::spelling::{DIRECTIONS, KEYS, pattern};
 
-/// Range of a bare number.
+/// Range of a number without a unit.
 #[derive(Clone, Copy)]
 enum Range {
     Positive,
@@ -20,10 +22,10 @@ enum Range {
     Percent,
 }
 
-/// Value of a sheet: its key, its quantity, its range, and a description.
+/// Value of a sheet: its key, quantity, range and description.
 type ValueKey = (&'static str, Quantity, Range, &'static str);
 
-/// Values, in the order in which laboratories print them.
+/// Values, in the order in which laboratories print values.
 const VALUES: [ValueKey; 20] = [
     ("LT", Quantity::Ratio, Range::Below(2.0), "Linearity of the tensile curve, a ratio."),
     ("WT", Quantity::WorkPerArea, Range::Positive, "Tensile work, in gf·cm/cm²."),
@@ -67,18 +69,18 @@ const VALUES: [ValueKey; 20] = [
     ),
 ];
 
-/// Returns the JSON Schema of sheets.
+/// Returns the JSON Schema of a sheet.
 #[must_use]
 pub fn sheet_schema() -> Value {
-    let words = "Values of one direction.";
-    let directed = values(|key| KEYS.contains(&key), false);
-    let mut keys = values(|key| SHEET_KEYS.contains(&key), true);
-    let others = json!({
+    let description = "Values of one direction.";
+    let directed_values = value_schemas(|key| KEYS.contains(&key), false);
+    let mut keys = value_schemas(|key| SHEET_KEYS.contains(&key), true);
+    let other_keys = json!({
         "name": { "type": "string", "description": "Name of the fabric." },
         "source": { "type": "string", "description": "Source: who measured it, when, and under which licence." },
-        "customer": line("Customer for whom the fabric was tested, for the head of a report."),
-        "article": line("Article: the customer's number or name of the fabric, for the head of a report."),
-        "laboratory": line("Laboratory that tested it, for the head of a report."),
+        "customer": line_schema("Customer for whom the fabric was tested, for the head of a report."),
+        "article": line_schema("Article: the customer's number or name of the fabric, for the head of a report."),
+        "laboratory": line_schema("Laboratory that tested it, for the head of a report."),
         "date": {
             "type": "string",
             "pattern": r"^\d{4}(-\d{2}(-\d{2})?)?$",
@@ -88,7 +90,7 @@ pub fn sheet_schema() -> Value {
             "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "minLength": 1 }],
             "description": "Specimens, for the head of a report: their number, or a text such as \"3 of 20 cm × 20 cm\".",
         },
-        "model": choice(&MODEL, "Law that bending and shear are fitted with; selected by the data if missing."),
+        "model": choice_schema(&MODEL, "Law that bending and shear are fitted with; selected by the data if missing."),
         "warp": { "$ref": "#/$defs/Values", "description": "Values along the warp." },
         "weft": { "$ref": "#/$defs/Values", "description": "Values along the weft." },
         "mean": { "$ref": "#/$defs/Values", "description": "Values for both directions." },
@@ -98,16 +100,18 @@ pub fn sheet_schema() -> Value {
             "description": "Curves, each in a table file beside the sheet.",
         },
     });
-    extend(&mut keys.properties, others);
-    let other_names = json!({ DIRECTIONS: { "$ref": "#/$defs/Values" } });
-    extend(&mut keys.patterns, other_names);
-    let mut sheet = keys.table();
+
+    extend(&mut keys.properties, other_keys);
+    let directions = json!({ DIRECTIONS: { "$ref": "#/$defs/Values" } });
+    extend(&mut keys.patterns, directions);
+
+    let mut sheet = keys.schema();
     let whole = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Sheet of drape",
         "description": "What was measured of a fabric on the Kawabata Evaluation System (KES). Bare numbers are in the units of KES.",
         "required": ["name"],
-        "$defs": { "Values": directed.described(words), "Curve": curve() },
+        "$defs": { "Values": directed_values.schema_with(description), "Curve": curve_schema() },
     });
     extend(&mut sheet, whole);
     Value::Object(sheet)
@@ -115,45 +119,45 @@ pub fn sheet_schema() -> Value {
 
 /// Keys of a table: by name, and by pattern.
 #[derive(Default)]
-struct Keys {
+struct TableKeys {
     properties: Map<String, Value>,
     patterns: Map<String, Value>,
 }
 
-impl Keys {
-    /// Returns the schema of a table that has these keys only.
-    fn table(self) -> Map<String, Value> {
+impl TableKeys {
+    /// Returns the schema of a table that has only these keys.
+    fn schema(self) -> Map<String, Value> {
         let Self { properties, patterns } = self;
-        let mut table = Map::new();
+        let mut schema = Map::new();
         let keywords = json!({
             "type": "object",
             "properties": properties,
             "patternProperties": patterns,
             "additionalProperties": false,
         });
-        extend(&mut table, keywords);
-        table
+        extend(&mut schema, keywords);
+        schema
     }
 
-    /// Returns the same with a description.
-    fn described(self, description: &str) -> Map<String, Value> {
-        let mut table = self.table();
-        table.insert("description".into(), description.into());
-        table
-    }
-}
-
-/// Adds the keywords of an object to a schema.
-fn extend(schema: &mut Map<String, Value>, more: Value) {
-    if let Value::Object(more) = more {
-        schema.extend(more);
+    /// Returns the schema of a table that has only these keys, with `description`.
+    fn schema_with(self, description: &str) -> Map<String, Value> {
+        let mut schema = self.schema();
+        schema.insert("description".into(), description.into());
+        schema
     }
 }
 
-/// Returns the keys of values that are in a list, in all spellings; at the top of a sheet with a
-/// direction as well.
-fn values(in_list: impl Fn(&str) -> bool, top: bool) -> Keys {
-    let mut keys = Keys::default();
+/// Adds the `keywords` of an object to `schema`.
+fn extend(schema: &mut Map<String, Value>, keywords: Value) {
+    if let Value::Object(keywords) = keywords {
+        schema.extend(keywords);
+    }
+}
+
+/// Returns the schemas of the values whose key is `in_list`, in all spellings. At the `top` of a
+/// sheet a spelling may name a direction.
+fn value_schemas(in_list: impl Fn(&str) -> bool, top: bool) -> TableKeys {
+    let mut keys = TableKeys::default();
     for (key, quantity, range, description) in VALUES.into_iter().filter(|value| in_list(value.0)) {
         let mut schema = laboratory_schema(quantity);
         let limits = match range {
@@ -172,103 +176,114 @@ fn values(in_list: impl Fn(&str) -> bool, top: bool) -> Keys {
     keys
 }
 
-/// Returns the schema of one line of text.
-fn line(description: &str) -> Value {
+/// Returns the schema of one line of text, with `description`.
+fn line_schema(description: &str) -> Value {
     json!({ "type": "string", "minLength": 1, "description": description })
 }
 
-/// Returns the schema of a word among several.
-fn choice<T: Copy>(choice: &Choice<'_, T>, description: &str) -> Value {
+/// Returns the schema of the words of `choice`, with `description`.
+fn choice_schema<T: Copy>(choice: &Choice<'_, T>, description: &str) -> Value {
     let words: Vec<&str> = choice.values.iter().map(|&value| (choice.name)(value)).collect();
     json!({ "enum": words, "description": description })
 }
 
-/// Returns the schema of a curve.
-fn curve() -> Value {
-    let text = |description: &str| json!({ "type": "string", "description": description });
-    let lines = |description: &str| {
-        let number = json!({ "type": "integer", "minimum": 0 });
-        json!({ "anyOf": [number, { "const": false }], "description": description })
-    };
-    let take = |description: &str| {
-        let number = json!({ "type": "integer", "minimum": 0 });
-        let list = json!({ "type": "array", "items": number, "minItems": 1 });
-        json!({ "anyOf": [number, list, { "const": "all" }], "description": description })
-    };
+/// Returns the schema of a text, with `description`.
+fn text_schema(description: &str) -> Value {
+    json!({ "type": "string", "description": description })
+}
+
+/// Returns the schema of a number of lines, with `description`.
+fn line_count(description: &str) -> Value {
+    let number = json!({ "type": "integer", "minimum": 0 });
+    json!({ "anyOf": [number, { "const": false }], "description": description })
+}
+
+/// Returns the schema of a choice among numbered tables, specimens or cycles, with `description`.
+fn take_schema(description: &str) -> Value {
+    let number = json!({ "type": "integer", "minimum": 0 });
+    let list = json!({ "type": "array", "items": number, "minItems": 1 });
+    json!({ "anyOf": [number, list, { "const": "all" }], "description": description })
+}
+
+/// Returns the schema of a length of the specimen, with `description`.
+fn size_schema(description: &str) -> Value {
+    json!({
+    "anyOf": [{ "type": "number", "exclusiveMinimum": 0 }, { "type": "string" }],
+    "description": description,
+    })
+}
+
+/// Returns the schema of a `[[curve]]`.
+fn curve_schema() -> Value {
     let files = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
     let properties = json!({
         "name": text("Name of the curve; its test and direction if missing."),
-        "test": choice(&TEST, "Test that it comes from."),
-        "direction": choice(&DIRECTION, "Yarns along which the strip was cut."),
+        "test": choice_schema(&TEST, "Test that it comes from."),
+        "direction": choice_schema(&DIRECTION, "Yarns along which the strip was cut."),
         "file": {
             "anyOf": [{ "type": "string" }, files],
             "description": "Table file beside the sheet, or several with repeats of the test.",
         },
-        "deformation": axis(&DEFORMATION_KEYS, "Column of the deformation; detected if missing."),
-        "load": axis(&LOAD_KEYS, "Column of the load; detected if missing."),
+        "deformation": axis_schema(&DEFORMATION_KEYS, "Column of the deformation; detected if missing."),
+        "load": axis_schema(&LOAD_KEYS, "Column of the load; detected if missing."),
         "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start, so that the zeros of strain and force are fitted; `false` if missing." },
         "zero_strain": json!({ "anyOf": [{ "type": "number" }, { "type": "string" }], "description": "Strain of the file at which a tensile strip is taut and carries nothing, in percent: positive for a strip that hung slack before, negative for one under a pretension. The curve counts from there; from its first point if missing." }),
-        "encoding": text("Encoding of the file; detected if missing."),
-        "separator": choice(&SEPARATOR, "Sign between columns; detected if missing."),
-        "decimal": choice(&DECIMAL, "Decimal sign; detected if missing."),
-        "header": lines("Line of the header, from 1; false for none; detected if missing."),
-        "skip": lines("Number of lines to leave out at the start; detected if missing."),
+        "encoding": text_schema("Encoding of the file; detected if missing."),
+        "separator": choice_schema(&SEPARATOR, "Sign between columns; detected if missing."),
+        "decimal": choice_schema(&DECIMAL, "Decimal sign; detected if missing."),
+        "header": line_count("Line of the header, from 1; false for none; detected if missing."),
+        "skip": line_count("Number of lines to leave out at the start; detected if missing."),
         "sheet": {
             "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 0 }],
             "description": "Sheet of a spreadsheet, by its name or its number from 1; its only one if missing.",
         },
-        "table": take("Tables of the file that are repeats of the test, from 1; its only one if missing."),
-        "specimen": take("Specimens that are repeats of the test, by the numbers in their column; all if missing."),
-        "cycle": take("Cycles that are taken, from 1; all if missing."),
+        "table": take_schema("Tables of the file that are repeats of the test, from 1; its only one if missing."),
+        "specimen": take_schema("Specimens that are repeats of the test, by the numbers in their column; all if missing."),
+        "cycle": take_schema("Cycles that are taken, from 1; all if missing."),
     });
+
+    // The units of an axis depend on the test.
     json!({
         "type": "object",
         "description": "Measured curve, in a table file.",
-        "properties": kept(&CURVE_KEYS, properties),
+        "properties": retain(&CURVE_KEYS, properties),
         "additionalProperties": false,
         "required": ["test", "direction", "file"],
         "allOf": TEST.values.iter().map(|&test| json!({
             "if": { "properties": { "test": { "const": test.name() } } },
             "then": { "properties": {
-                "deformation": { "properties": { "unit": unit_schema(deformations(test)) } },
-                "load": { "properties": { "unit": unit_schema(loads(test)) } },
+                "deformation": { "properties": { "unit": unit_schema(deformation_quantities(test)) } },
+                "load": { "properties": { "unit": unit_schema(load_quantities(test)) } },
             } },
         })).collect::<Vec<Value>>(),
     })
 }
 
-/// Returns the schema of an axis of a curve with some keys.
-fn axis(keys: &[&str], description: &str) -> Value {
+/// Returns the schema of an axis of a curve that has the given `keys`, with `description`.
+fn axis_schema(keys: &[&str], description: &str) -> Value {
     let column = json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 0 }] });
-    let columns = json!({ "anyOf": [column, { "type": "array", "items": column }] });
-    let size = |description: &str| {
-        json!({
-            "anyOf": [{ "type": "number", "exclusiveMinimum": 0 }, { "type": "string" }],
-            "description": description,
-        })
-    };
-    let described = |mut schema: Value, description: &str| {
-        schema["description"] = description.into();
-        schema
-    };
+    let columns = json!({
+    "anyOf": [column, { "type": "array", "items": column }],
+    "description": "Column, by its name or its place from 1, or a list of them with repeats; detected if missing.",
+    });
     let properties = json!({
-        "column": described(columns, "Column, by its name or its place from 1, or a list of them with repeats; detected if missing."),
+    "column": columns,
         "unit": { "type": "string", "description": "Unit of the column; that of its header if missing." },
-        "gauge": size("Length of the specimen with its unit, or the column with it, in metres where that has no unit; needed for a length only; that of the file if missing."),
-        "width": size("Width of the specimen with its unit, or the column with it, in metres where that has no unit, for loads of a whole specimen; that of the file if missing."),
-        "zero": choice(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
+        "gauge": size_schema("Length of the specimen with its unit, or the column with it, in metres where that has no unit; needed for a length only; that of the file if missing."),
+        "width": size_schema("Width of the specimen with its unit, or the column with it, in metres where that has no unit, for loads of a whole specimen; that of the file if missing."),
+        "zero": choice_schema(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
         "reversed": { "type": "boolean", "description": "Whether the sign is the opposite one; `false` if missing." },
     });
     json!({
         "type": "object",
         "description": description,
-        "properties": kept(keys, properties),
+        "properties": retain(keys, properties),
         "additionalProperties": false,
     })
 }
 
-/// Returns the properties that are in a list of keys.
-fn kept(keys: &[&str], properties: Value) -> Map<String, Value> {
+/// Returns the entries of `properties` that are among `keys`.
+fn retain(keys: &[&str], properties: Value) -> Map<String, Value> {
     let Value::Object(properties) = properties else { return Map::new() };
     properties.into_iter().filter(|(key, _)| keys.contains(&key.as_str())).collect()
 }

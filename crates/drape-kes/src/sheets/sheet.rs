@@ -1,4 +1,4 @@
-//! Sheet of a laboratory: KES values in its own units, and curves in SI.
+//! Sheet of a laboratory: KES values in the laboratory's units, and curves in SI.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::scatter::{OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
-use crate::sheets::section::{Choice, Measured, Section};
+use crate::sheets::section::{Choice, Section, laboratory_value};
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, repeats};
 use crate::symbol::Symbol;
@@ -59,12 +59,9 @@ pub(crate) const SHEET_KEYS: [&str; 31] = [
 pub(crate) const MODEL: Choice<'_, Model> =
     Choice { key: "model", values: &Model::ALL, name: Model::name };
 
-/// FM of the standard tensile test, in gf/cm; the "high sensitivity" test stops at 50.
-const STANDARD_MAXIMUM_TENSION: f64 = 500.0;
-
-/// Sheet of one fabric: KES values, curves, and their source.
+/// Sheet of one fabric: KES values, curves and their source.
 ///
-/// Fields named by a symbol are in the laboratory's units; curves are in SI.
+/// Fields named by a symbol are in the laboratory's units. Curves are in SI.
 ///
 /// ```
 /// use drape_kes::Sheet;
@@ -88,7 +85,7 @@ pub struct Sheet {
     pub source: String,
     /// Customer, article, laboratory, date and specimens, for the head of a report.
     pub record: TestRecord,
-    /// Law that bending and shear are to be fitted with; selected by the data unless set.
+    /// Law that bending and shear are to be fitted with. `None` lets the data select a law.
     pub model: Option<Model>,
     /// W, mass per area, in mg/cm².
     pub w: Option<f64>,
@@ -106,14 +103,14 @@ pub struct Sheet {
     pub rc: Option<f64>,
     /// MIU, coefficient of friction of the surface test, a ratio: the mean of both directions.
     pub miu: Option<f64>,
-    /// FM, maximum load of the tensile test, in gf/cm; see [`Sheet::maximum_tension`] where it is
-    /// not given.
+    /// FM, maximum load of the tensile test, in gf/cm. [`Sheet::maximum_tension`] replaces a
+    /// missing FM.
     pub fm: Option<f64>,
     /// Values along the warp.
     pub warp: Values,
     /// Values along the weft.
     pub weft: Values,
-    /// Symbols of the values that stand for both directions with one number.
+    /// Symbols of the values whose one number stands for both directions.
     pub shared: Vec<&'static str>,
     /// Standard deviations of the values, where the sheet states them.
     pub scatter: Vec<Scatter>,
@@ -125,12 +122,12 @@ pub struct Sheet {
     readings: Vec<String>,
 }
 
-/// Reads the record of a test.
-fn record(root: &Section<'_>, findings: &mut Findings<'_>) -> TestRecord {
+/// Reads the record of a test from the keys of `root`.
+fn read_record(root: &Section<'_>, findings: &mut Findings<'_>) -> TestRecord {
     let mut record = TestRecord::default();
     for key in RECORD_KEYS {
         let Some(text) = root.text_or_number(key, findings) else { continue };
-        if let Err(Fault { message, help }) = record.put(key, &text) {
+        if let Err(Fault { message, help }) = record.set_line(key, &text) {
             findings.error(key, message, help);
         }
     }
@@ -138,11 +135,12 @@ fn record(root: &Section<'_>, findings: &mut Findings<'_>) -> TestRecord {
 }
 
 impl Sheet {
-    /// Reads a sheet and the curves that it names; a folder means the `sheet.toml` in it.
+    /// Reads the sheet at `path` and the curves that it names. A folder means the `sheet.toml` in
+    /// the folder.
     ///
     /// # Errors
-    /// The file cannot be read, or it or one of its curve files has mistakes: all that were found
-    /// are in the error, each with file, line, value and remedy.
+    /// The file cannot be read, or the sheet or one of its curve files has mistakes. The error has
+    /// all mistakes, each with file, line, value and remedy.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let document = if path.is_dir() {
@@ -153,29 +151,32 @@ impl Sheet {
         Self::from_document(&document)
     }
 
-    /// Reads a sheet from a document; the curves that it names are in the folder of its path.
+    /// Reads a sheet from `document`. The curves that the sheet names are in the folder of the
+    /// document's path.
     ///
     /// # Errors
     /// As for [`Sheet::read`].
     pub fn from_document(document: &Document) -> Result<Self, Error> {
-        // Decoding into a plain table reports mistakes of grammar as for every other file.
+        // Decoding into a plain table reports mistakes of grammar as in every other TOML file.
         let values: toml::Table = document.decode()?;
         let text = match document.settings() {
             [] => document.text().to_owned(),
             _ => values.to_string(),
         };
         let table = DeTable::parse(&text).expect("the text has just been decoded");
+
         let mut findings = Findings::new(document);
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;
         Ok(Self { warnings: findings.warnings, readings: findings.readings, ..sheet })
     }
 
+    /// Reads the values, curves and record of a sheet, and collects the mistakes.
     fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
         root.allow_values(&SHEET_KEYS, findings);
         let name = root.required_text("name", "\"cotton poplin\"", findings);
         let source = root.text("source", findings);
-        let record = record(root, findings);
+        let record = read_record(root, findings);
         let model = root.choice(&MODEL, findings);
         let whole = WholeValues::read(root, findings);
         if let Some(w) = &whole.w {
@@ -183,33 +184,37 @@ impl Sheet {
         }
         let DirectedValues { warp, weft, shared, scatter } =
             DirectedValues::read(root, whole.w.as_ref(), findings);
+
+        // Repeats of one test are replaced by their mean.
         let curves = root
             .sections("curve", findings)
             .iter()
             .flat_map(|section| curve_file::read(section, findings))
             .collect();
-        let curves = repeats::joined(curves, findings);
-        let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
+        let curves = repeats::with_means(curves, findings);
+
+        // The friction of the fabric is the mean of both directions.
         let known: Vec<f64> = [warp.miu, weft.miu].into_iter().flatten().collect();
         let miu = match known.as_slice() {
             [] => None,
             [first, .., last] if first == last => Some(*first),
-            all => Some(all.iter().sum::<f64>() / all.len() as f64),
+            values => Some(values.iter().sum::<f64>() / values.len() as f64),
         };
+
         let sheet = Self {
             name: name.unwrap_or_default(),
             source: source.unwrap_or_default(),
             record,
             model,
-            w: laboratory(whole.w),
-            t: laboratory(whole.t),
-            t0: laboratory(whole.t0),
-            tm: laboratory(whole.tm),
+            w: laboratory_value(whole.w),
+            t: laboratory_value(whole.t),
+            t0: laboratory_value(whole.t0),
+            tm: laboratory_value(whole.tm),
             lc: whole.lc,
-            wc: laboratory(whole.wc),
-            rc: laboratory(whole.rc),
+            wc: laboratory_value(whole.wc),
+            rc: laboratory_value(whole.rc),
             miu,
-            fm: laboratory(whole.fm),
+            fm: laboratory_value(whole.fm),
             warp,
             weft,
             shared,
@@ -219,43 +224,50 @@ impl Sheet {
             warnings: Vec::new(),
             readings: Vec::new(),
         };
+
         sheet.compare_compression(root, findings);
         sheet.compare_loads(findings);
-        findings.tell_unused_scatter();
+        findings.warn_unused_scatter();
         sheet
     }
 
-    /// Adds what values were taken for, and what was assumed or left out.
+    /// Adds `readings`, what values of a draft were taken for, and `notes`, what was assumed or
+    /// left out.
     pub(crate) fn add_readings(&mut self, readings: &[String], notes: &[String]) {
         self.readings.splice(0..0, readings.iter().cloned());
         self.readings.extend(notes.iter().map(|note| format!("note: {note}")));
     }
 
-    /// Returns W: mass per area, in kg/m².
+    /// Returns `W`: mass per area, in kg/m².
     #[must_use]
     pub fn density(&self) -> Option<f64> {
         self.w.map(|w| w * Quantity::MassPerArea.laboratory().factor)
     }
 
-    /// Returns T0, else T: thickness, in metres.
+    /// Returns `T0`, else `T`: thickness, in metres.
     #[must_use]
     pub fn thickness(&self) -> Option<f64> {
         self.t0.or(self.t).map(|t| t * Quantity::Length.laboratory().factor)
     }
 
-    /// Returns FM: the maximum load of the tensile test, in N/m.
+    /// Returns `FM`: the maximum load of the tensile test, in N/m.
     ///
-    /// It is the given one; without, and without values of the tensile test, the largest load of the
-    /// tensile curves; else the standard one.
+    /// A missing `fm` is replaced by the largest load of the tensile curves. If the sheet has
+    /// values of the tensile test, or no tensile curve, the load of the standard test replaces
+    /// `fm`.
     #[must_use]
     pub fn maximum_tension(&self) -> f64 {
-        let given = self.fm.map(|fm| fm * Quantity::ForcePerWidth.laboratory().factor);
-        let of_curves = || self.load_of_curves().filter(|_| !self.has_tensile_values());
-        let standard = STANDARD_MAXIMUM_TENSION * Quantity::ForcePerWidth.laboratory().factor;
-        given.or_else(of_curves).unwrap_or(standard)
+        /// FM of the standard tensile test, in gf/cm. The "high sensitivity" test stops at 50.
+        const STANDARD_MAXIMUM_TENSION: f64 = 500.0;
+
+        let unit = Quantity::ForcePerWidth.laboratory().factor;
+        let given = self.fm.map(|fm| fm * unit);
+        given
+            .or_else(|| self.load_of_curves().filter(|_| !self.has_tensile_values()))
+            .unwrap_or(STANDARD_MAXIMUM_TENSION * unit)
     }
 
-    /// Returns the KES values of one direction.
+    /// Returns the KES values of `direction`.
     #[must_use]
     pub fn values(&self, direction: Direction) -> &Values {
         match direction {
@@ -264,66 +276,72 @@ impl Sheet {
         }
     }
 
-    /// Returns the curves of one test and direction, in the order of the sheet.
+    /// Returns the curves of `test` and `direction`, in the order of the sheet.
     pub fn curves_of(&self, test: Test, direction: Direction) -> impl Iterator<Item = &Curve> {
         self.curves.iter().filter(move |curve| curve.test == test && curve.direction == direction)
     }
 
-    /// Returns a digest of the measured numbers, whatever the layout of the files.
+    /// Returns a digest of the measured numbers, which does not depend on the layout of the files.
     ///
-    /// It is the BLAKE3 hash, in hexadecimal, of all values and of all points of all curves, in SI
-    /// to the last bit. Names and remarks do not count.
+    /// The digest is the BLAKE3 hash, in hexadecimal, of all values and of all points of all
+    /// curves, in SI to the last bit. Names and remarks are not part of the digest.
     #[must_use]
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
-        let mut number = |value: f64| {
-            hasher.update(&value.to_le_bytes());
-        };
-        // A missing value counts too, as a NaN: no given value is one.
+
+        // A missing value counts as a NaN, because no given value is a NaN.
         let given = [self.density(), self.thickness(), self.fm];
-        let values = [&self.warp, &self.weft];
-        let values = values.into_iter().flat_map(|v| Symbol::ALL.map(|symbol| v.get(symbol)));
-        given.into_iter().chain(values).for_each(|value| number(value.unwrap_or(f64::NAN)));
+        let directed = [&self.warp, &self.weft]
+            .into_iter()
+            .flat_map(|values| Symbol::ALL.map(|symbol| values.get(symbol)));
+        for value in given.into_iter().chain(directed) {
+            hash(&mut hasher, [value.unwrap_or(f64::NAN)]);
+        }
         for curve in &self.curves {
             let kind = [curve.test as u8, curve.direction as u8, u8::from(curve.slack)];
-            kind.into_iter().for_each(|kind| number(f64::from(kind)));
-            number(curve.gauge.unwrap_or(f64::NAN));
-            number(curve.load().len() as f64);
-            curve.deformation().iter().chain(curve.load()).for_each(|&value| number(value));
+            hash(&mut hasher, kind.map(f64::from));
+            hash(&mut hasher, [curve.gauge.unwrap_or(f64::NAN), curve.load().len() as f64]);
+            hash(&mut hasher, curve.deformation().iter().chain(curve.load()).copied());
         }
-        // Only where they are given, so that sheets older than these keys keep their digests.
+
+        // Newer keys count only where they are given, so that older sheets keep their digests.
         let millimetre = Quantity::Length.laboratory().factor;
         let pressed = self.tm.map(|tm| tm * millimetre);
-        let surface = |values: &Values| [values.mmd, values.smd];
-        let newer = [pressed, self.miu, self.t0, self.lc, self.wc, self.rc].into_iter();
-        let newer = newer.chain(surface(&self.warp)).chain(surface(&self.weft));
-        for (index, value) in newer.enumerate() {
-            value
-                .into_iter()
-                .for_each(|value| [index as f64, value].into_iter().for_each(&mut number));
+        let compression = [pressed, self.miu, self.t0, self.lc, self.wc, self.rc].into_iter();
+        let surface =
+            [&self.warp, &self.weft].into_iter().flat_map(|values| [values.mmd, values.smd]);
+        for (index, value) in compression.chain(surface).enumerate() {
+            if let Some(value) = value {
+                hash(&mut hasher, [index as f64, value]);
+            }
         }
         for stated in &self.scatter {
             let kinds = [stated.direction as u8, stated.symbol as u8].map(f64::from);
-            kinds.into_iter().chain([stated.deviation]).for_each(&mut number);
+            hash(&mut hasher, kinds.into_iter().chain([stated.deviation]));
         }
         for repeat in self.curves.iter().flat_map(Curve::repeats) {
-            let points = repeat.deformation().iter().chain(repeat.load());
-            points.for_each(|&value| number(value));
+            hash(&mut hasher, repeat.deformation().iter().chain(repeat.load()).copied());
         }
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns what each curve file was taken for, a line each: its encoding, separators, header,
-    /// columns, units and repeats, as far as they were not declared.
+    /// Returns what each curve file was taken for, one line per file: encoding, separators, header,
+    /// columns, units and repeats, as far as the sheet does not declare them.
     #[must_use]
     pub fn readings(&self) -> &[String] {
         &self.readings
     }
 
-    /// Returns warnings about values that are admissible but that few fabrics have, and about
-    /// repairs.
+    /// Returns warnings about repairs, and about admissible values that few fabrics have.
     #[must_use]
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
+    }
+}
+
+/// Adds `numbers` to the digest of `hasher`.
+fn hash(hasher: &mut blake3::Hasher, numbers: impl IntoIterator<Item = f64>) {
+    for number in numbers {
+        hasher.update(&number.to_le_bytes());
     }
 }

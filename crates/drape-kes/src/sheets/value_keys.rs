@@ -1,16 +1,16 @@
-//! KES values of a sheet: by direction, or one for both, in any spelling.
+//! KES values of a sheet, by direction or for both directions, in any spelling.
 
 use crate::scatter::{self, OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
 use crate::sheets::findings::Findings;
-use crate::sheets::section::{Measured, Section};
+use crate::sheets::section::{Measured, Section, laboratory_value};
 use crate::sheets::spelling::KEYS;
 use crate::symbol::Symbol;
 use crate::test::Direction;
 use crate::values::Values;
 use drape_input::Quantity;
 
-/// Values of a sheet that have no direction, as they were measured.
+/// Values of a sheet that have no direction, as measured.
 #[derive(Debug, Default)]
 pub(crate) struct WholeValues {
     pub(crate) w: Option<Measured>,
@@ -24,7 +24,7 @@ pub(crate) struct WholeValues {
 }
 
 impl WholeValues {
-    /// Reads the values without direction and holds those of the compression test against each other.
+    /// Reads the values of `root` that have no direction, and checks TM against T0.
     pub(crate) fn read(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
         let w = positive(root, "W", Quantity::MassPerArea, findings);
         let t = positive(root, "T", Quantity::Length, findings);
@@ -34,6 +34,7 @@ impl WholeValues {
         let wc = positive(root, "WC", Quantity::WorkPerArea, findings);
         let rc = percentage(root, "RC", findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
+
         let values =
             [("W", &w), ("T", &t), ("T0", &t0), ("TM", &tm), ("WC", &wc), ("RC", &rc), ("FM", &fm)];
         for (symbol, value) in values {
@@ -45,7 +46,7 @@ impl WholeValues {
     }
 }
 
-/// Values of warp and weft, and the symbols whose one number stands for both.
+/// Values of warp and weft, and the symbols of the values whose one number stands for both.
 #[derive(Debug, Default)]
 pub(crate) struct DirectedValues {
     pub(crate) warp: Values,
@@ -55,8 +56,8 @@ pub(crate) struct DirectedValues {
 }
 
 impl DirectedValues {
-    /// Reads the values that a direction has: from its table, from a key that names it, else from the
-    /// number for both.
+    /// Reads the values of each direction: from the table of the direction, from a key that names
+    /// the direction, else from the number for both directions. `w` is the mass per area.
     pub(crate) fn read(
         root: &Section<'_>,
         w: Option<&Measured>,
@@ -73,18 +74,19 @@ impl DirectedValues {
         if let Some(mean) = &mean {
             mean.allow_values(&KEYS, findings);
         }
+
         let mut read = Self::default();
         for (index, direction) in [Direction::Warp, Direction::Weft].into_iter().enumerate() {
             let mut shared = Vec::new();
-            let mut source = Source {
-                own: sections[index].as_ref(),
-                of_root: root,
+            let mut tables = ValueTables {
+                directed: sections[index].as_ref(),
+                root,
                 mean: mean.as_ref(),
                 direction,
                 shared: &mut shared,
                 scatter: &mut read.scatter,
             };
-            let values = values(&mut source, w, findings);
+            let values = values(&mut tables, w, findings);
             match direction {
                 Direction::Warp => read.warp = values,
                 Direction::Weft => read.weft = values,
@@ -97,18 +99,21 @@ impl DirectedValues {
     }
 }
 
-/// Places where a value of one direction may stand.
-struct Source<'a, 't> {
-    own: Option<&'a Section<'t>>,
-    of_root: &'a Section<'t>,
+/// Tables in which a value of one direction may stand.
+struct ValueTables<'a, 't> {
+    /// Table of the direction.
+    directed: Option<&'a Section<'t>>,
+    root: &'a Section<'t>,
+    /// Table of the values for both directions.
     mean: Option<&'a Section<'t>>,
     direction: Direction,
     shared: &'a mut Vec<&'static str>,
     scatter: &'a mut Vec<Scatter>,
 }
 
-impl<'t> Source<'_, 't> {
-    /// Reads a value that the laws come from, and keeps the standard deviation stated with it.
+impl<'t> ValueTables<'_, 't> {
+    /// Reads the value `symbol` that a law uses with `read`, and keeps the standard deviation that
+    /// is stated with the value.
     fn read(
         &mut self,
         symbol: Symbol,
@@ -123,64 +128,84 @@ impl<'t> Source<'_, 't> {
         Some(value)
     }
 
-    /// Returns the table in which a value stands, and the key that it has there.
+    /// Returns the section that reads the value `key`. A value for both directions is noted in
+    /// `shared`.
     fn find(&mut self, key: &'static str) -> Option<Section<'t>> {
-        if let Some(own) = self.own.filter(|own| own.has_value(key, None)) {
-            return Some(own.clone().of(None));
+        if let Some(directed) = self.directed.filter(|directed| directed.has_value(key, None)) {
+            return Some(directed.clone().with_direction(None));
         }
-        if self.of_root.has_value(key, Some(self.direction)) {
-            return Some(self.of_root.clone().of(Some(self.direction)));
+        if self.root.has_value(key, Some(self.direction)) {
+            return Some(self.root.clone().with_direction(Some(self.direction)));
         }
-        // MIU, MMD and SMD are given once as a rule; the others are told.
+        // A number at the top of the sheet or in `mean` stands for both directions.
         let mean = self.mean.filter(|mean| mean.has_value(key, None));
-        let found = mean.or_else(|| self.of_root.has_value(key, None).then_some(self.of_root))?;
+        let found = mean.or_else(|| self.root.has_value(key, None).then_some(self.root))?;
         self.shared.push(key);
-        Some(found.clone().of(None))
+        Some(found.clone().with_direction(None))
+    }
+
+    /// Reads the loop width `symbol`, zero or more, in the laboratory's unit.
+    fn loop_width(
+        &mut self,
+        symbol: Symbol,
+        quantity: Quantity,
+        findings: &mut Findings<'_>,
+    ) -> Option<f64> {
+        laboratory_value(
+            self.read(symbol, |section| zero_or_more(section, symbol.name(), quantity, findings)),
+        )
+    }
+
+    /// Reads the value `symbol`, greater than zero, in the laboratory's unit.
+    fn positive(
+        &mut self,
+        symbol: Symbol,
+        quantity: Quantity,
+        findings: &mut Findings<'_>,
+    ) -> Option<f64> {
+        laboratory_value(
+            self.read(symbol, |section| positive(section, symbol.name(), quantity, findings)),
+        )
     }
 }
 
-/// Reads the values of one direction and checks each of them.
+/// Reads the values of the direction of `tables` and checks each value. `w` is the mass per area.
 fn values(
-    source: &mut Source<'_, '_>,
+    tables: &mut ValueTables<'_, '_>,
     w: Option<&Measured>,
     findings: &mut Findings<'_>,
 ) -> Values {
-    let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
-    let direction = source.direction;
-    let b = source.read(Symbol::B, |section| {
+    let direction = tables.direction;
+    let b = tables.read(Symbol::B, |section| {
         let b = section.measured("B", Quantity::BendingRigidity, findings)?;
         Some(b).filter(|b| plausible::bending_rigidity(b, findings))
     });
     if let Some(b) = &b {
         plausible::bending(direction, b, w, findings);
     }
-    let mut at_least_zero = |symbol: Symbol, quantity| {
-        let read = |s: &Section<'_>| zero_or_more(s, symbol.name(), quantity, findings);
-        laboratory(source.read(symbol, read))
-    };
-    let two_hb = at_least_zero(Symbol::TwoHb, Quantity::MomentPerWidth);
-    let two_hg = at_least_zero(Symbol::TwoHg, Quantity::ForcePerWidth);
-    let two_hg5 = at_least_zero(Symbol::TwoHg5, Quantity::ForcePerWidth);
-    let mut above_zero = |symbol: Symbol, quantity| {
-        let read = |s: &Section<'_>| positive(s, symbol.name(), quantity, findings);
-        laboratory(source.read(symbol, read))
-    };
-    let g = above_zero(Symbol::G, Quantity::ShearStiffness);
-    let wt = above_zero(Symbol::Wt, Quantity::WorkPerArea);
-    let em = above_zero(Symbol::Em, Quantity::Ratio);
-    let lt = source.read(Symbol::Lt, |section| LT.measured(section, findings));
-    let rt = laboratory(source.read(Symbol::Rt, |s| percentage(s, "RT", findings)));
-    let smd = source.find("SMD").and_then(|s| positive(&s, "SMD", Quantity::Roughness, findings));
-    let miu = source.find("MIU").and_then(|section| MIU.measured(&section, findings));
-    let mmd = source.find("MMD").and_then(|section| MMD.measured(&section, findings));
-    let rough = smd.as_ref().map(|smd| (smd, smd.laboratory));
-    note_unused_scatter(("SMD", Some(direction)), rough, findings);
+
+    let two_hb = tables.loop_width(Symbol::TwoHb, Quantity::MomentPerWidth, findings);
+    let two_hg = tables.loop_width(Symbol::TwoHg, Quantity::ForcePerWidth, findings);
+    let two_hg5 = tables.loop_width(Symbol::TwoHg5, Quantity::ForcePerWidth, findings);
+    let g = tables.positive(Symbol::G, Quantity::ShearStiffness, findings);
+    let wt = tables.positive(Symbol::Wt, Quantity::WorkPerArea, findings);
+    let em = tables.positive(Symbol::Em, Quantity::Ratio, findings);
+    let lt = tables.read(Symbol::Lt, |section| LT.measured(section, findings));
+    let rt = laboratory_value(tables.read(Symbol::Rt, |s| percentage(s, "RT", findings)));
+
+    // No law uses the values of the surface test, so their standard deviations are only listed.
+    let smd = tables.find("SMD").and_then(|s| positive(&s, "SMD", Quantity::Roughness, findings));
+    let miu = tables.find("MIU").and_then(|section| MIU.measured(&section, findings));
+    let mmd = tables.find("MMD").and_then(|section| MMD.measured(&section, findings));
+    let roughness = smd.as_ref().map(|smd| (smd, smd.laboratory));
+    note_unused_scatter(("SMD", Some(direction)), roughness, findings);
     for (symbol, ratio) in [("MIU", &miu), ("MMD", &mmd)] {
         let value = ratio.as_ref().map(|ratio| (ratio, ratio.si));
         note_unused_scatter((symbol, Some(direction)), value, findings);
     }
+
     Values {
-        b: laboratory(b),
+        b: laboratory_value(b),
         two_hb,
         g,
         two_hg,
@@ -191,12 +216,12 @@ fn values(
         em,
         miu: miu.map(|miu| miu.si),
         mmd: mmd.map(|mmd| mmd.si),
-        smd: laboratory(smd),
+        smd: laboratory_value(smd),
     }
 }
 
-/// Notes that no law uses the standard deviation of a value, and keeps it: the value's symbol and direction,
-/// and the value with its number in the unit of the sheet.
+/// Notes that no law uses the standard deviation of a value, and keeps the deviation. `value` is
+/// the measured value and its number in the unit of the sheet.
 fn note_unused_scatter(
     (symbol, direction): (&'static str, Option<Direction>),
     value: Option<(&Measured, f64)>,
@@ -214,7 +239,7 @@ fn note_unused_scatter(
     });
 }
 
-/// Value that is a ratio and not a percentage: a bare number is a ratio.
+/// Value that is a ratio and not a percentage: a number without unit is a ratio.
 struct Ratio {
     key: &'static str,
     /// Upper limit.
@@ -248,11 +273,11 @@ const MMD: Ratio = Ratio {
 };
 
 impl Ratio {
-    /// Reads the ratio.
+    /// Reads the ratio from `section`.
     fn measured(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Measured> {
         let Self { key, limit, help } = *self;
         let mut value = positive(section, key, Quantity::Ratio, findings)?;
-        // A bare number was parsed as a percentage, the laboratory's unit of every other ratio.
+        // A number without unit was parsed as a percentage, the laboratory's unit of other ratios.
         if scatter::is_bare(&value.written) {
             let percent = Quantity::Ratio.laboratory().factor;
             value.si = value.number;
@@ -266,7 +291,7 @@ impl Ratio {
     }
 }
 
-/// Reads TM, which is not above T0.
+/// Reads TM from `root`. TM must not exceed the thickness `t0`.
 fn pressed_thickness(
     root: &Section<'_>,
     t0: Option<&Measured>,
@@ -282,21 +307,21 @@ fn pressed_thickness(
     None
 }
 
-/// Reads RT or RC, which are at most 100 %.
+/// Reads RT or RC from the `key` of `section`: at most 100 %.
 fn percentage(section: &Section<'_>, key: &str, findings: &mut Findings<'_>) -> Option<Measured> {
     let value = positive(section, key, Quantity::Ratio, findings)?;
-    held(
+    check_range(
         value,
         findings,
         |si| si <= 1.0,
-        |written| Answer {
+        |written| RangeMistake {
             message: format!("{written} is more than 100 %, which no fabric gives back"),
             help: format!("{key} is recovered work over work spent, in percent"),
         },
     )
 }
 
-/// Reads a number greater than zero.
+/// Reads a number greater than zero from the `key` of `section`.
 fn positive(
     section: &Section<'_>,
     key: &str,
@@ -304,18 +329,18 @@ fn positive(
     findings: &mut Findings<'_>,
 ) -> Option<Measured> {
     let value = section.measured(key, quantity, findings)?;
-    held(
+    check_range(
         value,
         findings,
         |si| si > 0.0,
-        |written| Answer {
+        |written| RangeMistake {
             message: format!("{written} is not greater than 0"),
             help: "write the measured value, or remove the line if it was not measured".into(),
         },
     )
 }
 
-/// Reads a loop width, zero or more.
+/// Reads a loop width, zero or more, from the `key` of `section`.
 fn zero_or_more(
     section: &Section<'_>,
     key: &str,
@@ -323,34 +348,34 @@ fn zero_or_more(
     findings: &mut Findings<'_>,
 ) -> Option<Measured> {
     let value = section.measured(key, quantity, findings)?;
-    held(
+    check_range(
         value,
         findings,
         |si| si >= 0.0,
-        |written| Answer {
+        |written| RangeMistake {
             message: format!("{written} is negative"),
             help: "a loop width is the distance between the two branches, without sign".into(),
         },
     )
 }
 
-/// Answer to a value out of its range.
-struct Answer {
+/// Mistake of a value outside its range.
+struct RangeMistake {
     message: String,
     help: String,
 }
 
-/// Returns a value that is in its range; reports one that is not, by its number as written.
-fn held(
+/// Returns `value` if its number in SI `is_in_range`. Reports the `mistake` of its text otherwise.
+fn check_range(
     value: Measured,
     findings: &mut Findings<'_>,
-    holds: impl Fn(f64) -> bool,
-    answer: impl Fn(&str) -> Answer,
+    is_in_range: impl Fn(f64) -> bool,
+    mistake: impl Fn(&str) -> RangeMistake,
 ) -> Option<Measured> {
-    if holds(value.si) {
+    if is_in_range(value.si) {
         return Some(value);
     }
-    let Answer { message, help } = answer(&value.written);
+    let RangeMistake { message, help } = mistake(&value.written);
     findings.error(&value.key, message, help);
     None
 }

@@ -1,4 +1,4 @@
-//! Blocks of numbers in a grid, each with its heading, its units and the text above it.
+//! Blocks of numbers in a grid, each with its headings, its units and the text above it.
 
 use crate::tables::grid::{Cell, Grid, Row, Separator};
 use crate::tables::heading::{self, Heading};
@@ -7,18 +7,18 @@ use drape_input::is_unit;
 /// Lines of a file that a sheet declares.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Lines {
-    /// Lines that are left out at the start.
+    /// Number of lines to skip at the start.
     pub(crate) skip: usize,
-    /// Line of the header; 0 where the file has none.
+    /// Line of the header; 0 for a file without a header.
     pub(crate) header: Option<usize>,
 }
 
-/// Rows of numbers that follow each other, with what stands above them.
+/// Rows of numbers that follow each other, with the text above them.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     /// Sheet of the spreadsheet; empty for a text file.
     pub(crate) sheet: String,
-    /// Text above the header, since the block before.
+    /// Text above the header, after the block before.
     pub(crate) above: Vec<Row>,
     /// Line of the header.
     pub(crate) header_line: Option<usize>,
@@ -38,17 +38,25 @@ impl Block {
         rows.max(self.headings.len())
     }
 
-    /// Returns the columns in whose first rows there are numbers.
+    /// Returns the columns with numbers in their first rows, and with nothing else in these rows.
     pub(crate) fn number_columns(&self) -> Vec<usize> {
-        let has_numbers = |column: &usize| {
-            let first = self.rows.iter().take(8).filter_map(|row| row.cells.get(*column));
-            first.clone().any(Cell::is_number)
-                && first.filter(|cell| !cell.is_empty()).all(Cell::is_number)
-        };
-        (0..self.width()).filter(has_numbers).collect()
+        let mut columns = Vec::new();
+        for column in 0..self.width() {
+            let first: Vec<&Cell> = self
+                .rows
+                .iter()
+                .take(8)
+                .filter_map(|row| row.cells.get(column))
+                .filter(|cell| !cell.is_empty())
+                .collect();
+            if !first.is_empty() && first.iter().all(|cell| cell.is_number()) {
+                columns.push(column);
+            }
+        }
+        columns
     }
 
-    /// Returns the name of a column for messages: its heading, or its number from 1.
+    /// Returns the name of `column` for messages: its heading, or its number from 1.
     pub(crate) fn column_name(&self, column: usize) -> String {
         match self.headings.get(column).filter(|heading| !heading.name.is_empty()) {
             Some(heading) => format!("\"{}\"", heading.name),
@@ -56,21 +64,20 @@ impl Block {
         }
     }
 
-    /// Returns the text above the block as one label: its last line that is a title, and no key with
-    /// a value.
+    /// Returns the title of the block: the last line above it that has a single cell, and is
+    /// therefore no key with a value. Returns an empty text without such a line.
     pub(crate) fn title(&self) -> String {
-        let title = |row: &&Row| row.filled().count() == 1;
-        let row = self.above.iter().rev().find(title);
+        let row = self.above.iter().rev().find(|row| row.filled().count() == 1);
         row.and_then(|row| row.filled().next()).map_or(String::new(), |(_, cell)| cell.text())
     }
 
-    /// Returns the line of the first row of numbers.
+    /// Returns the line of the first row of numbers; 0 without rows.
     pub(crate) fn first_line(&self) -> usize {
         self.rows.first().map_or(0, |row| row.line)
     }
 }
 
-/// Blocks of a grid, with the rows of statistics that were left out.
+/// Blocks of a grid, with the lines of the rows of statistics that were skipped.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Blocks {
     pub(crate) blocks: Vec<Block>,
@@ -78,22 +85,25 @@ pub(crate) struct Blocks {
     pub(crate) statistics: Vec<usize>,
 }
 
-/// Finds the blocks of a grid.
+/// Splits `grid` into blocks. `lines` are the lines that the sheet declares.
 pub(crate) fn blocks(grid: &Grid, lines: Lines) -> Blocks {
     let mut found = Blocks::default();
     let mut open = OpenBlock::default();
     let from = lines.header.unwrap_or(0).max(lines.skip + 1);
     for row in grid.rows.iter().filter(|row| row.line >= from) {
         let is_header = lines.header == Some(row.line);
+
+        // A row of numbers above a row of units was text, such as a date.
         if let [only] = &open.rows[..]
             && has_units_in_place(row, only)
         {
             open.above.append(&mut open.rows);
         }
-        match part(row, open.rows.first(), is_header) {
-            Part::Numbers => open.rows.push(row.clone()),
-            Part::Statistics => found.statistics.push(row.line),
-            Part::Text => {
+
+        match row_role(row, open.rows.first(), is_header) {
+            RowRole::Numbers => open.rows.push(row.clone()),
+            RowRole::Statistics => found.statistics.push(row.line),
+            RowRole::Text => {
                 open.finish(grid, lines, &mut found);
                 open.above.push(row.clone());
             }
@@ -103,7 +113,7 @@ pub(crate) fn blocks(grid: &Grid, lines: Lines) -> Blocks {
     found
 }
 
-/// Returns whether a row has a unit where the one before it, a date perhaps, has a number.
+/// Returns whether `row` has a unit where the row `before`, a date perhaps, has a number.
 fn has_units_in_place(row: &Row, before: &Row) -> bool {
     row.numbers() >= 2
         && row.filled().any(|(column, cell)| {
@@ -112,39 +122,43 @@ fn has_units_in_place(row: &Row, before: &Row) -> bool {
         })
 }
 
-/// Rows of a block that may go on.
+/// Rows of a block that is not complete yet.
 #[derive(Default)]
 struct OpenBlock {
     above: Vec<Row>,
     rows: Vec<Row>,
 }
 
-/// Part that a row plays.
-enum Part {
+/// Role of a row in its block.
+enum RowRole {
     Numbers,
     /// Mean or deviation of the rows above.
     Statistics,
     Text,
 }
 
-fn part(row: &Row, first: Option<&Row>, is_header: bool) -> Part {
+/// Returns the role of `row` in a block whose `first` row of numbers is known, if there is one.
+fn row_role(row: &Row, first: Option<&Row>, is_header: bool) -> RowRole {
     let numbers = row.numbers();
     if is_header || numbers == 0 {
-        return Part::Text;
+        return RowRole::Text;
     }
     let Some(first) = first else {
-        return if numbers >= 2 { Part::Numbers } else { Part::Text };
+        return if numbers >= 2 { RowRole::Numbers } else { RowRole::Text };
     };
-    let was_number = |column: usize| first.cells.get(column).is_some_and(Cell::is_number);
-    let start =
-        row.filled().next().filter(|(column, cell)| !cell.is_number() && was_number(*column));
-    match start {
-        Some((_, cell)) if is_statistic(&cell.text()) => Part::Statistics,
-        Some(_) => Part::Text,
-        None => Part::Numbers,
+    // Text in a column of numbers begins a row of statistics, or the text of the next block.
+    let first_filled = row.filled().next();
+    let text_over_number = first_filled.filter(|(column, cell)| {
+        !cell.is_number() && first.cells.get(*column).is_some_and(Cell::is_number)
+    });
+    match text_over_number {
+        Some((_, cell)) if is_statistic(&cell.text()) => RowRole::Statistics,
+        Some(_) => RowRole::Text,
+        None => RowRole::Numbers,
     }
 }
 
+/// Returns whether `text` names a mean, a deviation or another statistic.
 fn is_statistic(text: &str) -> bool {
     const WORDS: [&str; 22] = [
         "mean",
@@ -175,7 +189,7 @@ fn is_statistic(text: &str) -> bool {
 }
 
 impl OpenBlock {
-    /// Ends the block of the collected rows, if there are any.
+    /// Completes the block of the collected rows, if there are any, and adds it to `found`.
     fn finish(&mut self, grid: &Grid, lines: Lines, found: &mut Blocks) {
         if self.rows.is_empty() {
             return;
@@ -189,10 +203,12 @@ impl OpenBlock {
             groups: Vec::new(),
             rows: std::mem::take(&mut self.rows),
         };
+
         if lines.header != Some(0) {
-            take_header(&mut block, lines.header, grid.separator == Some(Separator::Space));
+            split_header(&mut block, lines.header, grid.separator == Some(Separator::Space));
         }
-        take_unit_columns(&mut block);
+        read_unit_columns(&mut block);
+
         // A block below a title alone has the header of the one above it.
         if block.header_line.is_none()
             && let Some(before) = found.blocks.last()
@@ -206,11 +222,13 @@ impl OpenBlock {
     }
 }
 
-/// Takes header, units and titles of groups from the text above a block.
-fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
-    let ruled =
-        |row: &Row| row.filled().all(|(_, cell)| cell.text().chars().all(|c| "-=_+|~".contains(c)));
-    block.above.retain(|row| !ruled(row) || declared == Some(row.line));
+/// Moves header, units and titles of groups out of the text above `block`. The `declared` line of
+/// the header wins. The cells of a `spaced` file are parted by blanks, which may also part the
+/// words of a name.
+fn split_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
+    block.above.retain(|row| !is_rule(row) || declared == Some(row.line));
+
+    // The line above the numbers may hold units.
     let units = match block.above.as_slice() {
         [.., names, units] => Some(units).filter(|units| is_row_of_units(units, Some(names))),
         [units] => Some(units).filter(|units| is_row_of_units(units, None)),
@@ -220,14 +238,15 @@ fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
     if units.is_some() {
         block.above.pop();
     }
-    let is_header = |row: &Row| match declared {
+
+    // The line above the units holds the names.
+    let header = block.above.last().filter(|row| match declared {
         Some(line) => row.line == line,
         None => is_row_of_names(row, block.rows.first()),
-    };
-    let header = block.above.last().filter(|row| is_header(row)).cloned();
+    });
     let header = header.map(|row| match block.rows.first() {
-        Some(first) if spaced && row.cells.len() > first.cells.len() => rejoined(&row),
-        _ => row,
+        Some(first) if spaced && row.cells.len() > first.cells.len() => join_words(row),
+        _ => row.clone(),
     });
     if let Some(header) = &header {
         block.above.pop();
@@ -242,9 +261,11 @@ fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
         }
         block.headings.resize(block.headings.len().max(units.cells.len()), Heading::default());
         for (column, cell) in units.filled() {
-            block.headings[column].unit = Some(unbracketed(&cell.text()).to_owned());
+            block.headings[column].unit = Some(without_brackets(&cell.text()).to_owned());
         }
     }
+
+    // A shorter line of texts above the names holds titles of groups of columns.
     if let (Some(header), Some(above)) = (&header, block.above.last())
         && above.line + 1 == header.line
         && above.filled().count() >= 2
@@ -252,31 +273,36 @@ fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
         && !above.filled().any(|(_, cell)| cell.text().ends_with(':'))
         && above.filled().count() < header.filled().count()
     {
-        block.groups = spread(above, block.headings.len());
+        block.groups = fill_groups(above, block.headings.len());
         block.above.pop();
     }
 }
 
-/// Takes units that stand in a column of their own, behind each number: `12.5, N, 0.3, mm`.
-fn take_unit_columns(block: &mut Block) {
+/// Returns whether `row` is a line that is drawn with signs.
+fn is_rule(row: &Row) -> bool {
+    row.filled().all(|(_, cell)| cell.text().chars().all(|letter| "-=_+|~".contains(letter)))
+}
+
+/// Moves units out of columns that hold only the unit of the column before: `12.5, N, 0.3, mm`.
+fn read_unit_columns(block: &mut Block) {
     for column in 1..block.width() {
         let mut cells = block.rows.iter().map(|row| row.cells.get(column));
         let Some(Some(Cell::Text(unit))) = cells.next() else { continue };
         let unit = unit.clone();
-        let same = |cell: Option<&Cell>| matches!(cell, Some(Cell::Text(text)) if *text == unit);
-        if !is_unit(&unit) || !cells.all(same) {
+        let is_repeated = cells.all(|cell| matches!(cell, Some(Cell::Text(text)) if *text == unit));
+        if !is_unit(&unit) || !is_repeated {
             continue;
         }
         block.headings.resize(block.headings.len().max(block.width()), Heading::default());
-        let of_number = &mut block.headings[column - 1];
-        if of_number.unit.is_none() {
-            of_number.unit = Some(unit);
+        let heading = &mut block.headings[column - 1];
+        if heading.unit.is_none() {
+            heading.unit = Some(unit);
         }
     }
 }
 
-/// Joins words that blanks have parted: a name ends with its unit in brackets.
-fn rejoined(row: &Row) -> Row {
+/// Joins the words of `row` that blanks have parted: a name ends with its unit in brackets.
+fn join_words(row: &Row) -> Row {
     let mut names: Vec<String> = vec![String::new()];
     for (_, cell) in row.filled() {
         let word = cell.text();
@@ -291,70 +317,85 @@ fn rejoined(row: &Row) -> Row {
     Row { line: row.line, cells: names.into_iter().map(Cell::Text).collect() }
 }
 
-/// Returns the titles of groups over each of their columns.
-fn spread(row: &Row, width: usize) -> Vec<String> {
+/// Returns the titles of groups in `row`, repeated over each of their columns, for `width` columns.
+fn fill_groups(row: &Row, width: usize) -> Vec<String> {
     let mut title = String::new();
-    let of = |column: usize| row.cells.get(column).filter(|cell| !cell.is_empty());
-    (0..width)
-        .map(|column| {
-            if let Some(cell) = of(column) {
-                title = cell.text();
-            }
-            title.clone()
-        })
-        .collect()
+    let mut groups = Vec::with_capacity(width);
+    for column in 0..width {
+        if let Some(cell) = row.cells.get(column).filter(|cell| !cell.is_empty()) {
+            title = cell.text();
+        }
+        groups.push(title.clone());
+    }
+    groups
 }
 
-/// Returns a unit without the brackets around it.
-pub(crate) fn unbracketed(text: &str) -> &str {
+/// Returns the unit `text` without the brackets around it.
+pub(crate) fn without_brackets(text: &str) -> &str {
     let text = text.trim();
-    let pairs = [('(', ')'), ('[', ']'), ('（', '）'), ('<', '>'), ('［', '］')];
-    let inside = |(open, close)| text.strip_prefix::<char>(open)?.strip_suffix::<char>(close);
-    pairs.into_iter().find_map(inside).map_or(text, str::trim)
+    const PAIRS: [(char, char); 5] =
+        [('(', ')'), ('[', ']'), ('（', '）'), ('<', '>'), ('［', '］')];
+    PAIRS
+        .into_iter()
+        .find_map(|(open, close)| text.strip_prefix(open)?.strip_suffix(close))
+        .map_or(text, str::trim)
 }
 
-/// Letters of a unit that is not known, at most: a longer text is a name.
-const UNKNOWN_UNIT_MAX: usize = 12;
-/// Known units that a row has at least, where others of its units are not known.
-const KNOWN_UNITS_LEAST: usize = 2;
-
-/// Returns whether every cell of a row is a unit. Below a row of names some of the units may be unknown: their
-/// columns are of no use, the others are.
+/// Returns whether every cell of `row` is a unit. Below a row of `names` some units may be unknown:
+/// only the columns of unknown units are of no use.
 fn is_row_of_units(row: &Row, names: Option<&Row>) -> bool {
-    let is_known = |cell: &Cell| {
-        let text = cell.text();
-        let text = text.trim();
-        // A closing bracket belongs to the unit where there is one within, as in gf/(cm.deg).
-        let seconds = unbracketed(text).eq_ignore_ascii_case("sec");
-        is_unit(text) || is_unit(unbracketed(text)) || seconds
-    };
-    let is_none = |cell: &Cell| ["-", "()", "[-]", "(-)", "–"].contains(&cell.text().trim());
-    let (known, others): (Vec<_>, Vec<_>) = row.filled().partition(|(_, cell)| is_known(cell));
-    let unknown: Vec<_> = others.iter().filter(|(_, cell)| !is_none(cell)).collect();
+    /// Least number of known units in a row that has unknown units.
+    const KNOWN_UNITS_LEAST: usize = 2;
+
+    let (known, others): (Vec<_>, Vec<_>) = row.filled().partition(|(_, cell)| is_known_unit(cell));
+    let unknown: Vec<_> = others
+        .into_iter()
+        .filter(|(_, cell)| !["-", "()", "[-]", "(-)", "–"].contains(&cell.text().trim()))
+        .collect();
     if unknown.is_empty() {
         return row.filled().count() > 0;
     }
-    let may_be = |(column, cell): &&(usize, &Cell)| {
-        let text = cell.text();
-        let name = names.and_then(|names| names.cells.get(*column));
-        let is_named = name.is_some_and(|name| !name.is_empty() && !name.is_number());
-        is_named
-            && !cell.is_number()
-            && text.chars().count() <= UNKNOWN_UNIT_MAX
-            && !unbracketed(&text).contains(' ')
-            && heading::kind(&text).is_none_or(|_| text.chars().count() == 1)
-    };
-    known.len() >= KNOWN_UNITS_LEAST && unknown.len() <= known.len() && unknown.iter().all(may_be)
+    known.len() >= KNOWN_UNITS_LEAST
+        && unknown.len() <= known.len()
+        && unknown.iter().all(|&(column, cell)| {
+            may_be_unknown_unit(cell, names.and_then(|names| names.cells.get(column)))
+        })
 }
 
-/// Returns whether a row names the columns of the numbers below it: text over two of them at least.
+/// Returns whether `cell` is a known unit, in brackets or not.
+fn is_known_unit(cell: &Cell) -> bool {
+    let text = cell.text();
+    let text = text.trim();
+    // A closing bracket belongs to a unit with a bracket inside, as in gf/(cm.deg).
+    let is_second = without_brackets(text).eq_ignore_ascii_case("sec");
+    is_unit(text) || is_unit(without_brackets(text)) || is_second
+}
+
+/// Returns whether `cell` below the cell `name` may be an unknown unit: a short word that is no
+/// name of a column.
+fn may_be_unknown_unit(cell: &Cell, name: Option<&Cell>) -> bool {
+    /// Largest number of letters of an unknown unit. A longer text is a name.
+    const LONGEST: usize = 12;
+
+    let text = cell.text();
+    let letters = text.chars().count();
+    name.is_some_and(|name| !name.is_empty() && !name.is_number())
+        && !cell.is_number()
+        && letters <= LONGEST
+        && !without_brackets(&text).contains(' ')
+        && heading::kind(&text).is_none_or(|_| letters == 1)
+}
+
+/// Returns whether `row` names the columns of the numbers in the row `first`: text over at least
+/// two numbers, and nothing but text.
 fn is_row_of_names(row: &Row, first: Option<&Row>) -> bool {
-    let over_number = |(column, cell): (usize, &Cell)| {
-        !cell.is_number()
-            && first.is_some_and(|first| first.cells.get(column).is_some_and(Cell::is_number))
-    };
-    let words = row.filled().filter(|(_, cell)| !cell.is_number()).count();
-    row.filled().filter(|&cell| over_number(cell)).count() >= 2 && words == row.filled().count()
+    if row.filled().any(|(_, cell)| cell.is_number()) {
+        return false;
+    }
+    let over_numbers = row.filled().filter(|(column, _)| {
+        first.is_some_and(|first| first.cells.get(*column).is_some_and(Cell::is_number))
+    });
+    over_numbers.count() >= 2
 }
 
 #[cfg(test)]

@@ -1,28 +1,28 @@
-//! Channels of a test that stand in rows, turned into columns.
+//! Channels of a test that stand in rows, and are turned into columns.
 
-use crate::tables::block::unbracketed;
+use crate::tables::block::without_brackets;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Kind};
 use drape_input::is_unit;
 
-/// Least count of numbers in a channel; a shorter row holds results, a number for each specimen.
-const LEAST: usize = 20;
+/// Least count of numbers in a channel. A shorter row holds results, one number per specimen.
+const LEAST_NUMBERS: usize = 20;
 
-/// Row of a channel: its heading, and where its numbers start.
+/// Row of a channel: its heading, and the column where its numbers start.
 struct Channel {
     heading: String,
     kind: Option<Kind>,
     start: usize,
 }
 
-/// Turns the channels of a grid that stand in rows into columns; returns the lines on which they stood.
+/// Turns the channels of `grid` that stand in rows into columns. Returns the lines of the channels.
 ///
 /// ```text
 /// Extension (mm), 0, 0.1, 0.2, …        Extension (mm), Load (N)
 /// Load (N),       0, 0.4, 0.9, …    →   0,              0
 ///                                       0.1,            0.4 …
 /// ```
-pub(crate) fn turn(grid: &mut Grid) -> Vec<usize> {
+pub(crate) fn turn_channels(grid: &mut Grid) -> Vec<usize> {
     let mut lines = Vec::new();
     let mut rows: Vec<Row> = Vec::new();
     let mut waiting = std::mem::take(&mut grid.rows).into_iter().peekable();
@@ -31,74 +31,86 @@ pub(crate) fn turn(grid: &mut Grid) -> Vec<usize> {
             rows.push(row);
             continue;
         };
+
+        // Channels follow each other, without a header above them.
         let names = rows.last().map_or(0, |before: &Row| before.filled().count());
         let has_header = 2 * names > row.numbers();
         let mut run = vec![(first, row)];
         while let Some(next) = waiting.peek().and_then(channel) {
             run.extend(waiting.next().map(|row| (next, row)));
         }
-        if has_header || !is_test(&run) {
+
+        if has_header || !has_test_axes(&run) {
             rows.extend(run.into_iter().map(|(_, row)| row));
         } else {
             lines.extend(run.iter().map(|(_, row)| row.line));
-            rows.extend(turned(&run));
+            rows.extend(columns_of(&run));
         }
     }
     grid.rows = rows;
     lines
 }
 
-/// Returns a row as a channel: a name, perhaps a unit, and nothing but numbers.
+/// Returns `row` as a channel: a name, perhaps a unit, and nothing but numbers.
 fn channel(row: &Row) -> Option<Channel> {
     let mut filled = row.filled();
-    let (at, name) = filled.next().filter(|(_, cell)| !cell.is_number())?;
+    let (name_column, name) = filled.next().filter(|(_, cell)| !cell.is_number())?;
     let mut heading = name.text();
     let (mut start, second) = filled.next()?;
     if let Cell::Text(unit) = second
-        && is_unit(unbracketed(unit))
+        && is_unit(without_brackets(unit))
     {
-        heading = format!("{heading} ({})", unbracketed(unit));
+        heading = format!("{heading} ({})", without_brackets(unit));
         start += 1;
     } else if !second.is_number() {
         return None;
     }
+
     // A gap between the name and its numbers belongs to neither.
     let end = row.filled().last().map_or(0, |(column, _)| column);
     let numbers = row.cells.get(start..=end)?;
-    let is_channel = start > at && numbers.len() >= LEAST && numbers.iter().all(Cell::is_number);
+    let is_channel = start > name_column
+        && numbers.len() >= LEAST_NUMBERS
+        && numbers.iter().all(Cell::is_number);
     is_channel.then(|| Channel { kind: heading::kind(&name.text()), heading, start })
 }
 
-/// Returns whether the rows hold a load and a deformation.
-fn is_test(run: &[(Channel, Row)]) -> bool {
-    let has = |kinds: &[Kind]| {
-        run.iter().any(|(channel, _)| channel.kind.is_some_and(|kind| kinds.contains(&kind)))
-    };
-    has(&[Kind::Force, Kind::Moment])
-        && has(&[
-            Kind::Strain,
-            Kind::Extension,
-            Kind::Position,
-            Kind::Distance,
-            Kind::Angle,
-            Kind::Curvature,
-        ])
+/// Returns whether the channels of `run` hold a load and a deformation.
+fn has_test_axes(run: &[(Channel, Row)]) -> bool {
+    let kinds: Vec<Kind> = run.iter().filter_map(|(channel, _)| channel.kind).collect();
+    let is_load = |kind: &Kind| matches!(kind, Kind::Force | Kind::Moment);
+    kinds.iter().any(is_load)
+        && kinds.iter().any(|kind| {
+            matches!(
+                kind,
+                Kind::Strain
+                    | Kind::Extension
+                    | Kind::Position
+                    | Kind::Distance
+                    | Kind::Angle
+                    | Kind::Curvature
+            )
+        })
 }
 
-/// Returns a header and rows of numbers, all on the line of the first channel.
-fn turned(run: &[(Channel, Row)]) -> Vec<Row> {
+/// Returns the channels of `run` as a header and rows of numbers, all on the line of the first
+/// channel.
+fn columns_of(run: &[(Channel, Row)]) -> Vec<Row> {
     let line = run.first().map_or(0, |(_, row)| row.line);
-    let row = |cells: Vec<Cell>| Row { line, cells };
     let header = run.iter().map(|(channel, _)| Cell::Text(channel.heading.clone())).collect();
-    let numbers = |(channel, row): &(Channel, Row)| row.cells.len() - channel.start;
-    let longest = run.iter().map(numbers).max().unwrap_or(0);
-    let cell = |(channel, row): &(Channel, Row), place: usize| {
-        let cell = row.cells.get(channel.start + place).cloned();
-        cell.unwrap_or_else(|| Cell::Text(String::new()))
-    };
-    let point = |place: usize| row(run.iter().map(|channel| cell(channel, place)).collect());
-    let points = (0..longest).map(point).filter(|row| row.filled().count() > 0);
-    std::iter::once(row(header)).chain(points).collect()
+    let mut rows = vec![Row { line, cells: header }];
+    let lengths = run.iter().map(|(channel, row)| row.cells.len() - channel.start);
+    for point in 0..lengths.max().unwrap_or(0) {
+        let mut cells = Vec::with_capacity(run.len());
+        for (channel, row) in run {
+            let cell = row.cells.get(channel.start + point).cloned();
+            cells.push(cell.unwrap_or_else(|| Cell::Text(String::new())));
+        }
+        if cells.iter().any(|cell| !cell.is_empty()) {
+            rows.push(Row { line, cells });
+        }
+    }
+    rows
 }
 
 #[cfg(test)]
@@ -124,7 +136,7 @@ mod tests {
             numbers(0.5)
         );
         let mut grid = grid(&text);
-        assert_eq!(turn(&mut grid), [2, 3, 4]);
+        assert_eq!(turn_channels(&mut grid), [2, 3, 4]);
         let header: Vec<String> = grid.rows[1].cells.iter().map(Cell::text).collect();
         assert_eq!(header, ["Time (s)", "Extension (mm)", "Load (N)"]);
         assert_eq!((grid.rows.len(), grid.rows[25].line), (26, 2));
@@ -142,7 +154,7 @@ mod tests {
             numbers(0.1)
         );
         let mut grid = grid(&text);
-        assert!(turn(&mut grid).is_empty());
+        assert!(turn_channels(&mut grid).is_empty());
         assert_eq!(grid.rows.len(), 3);
     }
 }

@@ -1,25 +1,25 @@
-//! Columns of the deformation and of the load in a block: those that the sheet names, or those whose
-//! headings say so.
+//! Columns of the deformation and of the load in a block: the columns that the sheet names, or the
+//! columns whose headings name them.
 
 use crate::tables::block::Block;
 use crate::tables::heading::{self, Kind};
 use crate::tables::layout::Column;
 use drape_input::{Quantity, Unit, parse_unit};
 
-/// Axis of a curve, as it is looked for in a block.
+/// Axis of a curve that is searched in a block.
 #[derive(Clone, Debug)]
 pub(crate) struct AxisQuery<'a> {
     /// Name in messages: deformation, load.
     pub(crate) name: &'static str,
-    /// Columns that the sheet names; empty where they are to be found.
+    /// Columns that the sheet names; empty if the columns are to be detected.
     pub(crate) columns: &'a [Column],
     /// Unit that the sheet declares.
     pub(crate) unit: Option<Unit>,
     /// Quantities that the axis may have.
     pub(crate) accepted: &'a [Quantity],
-    /// Kinds of columns, the preferred ones first: equals stand together.
+    /// Kinds of columns, preferred kinds first. Kinds of equal rank stand in one list.
     pub(crate) kinds: &'a [&'a [Kind]],
-    /// Whether a length is preferred to a ratio, since its gauge is given.
+    /// Whether a length is preferred to a ratio, because its gauge is given.
     pub(crate) by_length: bool,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Pair {
     pub(crate) label: String,
 }
 
-/// Reason why a block has no such columns, with the remedy.
+/// Reason why a block does not have the columns, with the remedy.
 #[derive(Clone, Debug)]
 pub(crate) struct NoColumns {
     pub(crate) line: Option<usize>,
@@ -48,80 +48,96 @@ struct Candidate {
     rank: usize,
 }
 
-/// Returns the pairs of columns of a block.
+/// Returns the pairs of columns of `block` for the two axes. Several pairs are repeats.
 pub(crate) fn pairs(
     block: &Block,
     deformation: &AxisQuery<'_>,
     load: &AxisQuery<'_>,
 ) -> Result<Vec<Pair>, NoColumns> {
     let numbers = block.number_columns();
-    // Two columns that are nothing else can only be the two, where their units are declared.
+    // Two columns without names can only be the two axes, if both units are declared.
     let unnamed = block.headings.is_empty() && numbers.len() == 2;
     let both_open = deformation.columns.is_empty() && load.columns.is_empty();
     if unnamed && both_open && deformation.unit.is_some() && load.unit.is_some() {
         let pair = Pair { deformation: numbers[0], load: numbers[1], label: String::new() };
         return Ok(vec![pair]);
     }
-    let loads = of_axis(block, load, &[])?;
+
+    let loads = columns_of_axis(block, load, &[])?;
     let taken: &[usize] = if load.columns.is_empty() { &[] } else { &loads };
-    let deformations = of_axis(block, deformation, taken)?;
-    joined(block, deformations, loads)
+    let deformations = columns_of_axis(block, deformation, taken)?;
+    pair_columns(block, deformations, loads)
 }
 
-/// Joins the columns of both axes.
-fn joined(
+/// Pairs the columns of both axes. One column of an axis goes with every column of the other axis.
+fn pair_columns(
     block: &Block,
     deformations: Vec<usize>,
     loads: Vec<usize>,
 ) -> Result<Vec<Pair>, NoColumns> {
-    let label = |column: usize| label(block, column);
-    let pair = |deformation: usize, load: usize, label: String| Pair { deformation, load, label };
+    let mut pairs = Vec::new();
     match (deformations.len(), loads.len()) {
-        (1, 1) => Ok(vec![pair(deformations[0], loads[0], label(loads[0]))]),
-        (1, _) => Ok(loads.iter().map(|&load| pair(deformations[0], load, label(load))).collect()),
-        (all, many) if all == many => {
-            let both = deformations.into_iter().zip(loads);
-            Ok(both
-                .map(|(q, f)| {
-                    let of_load = label(f);
-                    pair(q, f, if of_load.is_empty() { label(q) } else { of_load })
-                })
-                .collect())
+        (1, _) => {
+            for load in loads {
+                let label = label(block, load);
+                pairs.push(Pair { deformation: deformations[0], load, label });
+            }
+        }
+        (count, load_count) if count == load_count => {
+            for (deformation, load) in deformations.into_iter().zip(loads) {
+                let load_label = label(block, load);
+                let label =
+                    if load_label.is_empty() { label(block, deformation) } else { load_label };
+                pairs.push(Pair { deformation, load, label });
+            }
         }
         (_, 1) => {
-            // The deformation of the same group, or the nearest to the left.
+            // The deformation of the load's group is taken, and the nearest to the left of several.
             let load = loads[0];
-            let group = |column: usize| block.groups.get(column).cloned().unwrap_or_default();
-            let same = deformations.iter().copied().filter(|&q| group(q) == group(load));
-            let nearest = same.min_by_key(|&q| (q > load, q.abs_diff(load)));
-            Ok(vec![pair(nearest.unwrap_or(deformations[0]), load, label(load))])
+            let nearest = deformations
+                .iter()
+                .copied()
+                .filter(|&column| group(block, column) == group(block, load))
+                .min_by_key(|&column| (column > load, column.abs_diff(load)));
+            let deformation = nearest.unwrap_or(deformations[0]);
+            pairs.push(Pair { deformation, load, label: label(block, load) });
         }
-        (all, many) => Err(NoColumns {
-            line: block.header_line,
-            message: format!("{all} columns of deformation stand beside {many} of load"),
-            help: "name the columns: deformation = { column = 1 }, load = { column = 2 }".into(),
-        }),
+        (count, load_count) => {
+            return Err(NoColumns {
+                line: block.header_line,
+                message: format!(
+                    "{count} columns of deformation stand beside {load_count} of load"
+                ),
+                help: "name the columns: deformation = { column = 1 }, load = { column = 2 }"
+                    .into(),
+            });
+        }
     }
+    Ok(pairs)
 }
 
-/// Returns the title over a column, or the number in its name.
+/// Returns the title of the group of `column`; empty without a group.
+fn group(block: &Block, column: usize) -> &str {
+    block.groups.get(column).map(String::as_str).unwrap_or_default()
+}
+
+/// Returns the title over `column`, or the direction and the number in its name.
 fn label(block: &Block, column: usize) -> String {
     if let Some(group) = block.groups.get(column).filter(|group| !group.is_empty()) {
         return group.clone();
     }
     let Some(heading) = block.headings.get(column) else { return String::new() };
-    let number = |word: &str| {
-        let digits = word.trim_start_matches(|letter: char| letter.is_alphabetic());
-        digits.parse::<u32>().ok().map(|number| number.to_string())
-    };
     let name = heading::normal(&heading.name);
     let direction = heading::directions(&name).first().map_or("", |direction| direction.name());
-    let number = name.split(' ').rev().find_map(number).unwrap_or_default();
-    [direction, number.as_str()].join(" ").trim().to_owned()
+    let number = name.split(' ').rev().find_map(|word| {
+        let digits = word.trim_start_matches(|letter: char| letter.is_alphabetic());
+        digits.parse::<u32>().ok().map(|number| number.to_string())
+    });
+    [direction, number.as_deref().unwrap_or_default()].join(" ").trim().to_owned()
 }
 
-/// Returns the name of a column without what tells repeats apart.
-fn base(block: &Block, column: usize) -> String {
+/// Returns the name of `column` without the words and numbers that tell repeats apart.
+fn name_of_repeats(block: &Block, column: usize) -> String {
     let Some(heading) = block.headings.get(column) else { return String::new() };
     let name = heading::normal(&heading.name);
     let words = name.split(' ').map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()));
@@ -133,15 +149,21 @@ fn base(block: &Block, column: usize) -> String {
     kept.collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the columns of one axis: several only where they are repeats of one name.
-fn of_axis(block: &Block, axis: &AxisQuery<'_>, taken: &[usize]) -> Result<Vec<usize>, NoColumns> {
+/// Returns the columns of `axis` that are not `taken`. Several columns are returned only if they
+/// are repeats under one name.
+fn columns_of_axis(
+    block: &Block,
+    axis: &AxisQuery<'_>,
+    taken: &[usize],
+) -> Result<Vec<usize>, NoColumns> {
     if !axis.columns.is_empty() {
         let mut columns = Vec::new();
         for column in axis.columns {
-            columns.extend(named(block, column)?);
+            columns.extend(find_named(block, column)?);
         }
         return Ok(columns);
     }
+
     let numbers = block.number_columns();
     let open = numbers.iter().copied().filter(|column| !taken.contains(column));
     let mut fitting: Vec<Candidate> = open
@@ -149,17 +171,19 @@ fn of_axis(block: &Block, axis: &AxisQuery<'_>, taken: &[usize]) -> Result<Vec<u
         .collect();
     fitting.sort_by_key(|candidate| (candidate.rank, candidate.column));
     let Some(best) = fitting.first().copied() else {
-        return Err(none_fits(block, axis));
+        return Err(no_column_fits(block, axis));
     };
+
     fitting.retain(|candidate| candidate.rank == best.rank);
-    let unit = |column: usize| block.headings.get(column).and_then(|heading| heading.unit.clone());
-    let alike = |candidate: &Candidate| {
-        base(block, candidate.column) == base(block, best.column)
+    let unit = |column: usize| block.headings.get(column).and_then(|heading| heading.unit.as_ref());
+    let are_repeats = fitting.iter().all(|candidate| {
+        name_of_repeats(block, candidate.column) == name_of_repeats(block, best.column)
             && unit(candidate.column) == unit(best.column)
-    };
-    if fitting.iter().all(alike) {
+    });
+    if are_repeats {
         return Ok(fitting.into_iter().map(|candidate| candidate.column).collect());
     }
+
     let names: Vec<String> =
         fitting.iter().map(|candidate| block.column_name(candidate.column)).collect();
     let alone = names.iter().filter(|name| **name == names[0]).count() == 1;
@@ -171,7 +195,8 @@ fn of_axis(block: &Block, axis: &AxisQuery<'_>, taken: &[usize]) -> Result<Vec<u
     })
 }
 
-fn none_fits(block: &Block, axis: &AxisQuery<'_>) -> NoColumns {
+/// Returns the reason that no column of `block` fits `axis`.
+fn no_column_fits(block: &Block, axis: &AxisQuery<'_>) -> NoColumns {
     let names: Vec<String> = (0..block.width())
         .map(|column| match block.headings.get(column) {
             Some(heading) => match &heading.unit {
@@ -181,14 +206,16 @@ fn none_fits(block: &Block, axis: &AxisQuery<'_>) -> NoColumns {
             None => (column + 1).to_string(),
         })
         .collect();
-    let what = axis.accepted.iter().map(|quantity| quantity.name()).collect::<Vec<_>>();
+    let quantities = axis.accepted.iter().map(|quantity| quantity.name()).collect::<Vec<_>>();
+
     let message = if block.headings.is_empty() {
         format!("no header says which of the {} columns is the {}", block.width(), axis.name)
     } else {
-        format!("no column is a {} by its heading: a {}", axis.name, what.join(" or a "))
+        format!("no column is a {} by its heading: a {}", axis.name, quantities.join(" or a "))
     };
+
     let unit = axis.accepted[0].laboratory().spelling;
-    // By number, the usual order; without a header both have to be named.
+    // The example has the usual order of columns. Without a header both columns have to be named.
     let number = if axis.name == "load" { 2 } else { 1 };
     let named = if block.headings.is_empty() {
         "deformation = { column = 1, unit = \"…\" } and load = { column = 2, unit = \"…\" }"
@@ -203,7 +230,8 @@ fn none_fits(block: &Block, axis: &AxisQuery<'_>) -> NoColumns {
     }
 }
 
-/// Returns how well a column fits an axis, lower being better; `None` where it does not.
+/// Returns the rank of `column` for `axis`, lower being better; `None` for a column that does not
+/// fit.
 fn rank(block: &Block, column: usize, axis: &AxisQuery<'_>) -> Option<usize> {
     let heading = block.headings.get(column)?;
     let kind = heading::kind(&heading.name);
@@ -212,9 +240,10 @@ fn rank(block: &Block, column: usize, axis: &AxisQuery<'_>) -> Option<usize> {
         Some(unit) => Some(parse_unit(unit, axis.accepted).ok()?),
         None => axis.unit,
     };
+
     let place = match (by_kind, unit) {
         (Some(Some(place)), _) => place,
-        // A known word for something else.
+        // The heading is a known word for something else.
         (Some(None), _) => return None,
         (None, Some(_)) if heading.unit.is_some() => axis.kinds.len(),
         (None, _) => return None,
@@ -225,8 +254,8 @@ fn rank(block: &Block, column: usize, axis: &AxisQuery<'_>) -> Option<usize> {
     Some(place + if behind { 100 } else { 0 })
 }
 
-/// Returns the columns that a name or a number means.
-pub(crate) fn named(block: &Block, column: &Column) -> Result<Vec<usize>, NoColumns> {
+/// Returns the columns of `block` that a name or a number stands for.
+pub(crate) fn find_named(block: &Block, column: &Column) -> Result<Vec<usize>, NoColumns> {
     match column {
         Column::Number(number) => {
             let width = block.width();

@@ -1,4 +1,4 @@
-//! Characters of a text file: its bytes made into text, by the encoding that they are in.
+//! Encoding of a text file: declared, or detected from its bytes.
 
 use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
 use encoding_rs::{
@@ -8,7 +8,8 @@ use encoding_rs::{
 
 use crate::tables::heading;
 
-/// Encodings of files that are not Unicode: those whose characters are letters of the words of tables are taken.
+/// Encodings that are not Unicode. The encoding is taken in which the text has most letters of
+/// known words.
 const CANDIDATES: [&Encoding; 10] = [
     WINDOWS_1252,
     SHIFT_JIS,
@@ -22,9 +23,9 @@ const CANDIDATES: [&Encoding; 10] = [
     WINDOWS_1253,
 ];
 
-/// Share of zero bytes at even or odd places from which on a text is UTF-16 without a mark.
+/// Share of zero bytes at even or odd places above which a text without a mark is UTF-16.
 ///
-/// Tables are mostly digits, whose high bytes are zero; in other encodings there is no zero byte.
+/// Tables are mostly digits, whose high bytes are zero. Other encodings have no zero byte.
 const ZEROS_OF_UTF_16: f64 = 0.3;
 
 /// Text of a file, with its encoding and the reason why it was taken.
@@ -37,7 +38,7 @@ pub(crate) struct Decoded {
     pub(crate) encoding: Option<&'static Encoding>,
 }
 
-/// Returns the encoding of a label, such as `Shift_JIS`.
+/// Returns the encoding with `label`, such as `Shift_JIS`.
 pub(crate) fn by_label(label: &str) -> Option<&'static Encoding> {
     let known = match label.trim().to_lowercase().as_str() {
         "cp932" | "windows-932" | "ms932" => "shift_jis",
@@ -51,13 +52,14 @@ pub(crate) fn by_label(label: &str) -> Option<&'static Encoding> {
     Encoding::for_label(known.as_bytes())
 }
 
-/// Decodes the bytes of a file; `Err` holds the place of the first byte that is not of the encoding.
+/// Decodes the `bytes` of a file. `Err` holds the place of the first byte that the `declared`
+/// encoding does not have.
 pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Result<Decoded, usize> {
     if let Some(encoding) = declared {
-        // A byte-order mark stands above a declaration only where both are of one family.
+        // A byte-order mark is removed only if it belongs to the declared encoding.
         let (marked, mark) = Encoding::for_bom(bytes).unwrap_or((encoding, 0));
         let rest = if marked == encoding { &bytes[mark..] } else { bytes };
-        return strict(encoding, rest)
+        return decode_strictly(encoding, rest)
             .map(|text| Decoded {
                 text,
                 reading: format!("{} as declared", encoding.name()),
@@ -65,47 +67,56 @@ pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Resul
             })
             .ok_or_else(|| first_error(encoding, rest));
     }
-    let taken = |encoding: &'static Encoding, bytes: &[u8], why: &str| {
-        let (text, _) = encoding.decode_without_bom_handling(bytes);
-        let is_plain = why.is_empty();
-        let why = if is_plain { String::new() } else { format!("{} ({why})", encoding.name()) };
-        let encoding = (!is_plain).then_some(encoding);
-        Ok(Decoded { text: text.into_owned(), reading: why, encoding })
-    };
     if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
-        return taken(encoding, &bytes[mark..], "by its byte-order mark");
+        return Ok(decode_as(encoding, &bytes[mark..], "by its byte-order mark"));
     }
     if let Some(encoding) = unmarked_utf_16(bytes) {
-        return taken(encoding, bytes, "every other byte is zero");
+        return Ok(decode_as(encoding, bytes, "every other byte is zero"));
     }
     if bytes.is_ascii() {
-        return taken(UTF_8, bytes, "");
+        return Ok(decode_as(UTF_8, bytes, ""));
     }
     if std::str::from_utf8(bytes).is_ok() {
-        return taken(UTF_8, bytes, "valid as such");
+        return Ok(decode_as(UTF_8, bytes, "valid as such"));
     }
+
+    // Other encodings are told by the words of tables, then by the letters of East Asia.
     let sample = lines_beyond_ascii(bytes);
-    if let Some(encoding) = by_words(&sample) {
-        return taken(encoding, bytes, "not UTF-8, and its characters are words of tables");
+    if let Some(encoding) = encoding_by_words(&sample) {
+        let why = "not UTF-8, and its characters are words of tables";
+        return Ok(decode_as(encoding, bytes, why));
     }
     if is_japanese(&sample) {
-        return taken(SHIFT_JIS, bytes, "not UTF-8, and its characters are Japanese words");
+        let why = "not UTF-8, and its characters are Japanese words";
+        return Ok(decode_as(SHIFT_JIS, bytes, why));
     }
     let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
     detector.feed(&sample, true);
     let guess = detector.guess(None, Utf8Detection::Deny);
     let is_wide = [GBK, GB18030, BIG5, EUC_JP, EUC_KR].contains(&guess);
-    if is_wide && strict(guess, &sample).is_some_and(|text| is_of_words(&text)) {
-        return taken(guess, bytes, "not UTF-8, and its characters are East Asian words");
+    if is_wide && decode_strictly(guess, &sample).is_some_and(|text| has_joined_letters(&text)) {
+        let why = "not UTF-8, and its characters are East Asian words";
+        return Ok(decode_as(guess, bytes, why));
     }
-    taken(WINDOWS_1252, bytes, "not UTF-8, no East Asian words")
+    Ok(decode_as(WINDOWS_1252, bytes, "not UTF-8, no East Asian words"))
 }
 
-/// Bytes by which an encoding is told, at most: the words of a table are few.
-const SAMPLE_MAX: usize = 1 << 16;
+/// Decodes `bytes` as `encoding`, for the reason `why`. The reason is empty for plain ASCII.
+fn decode_as(encoding: &'static Encoding, bytes: &[u8], why: &str) -> Decoded {
+    let (text, _) = encoding.decode_without_bom_handling(bytes);
+    if why.is_empty() {
+        return Decoded { text: text.into_owned(), reading: String::new(), encoding: None };
+    }
+    let reading = format!("{} ({why})", encoding.name());
+    Decoded { text: text.into_owned(), reading, encoding: Some(encoding) }
+}
 
-/// Returns the first lines that have characters beyond ASCII. No encoding has the end of a line within a character.
+/// Returns the first lines of `bytes` that have characters beyond ASCII. No encoding has the end of
+/// a line within a character.
 fn lines_beyond_ascii(bytes: &[u8]) -> Vec<u8> {
+    /// Largest number of bytes of the sample: few words of a table tell its encoding.
+    const SAMPLE_MAX: usize = 1 << 16;
+
     let lines = bytes.split_inclusive(|&byte| byte == b'\n').filter(|line| !line.is_ascii());
     let mut sample = Vec::new();
     for line in lines {
@@ -117,67 +128,75 @@ fn lines_beyond_ascii(bytes: &[u8]) -> Vec<u8> {
     sample
 }
 
-/// Returns the encoding in which a text has most letters of known words beyond ASCII; `None` where it has none in
-/// any.
-fn by_words(bytes: &[u8]) -> Option<&'static Encoding> {
-    let scores = CANDIDATES
-        .map(|encoding| strict(encoding, bytes).map_or(0, |text| heading::known_letters(&text)));
+/// Returns the encoding in which `bytes` have most letters beyond ASCII of known words; `None` if
+/// they have none in any encoding.
+fn encoding_by_words(bytes: &[u8]) -> Option<&'static Encoding> {
+    let scores = CANDIDATES.map(|encoding| {
+        decode_strictly(encoding, bytes).map_or(0, |text| heading::known_letters(&text))
+    });
     let most = *scores.iter().max()?;
     let first = scores.iter().position(|score| *score == most)?;
     (most > 0).then_some(CANDIDATES[first])
 }
 
-fn strict(encoding: &'static Encoding, bytes: &[u8]) -> Option<String> {
+/// Decodes `bytes` as `encoding`; `None` if a byte is not of the encoding.
+fn decode_strictly(encoding: &'static Encoding, bytes: &[u8]) -> Option<String> {
     encoding
         .decode_without_bom_handling_and_without_replacement(bytes)
         .map(|text| text.into_owned())
 }
 
-/// Returns the place of the first byte that an encoding does not have.
+/// Returns the place of the first byte that `encoding` does not have.
 fn first_error(encoding: &'static Encoding, bytes: &[u8]) -> usize {
-    // The longest good start, by halves: a start that ends within a character is bad by a few bytes
-    // only, which does not matter for a line number.
+    // The longest valid start is found by bisection. A start that ends within a character is wrong
+    // by a few bytes only, which does not matter for a line number.
     let (mut good, mut bad) = (0, bytes.len());
     while bad - good > 1 {
         let middle = good.midpoint(bad);
-        let whole = (0..4)
-            .any(|cut| middle >= cut + good && strict(encoding, &bytes[..middle - cut]).is_some());
+        let whole = (0..4).any(|cut| {
+            middle >= cut + good && decode_strictly(encoding, &bytes[..middle - cut]).is_some()
+        });
         if whole { good = middle } else { bad = middle }
     }
     good
 }
 
+/// Returns the UTF-16 encoding of `bytes` without a byte-order mark; `None` for another encoding.
 fn unmarked_utf_16(bytes: &[u8]) -> Option<&'static Encoding> {
-    let share = |odd: usize| {
-        let zeros = bytes.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
+    let [even, odd] = [0, 1].map(|first| {
+        let zeros = bytes.iter().skip(first).step_by(2).filter(|&&byte| byte == 0).count();
         zeros as f64 / (bytes.len() / 2).max(1) as f64
-    };
-    if share(1) > ZEROS_OF_UTF_16 && share(0) == 0.0 {
+    });
+    if odd > ZEROS_OF_UTF_16 && even == 0.0 {
         Some(UTF_16LE)
-    } else if share(0) > ZEROS_OF_UTF_16 && share(1) == 0.0 {
+    } else if even > ZEROS_OF_UTF_16 && odd == 0.0 {
         Some(UTF_16BE)
     } else {
         None
     }
 }
 
-/// Returns whether bytes are Shift_JIS: two-byte characters that stand side by side.
+/// Returns whether `bytes` are Shift_JIS: characters of two bytes that stand side by side.
 ///
-/// A Western letter followed by another is a valid two-byte character too, but it stands alone among
-/// the letters of its word.
+/// A Western letter with its successor is a valid character of two bytes too, but stands alone
+/// among the letters of its word.
 fn is_japanese(bytes: &[u8]) -> bool {
-    strict(SHIFT_JIS, bytes).is_some_and(|text| is_of_words(&text))
+    decode_strictly(SHIFT_JIS, bytes).is_some_and(|text| has_joined_letters(&text))
 }
 
-/// Returns whether most East Asian letters of a text stand side by side.
-fn is_of_words(text: &str) -> bool {
-    let wide = |letter: char| matches!(letter, '\u{3000}'..='\u{30ff}' | '\u{4e00}'..='\u{9fff}' | '\u{ff01}'..='\u{ff5e}');
+/// Returns whether most East Asian letters of `text` stand side by side.
+fn has_joined_letters(text: &str) -> bool {
     let letters: Vec<char> = text.chars().collect();
     let (mut together, mut alone) = (0, 0);
-    for run in letters.split(|&letter| !wide(letter)).filter(|run| !run.is_empty()) {
+    for run in letters.split(|&letter| !is_wide(letter)).filter(|run| !run.is_empty()) {
         if run.len() > 1 { together += run.len() } else { alone += 1 }
     }
     together > alone
+}
+
+/// Returns whether `letter` is an East Asian letter of full width.
+fn is_wide(letter: char) -> bool {
+    matches!(letter, '\u{3000}'..='\u{30ff}' | '\u{4e00}'..='\u{9fff}' | '\u{ff01}'..='\u{ff5e}')
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
-//! A file, or a member of an archive, made into grids: spreadsheet or text, its encoding and its separator.
+//! A file, or a member of an archive, read into grids: spreadsheet or text, with its encoding and
+//! separator.
 
 pub(crate) mod archive;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics, SizeLimit};
 use encoding_rs::Encoding;
@@ -13,10 +14,10 @@ use crate::tables::grid::{Grid, Separator, separator};
 use crate::tables::layout::Layout;
 use crate::tables::spreadsheet;
 
-/// Limit of tables: half a million points, where a curve has some hundred.
+/// Limit of the size of tables: half a million points, where a usual curve has some hundred.
 const LIMIT: SizeLimit = SizeLimit::new("tables", 32 << 20);
 
-/// Grids of a file, with what was found about its characters.
+/// Grids of a file, with the encoding and separator that were found.
 #[derive(Clone, Debug)]
 pub(crate) struct TableFile {
     pub(crate) grids: Vec<Grid>,
@@ -26,44 +27,48 @@ pub(crate) struct TableFile {
     pub(crate) encoding: Option<&'static Encoding>,
 }
 
-/// Returns whether there is a file at a path, or a member of an archive.
+/// Returns whether `path` is a file, or a member of an archive.
 pub(crate) fn is_there(path: &Path) -> bool {
-    let is_member = |(archive, name): (PathBuf, String)| {
-        archive::members(&archive).is_ok_and(|members| members.contains(&name))
-    };
-    path.is_file() || archive::split(path).is_some_and(is_member)
+    path.is_file()
+        || archive::split_member(path).is_some_and(|(archive, name)| {
+            archive::members(&archive).is_ok_and(|members| members.contains(&name))
+        })
 }
 
-/// Reads a file, or a member of an archive.
+/// Reads the file, or the member of an archive, at `path`.
 pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostics> {
-    if let Some((archive, name)) = archive::split(path) {
+    if let Some((archive, name)) = archive::split_member(path) {
         let bytes = archive::read(&archive, &name, LIMIT.bytes()).map_err(|reason| {
             Diagnostic::new(&archive, format!("the archive cannot be read: {reason}"))
                 .help("pack it again as .zip without a password, or name the folder of its files")
         })?;
         return parse(path, &bytes, layout);
     }
-    let unreadable = |error: std::io::Error| {
-        Diagnostic::new(path, format!("cannot read the file: {error}"))
-            .help("check the path and that the file can be read")
-    };
-    let found = std::fs::metadata(path).map_err(unreadable)?;
-    // Asked before it is opened: opening a pipe would wait for its writer.
-    if !found.is_file() {
+    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
+    // The kind is checked before the file is opened, because opening a pipe waits for its writer.
+    if !metadata.is_file() {
         return Err(Diagnostic::new(path, "this is not a file").help("name a table").into());
     }
-    if let Err(refused) = LIMIT.check(found.len()) {
+    if let Err(refused) = LIMIT.check(metadata.len()) {
         return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
     }
-    parse(path, &std::fs::read(path).map_err(unreadable)?, layout)
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+    parse(path, &bytes, layout)
 }
 
-/// Parses the bytes of a file; `path` is used in messages, and for the ending of its name.
+/// Returns the mistake of a file at `path` that cannot be read.
+fn unreadable(path: &Path, error: &std::io::Error) -> Diagnostic {
+    Diagnostic::new(path, format!("cannot read the file: {error}"))
+        .help("check the path and that the file can be read")
+}
+
+/// Parses the `bytes` of a file. The `path` is used in messages, and for the ending of its name.
 pub(crate) fn parse(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, Diagnostics> {
-    let mut file = as_written(path, bytes, layout)?;
-    // A declared header is a row of names.
+    let mut file = parse_rows(path, bytes, layout)?;
+    // A sheet that declares a header has names in a row.
     if layout.lines.header.is_none() {
-        let lines: Vec<usize> = file.grids.iter_mut().flat_map(channel_rows::turn).collect();
+        let lines: Vec<usize> =
+            file.grids.iter_mut().flat_map(channel_rows::turn_channels).collect();
         if let (Some(first), Some(last)) = (lines.first(), lines.last()) {
             file.reading.push(format!("channels as rows, on lines {first} to {last}"));
         }
@@ -71,8 +76,8 @@ pub(crate) fn parse(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableF
     Ok(file)
 }
 
-/// Parses the bytes of a file into its rows.
-fn as_written(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, Diagnostics> {
+/// Parses the `bytes` of a file into rows.
+fn parse_rows(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, Diagnostics> {
     if spreadsheet::is_spreadsheet(path, bytes) {
         let grids = spreadsheet::read(bytes).map_err(|reason| {
             Diagnostic::new(path, format!("not a spreadsheet that can be read: {reason}"))
@@ -80,6 +85,7 @@ fn as_written(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, D
         })?;
         return Ok(TableFile { grids, reading: Vec::new(), encoding: None });
     }
+
     let decoded = encoding::decode(bytes, layout.encoding).map_err(|place| {
         let line = bytes[..place].iter().filter(|&&byte| byte == b'\n').count() + 1;
         let name = layout.encoding.map_or("UTF-8", |encoding| encoding.name());
@@ -93,11 +99,13 @@ fn as_written(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, D
     if !decoded.reading.is_empty() {
         reading.push(decoded.reading);
     }
+
     let text = match declared_by_file(&text) {
-        // Excel's own first line, which names the separator.
+        // The first line that Excel writes names the separator, and is made a comment.
         Some(_) => text.replacen("sep=", "# sep=", 1),
         None => text,
     };
+
     let taken = layout.separator.unwrap_or_else(|| separator(&text));
     if layout.separator.is_none() && taken != Separator::Comma {
         let words = match taken {
@@ -108,6 +116,7 @@ fn as_written(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, D
         };
         reading.push(format!("{words} between the cells"));
     }
+
     let rows = taken.split(&text).map_err(|broken| {
         Diagnostic::new(path, format!("not a table: {}", broken.reason))
             .on_line(broken.line)
@@ -122,7 +131,7 @@ fn as_written(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, D
     Ok(TableFile { grids: vec![grid], reading, encoding: decoded.encoding })
 }
 
-/// Returns the separator that the first line declares, as Excel writes it: `sep=;`.
+/// Returns the separator that the first line of `text` declares in the form of Excel: `sep=;`.
 fn declared_by_file(text: &str) -> Option<&str> {
     text.strip_prefix("sep=")?.lines().next()
 }

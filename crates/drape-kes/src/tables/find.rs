@@ -1,44 +1,44 @@
-//! Search for the series of one test among the tables of its files; refused where several would do.
+//! Search for the series of one test among the tables of its files. An ambiguous file is refused.
 
 use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics};
 
-use crate::tables::block::{Block, blocks};
+use crate::tables::block::{Block, Blocks, blocks};
 use crate::tables::columns::{AxisQuery, NoColumns, Pair, pairs};
 use crate::tables::file::TableFile;
-use crate::tables::grid::{Cell, Row, Separator};
+use crate::tables::grid::{Cell, Grid, Row, Separator};
 use crate::tables::heading::{self, Kind};
 use crate::tables::layout::{Column, Layout, Take};
 use crate::tables::number::{Decimal, Evidence};
-use crate::tables::parts::parts;
+use crate::tables::parts::split_parts;
 use crate::tables::series::Series;
-use crate::tables::stated::{Around, has_sizes};
+use crate::tables::stated::{Surroundings, has_sizes};
 use crate::test::{Direction, Test};
 
-/// Share of the rows of the largest table below which a table is one of results, and no curve.
+/// Share of the rows of the largest table below which a table holds results, and no curve.
 const SMALL: f64 = 0.1;
-/// Rows that a table of results has at most.
+/// Largest number of rows of a table of results.
 const FEW_ROWS: usize = 12;
 
-/// Series of a test with what was found on the way.
+/// Series of a test, and remarks of the search.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct FoundSeries {
     pub(crate) series: Vec<Series>,
-    /// Reading, in words.
+    /// What the file was taken for, in words.
     pub(crate) reading: Vec<String>,
     /// Repairs and doubts.
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Repair or doubt, with what was done.
+/// Repair or doubt, with the consequence.
 #[derive(Clone, Debug)]
 pub(crate) struct Warning {
     pub(crate) message: String,
     pub(crate) help: &'static str,
 }
 
-/// Curve that is looked for.
+/// Curve that is searched.
 #[derive(Clone, Debug)]
 pub(crate) struct Request<'a> {
     pub(crate) test: Test,
@@ -47,41 +47,42 @@ pub(crate) struct Request<'a> {
     pub(crate) load: AxisQuery<'a>,
 }
 
-/// Finds the series of a test in one file.
+/// Finds the series that `request` describes in one `file`.
 pub(crate) fn find(
     path: &Path,
     file: &TableFile,
     layout: &Layout,
     request: &Request<'_>,
-) -> Result<Found, Diagnostics> {
-    let mut found = every(path, file, layout, request)?;
+) -> Result<FoundSeries, Diagnostics> {
+    let mut found = find_all(path, file, layout, request)?;
     choose(path, layout, request, &mut found)?;
     for series in &mut found.series {
-        series.decimal = decimal(series, layout)?;
+        series.decimal = decimal_sign(series, layout)?;
         take_cycles(series, layout)?;
     }
     describe(&mut found, layout);
     Ok(found)
 }
 
-/// Finds every series of a test in one file, whatever its direction, in the order that `table` counts.
-pub(crate) fn every(
+/// Finds every series of the test of `request` in one `file`, in any direction, in the order in
+/// which `table` counts.
+pub(crate) fn find_all(
     path: &Path,
     file: &TableFile,
     layout: &Layout,
     request: &Request<'_>,
-) -> Result<Found, Diagnostics> {
-    let mut found = Found { reading: file.reading.clone(), ..Found::default() };
+) -> Result<FoundSeries, Diagnostics> {
+    let mut found = FoundSeries { reading: file.reading.clone(), ..FoundSeries::default() };
     let tables = tables(path, file, layout, &mut found)?;
     let mut refused: Option<(usize, NoColumns)> = None;
     for Table { block, around } in tables {
-        refuse_comma_twice(path, file, &block)?;
+        refuse_ambiguous_comma(path, file, &block)?;
         match pairs(&block, &request.deformation, &request.load) {
             Ok(pairs) => {
-                let several = pairs.len() > 1;
-                let (block, pairs) = one_history(block, pairs, &mut found.reading);
+                let has_neighbours = pairs.len() > 1;
+                let (block, pairs) = join_history(block, pairs, &mut found.reading);
                 for pair in pairs {
-                    let label = title(&block, &pair);
+                    let label = label(&block, &pair);
                     let series = Series {
                         path: path.to_owned(),
                         block: block.clone(),
@@ -89,9 +90,9 @@ pub(crate) fn every(
                         decimal: Decimal::Point,
                         label,
                         around: around.clone(),
-                        several,
+                        has_neighbours,
                     };
-                    found.series.extend(parts(series, layout));
+                    found.series.extend(split_parts(series, layout));
                 }
             }
             Err(reason) => {
@@ -102,7 +103,9 @@ pub(crate) fn every(
             }
         }
     }
-    if let (true, Some((_, NoColumns { line, message, help }))) = (found.series.is_empty(), refused)
+
+    if found.series.is_empty()
+        && let Some((_, NoColumns { line, message, help })) = refused
     {
         let finding = Diagnostic::new(path, message).help(help);
         return Err(Diagnostic { line, ..finding }.into());
@@ -110,18 +113,21 @@ pub(crate) fn every(
     Ok(found)
 }
 
-/// Refuses a table whose comma parts the cells and the numbers: `0,5,1,25` below two names.
-fn refuse_comma_twice(path: &Path, file: &TableFile, block: &Block) -> Result<(), Diagnostics> {
+/// Refuses a table whose comma parts both the cells and the digits: `0,5,1,25` below two names.
+fn refuse_ambiguous_comma(path: &Path, file: &TableFile, block: &Block) -> Result<(), Diagnostics> {
     let names = block.headings.len();
     let by_comma = file.grids.iter().all(|grid| grid.separator == Some(Separator::Comma));
     let mut widths = block.rows.iter().map(|row| row.cells.len());
-    let whole = |cell: &Cell| matches!(cell.evidence(), Some(Evidence::Whole) | None);
-    let twice = by_comma
+    let is_ambiguous = by_comma
         && names >= 2
         && widths.clone().any(|width| width > names)
         && widths.all(|width| (names..=2 * names).contains(&width))
-        && block.rows.iter().all(|row| row.cells.iter().all(whole));
-    if !twice {
+        && block
+            .rows
+            .iter()
+            .flat_map(|row| &row.cells)
+            .all(|cell| matches!(cell.evidence(), Some(Evidence::Whole) | None));
+    if !is_ambiguous {
         return Ok(());
     }
     let message = format!(
@@ -132,50 +138,25 @@ fn refuse_comma_twice(path: &Path, file: &TableFile, block: &Block) -> Result<()
     Err(Diagnostic::new(path, message).on_line(block.first_line()).help(help).into())
 }
 
-/// Table with what its sheet holds around the curves.
+/// Table with the texts and small tables around the curves of its sheet.
 struct Table {
     block: Block,
-    around: Around,
+    around: Surroundings,
 }
 
-/// Returns the tables of a file that may be curves.
+/// Returns the tables of `file` that may be curves, and adds to the reading of `found` what was
+/// skipped.
 fn tables(
     path: &Path,
     file: &TableFile,
     layout: &Layout,
-    found: &mut Found,
+    found: &mut FoundSeries,
 ) -> Result<Vec<Table>, Diagnostics> {
-    let grids: Vec<_> = match &layout.sheet {
-        None => file.grids.iter().collect(),
-        Some(Column::Number(number)) => {
-            file.grids.iter().skip(number.saturating_sub(1)).take(1).collect()
-        }
-        Some(Column::Name(name)) => {
-            let same = |sheet: &str| heading::normal(sheet) == heading::normal(name);
-            file.grids.iter().filter(|grid| same(&grid.sheet)).collect()
-        }
-    };
-    if grids.is_empty() {
-        let names: Vec<String> =
-            file.grids.iter().map(|grid| format!("\"{}\"", grid.sheet)).collect();
-        let wanted = match &layout.sheet {
-            Some(Column::Name(name)) => format!("\"{name}\""),
-            Some(Column::Number(number)) => number.to_string(),
-            None => String::new(),
-        };
-        let help = match names.as_slice() {
-            [one] if one == "\"\"" => {
-                "this file is text, without sheets: remove `sheet`".to_owned()
-            }
-            _ => format!("sheets of the file: {}", names.join(", ")),
-        };
-        return Err(Diagnostic::new(path, format!("there is no sheet {wanted}")).help(help).into());
-    }
     let mut tables: Vec<Table> = Vec::new();
-    for grid in grids {
-        let of_grid = blocks(grid, layout.lines);
+    for grid in selected_grids(path, file, layout)? {
+        let Blocks { blocks, statistics } = blocks(grid, layout.lines);
         if let Some(line) = layout.lines.header.filter(|&line| line > 0)
-            && of_grid.blocks.iter().all(|block| block.header_line != Some(line))
+            && blocks.iter().all(|block| block.header_line != Some(line))
         {
             return Err(Diagnostic::new(
                 path,
@@ -185,26 +166,27 @@ fn tables(
             .help("write the line of the names of the columns, counted from 1")
             .into());
         }
-        if !of_grid.statistics.is_empty() {
-            let lines: Vec<String> = of_grid.statistics.iter().map(ToString::to_string).collect();
-            found
-                .reading
-                .push(format!("means and deviations on line {} left out", lines.join(", ")));
+        if !statistics.is_empty() {
+            let lines = join_numbers(&statistics);
+            found.reading.push(format!("means and deviations on line {lines} left out"));
         }
-        let around = Around {
-            rows: of_grid.blocks.iter().flat_map(|block| block.above.clone()).collect(),
-            tables: of_grid
-                .blocks
+
+        // Gauge and width may stand in the text above the blocks, or in small tables.
+        let around = Surroundings {
+            rows: blocks.iter().flat_map(|block| block.above.clone()).collect(),
+            tables: blocks
                 .iter()
                 .filter(|block| block.rows.len() <= FEW_ROWS && has_sizes(block))
                 .cloned()
                 .collect(),
         };
         let first = tables.len();
-        for block in of_grid.blocks {
-            let part = heading::is_part(&block.title()) && !heading::is_specimen(&block.title());
+        for block in blocks {
             match tables[first..].last_mut() {
-                Some(before) if part && before.block.headings == block.headings => {
+                Some(before)
+                    if is_part_of_history(&block.title())
+                        && before.block.headings == block.headings =>
+                {
                     before.block.rows.extend(block.rows);
                 }
                 _ => tables.push(Table { block, around: around.clone() }),
@@ -213,16 +195,11 @@ fn tables(
         if grid.breaks_off
             && let Some(table) = tables[first..].last_mut()
         {
-            drop_broken_end(&mut table.block, path, found);
+            drop_incomplete_row(&mut table.block, path, found);
         }
     }
-    let largest = tables.iter().map(|table| table.block.rows.len()).max().unwrap_or(0);
-    let small = |rows: usize| rows <= FEW_ROWS && (rows as f64) < SMALL * largest as f64;
-    for table in tables.iter().filter(|table| small(table.block.rows.len())) {
-        let (rows, line) = (table.block.rows.len(), table.block.first_line());
-        found.reading.push(format!("a table of {rows} rows on line {line} left out"));
-    }
-    tables.retain(|table| !small(table.block.rows.len()));
+
+    drop_results(&mut tables, &mut found.reading);
     if tables.is_empty() {
         let help = "a curve needs at least two points, one per line";
         return Err(Diagnostic::new(path, "the file has no rows of numbers").help(help).into());
@@ -230,8 +207,59 @@ fn tables(
     Ok(tables)
 }
 
-/// Leaves out a last row with fewer cells than the first, where the text ends within a line.
-fn drop_broken_end(block: &mut Block, path: &Path, found: &mut Found) {
+/// Returns the grids of `file` that `layout` selects.
+fn selected_grids<'f>(
+    path: &Path,
+    file: &'f TableFile,
+    layout: &Layout,
+) -> Result<Vec<&'f Grid>, Diagnostics> {
+    let grids: Vec<&Grid> = match &layout.sheet {
+        None => file.grids.iter().collect(),
+        Some(Column::Number(number)) => {
+            file.grids.iter().skip(number.saturating_sub(1)).take(1).collect()
+        }
+        Some(Column::Name(name)) => {
+            let name = heading::normal(name);
+            file.grids.iter().filter(|grid| heading::normal(&grid.sheet) == name).collect()
+        }
+    };
+    if !grids.is_empty() {
+        return Ok(grids);
+    }
+    let names: Vec<String> = file.grids.iter().map(|grid| format!("\"{}\"", grid.sheet)).collect();
+    let wanted = match &layout.sheet {
+        Some(Column::Name(name)) => format!("\"{name}\""),
+        Some(Column::Number(number)) => number.to_string(),
+        None => String::new(),
+    };
+    let help = match names.as_slice() {
+        [name] if name == "\"\"" => "this file is text, without sheets: remove `sheet`".to_owned(),
+        _ => format!("sheets of the file: {}", names.join(", ")),
+    };
+    Err(Diagnostic::new(path, format!("there is no sheet {wanted}")).help(help).into())
+}
+
+/// Removes tables of results: tables with few rows beside a table of many rows.
+fn drop_results(tables: &mut Vec<Table>, reading: &mut Vec<String>) {
+    let largest = tables.iter().map(|table| table.block.rows.len()).max().unwrap_or(0);
+    tables.retain(|table| {
+        let (rows, line) = (table.block.rows.len(), table.block.first_line());
+        let is_result = rows <= FEW_ROWS && (rows as f64) < SMALL * largest as f64;
+        if is_result {
+            reading.push(format!("a table of {rows} rows on line {line} left out"));
+        }
+        !is_result
+    });
+}
+
+/// Returns whether `label` names a part of one history, and no specimen.
+fn is_part_of_history(label: &str) -> bool {
+    heading::is_part(label) && !heading::is_specimen(label)
+}
+
+/// Removes a last row of `block` that has fewer cells than the first, in a text that ends within a
+/// line.
+fn drop_incomplete_row(block: &mut Block, path: &Path, found: &mut FoundSeries) {
     if let [first, .., last] = block.rows.as_slice()
         && last.cells.len() < first.cells.len()
     {
@@ -241,36 +269,31 @@ fn drop_broken_end(block: &mut Block, path: &Path, found: &mut Found) {
     }
 }
 
-/// Returns the title of a series: of its columns, its table, or its sheet.
-fn title(block: &Block, pair: &Pair) -> String {
+/// Returns the label of a series: sheet, title of the table and title of the columns.
+fn label(block: &Block, pair: &Pair) -> String {
     let parts = [block.sheet.clone(), block.title(), pair.label.clone()];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     parts.join(", ")
 }
 
-/// Joins loading and recovery that stand side by side into one history in the columns of the first.
+/// Joins loading and recovery in neighbouring `pairs` into one history in the columns of the first
+/// pair.
 ///
-/// A way back that is listed from zero up is turned around, so that it goes on where the way there
-/// ends; the reading says so.
-fn one_history(
+/// A recovery that is listed from zero upwards is reversed, so that it continues where the loading
+/// ends. The `reading` says so.
+fn join_history(
     mut block: Block,
     pairs: Vec<Pair>,
     reading: &mut Vec<String>,
 ) -> (Block, Vec<Pair>) {
-    let part = |pair: &Pair| heading::is_part(&pair.label) && !heading::is_specimen(&pair.label);
-    if pairs.len() < 2 || !pairs.iter().all(part) {
+    if pairs.len() < 2 || !pairs.iter().all(|pair| is_part_of_history(&pair.label)) {
         return (block, pairs);
     }
     let first = pairs[0].clone();
-    let value = |row: &Row, column: usize| {
-        row.cells
-            .get(column)
-            .and_then(|cell| cell.number(Decimal::Comma).or(cell.number(Decimal::Point)))
-    };
     let mut joined: Vec<Row> = Vec::new();
     for pair in &pairs {
-        let filled = |row: &&Row| row.cells.get(pair.load).is_some_and(|cell| !cell.is_empty());
-        let mut rows: Vec<Row> = block.rows.iter().filter(filled).cloned().collect();
+        let is_filled = |row: &&Row| row.cells.get(pair.load).is_some_and(|cell| !cell.is_empty());
+        let mut rows: Vec<Row> = block.rows.iter().filter(is_filled).cloned().collect();
         let ends = [rows.first(), rows.last()].map(|row| value(row?, pair.deformation));
         let before = joined.last().and_then(|row| value(row, first.deformation));
         if let (Some(end), [Some(from), Some(to)]) = (before, ends)
@@ -279,48 +302,55 @@ fn one_history(
             rows.reverse();
             reading.push(format!("\"{}\" turned around to go on from its neighbour", pair.label));
         }
-        joined.extend(rows.into_iter().map(|mut row| {
+
+        // The cells move to the columns of the first pair.
+        for mut row in rows {
             let width = row.cells.len().max(1 + first.deformation.max(first.load));
             row.cells.resize(width.max(1 + pair.deformation), Cell::Text(String::new()));
             let cells = [pair.deformation, pair.load].map(|column| row.cells[column].clone());
             for (column, cell) in [first.deformation, first.load].into_iter().zip(cells) {
                 row.cells[column] = cell;
             }
-            row
-        }));
+            joined.push(row);
+        }
     }
     reading.push(format!("{} parts of one history side by side", pairs.len()));
     block.rows = joined;
     (block, vec![Pair { label: String::new(), ..first }])
 }
 
-/// Keeps the series of the test and direction; refuses several that are no repeats.
+/// Returns the number in a `column` of `row`, with either decimal sign.
+fn value(row: &Row, column: usize) -> Option<f64> {
+    row.cells
+        .get(column)
+        .and_then(|cell| cell.number(Decimal::Comma).or(cell.number(Decimal::Point)))
+}
+
+/// Keeps the series of the test and direction of `request`. Several series that are no repeats are
+/// refused.
 fn choose(
     path: &Path,
     layout: &Layout,
     request: &Request<'_>,
-    found: &mut Found,
+    found: &mut FoundSeries,
 ) -> Result<(), Diagnostics> {
-    let all = found.series.len();
-    if let Take::These(numbers) = &layout.table {
-        if let Some(number) = numbers.iter().find(|&&number| number == 0 || number > all) {
-            let help = format!("the tables of this test in the file: {}", list(&found.series));
+    let count = found.series.len();
+    if let Take::Numbers(numbers) = &layout.table {
+        if let Some(number) = numbers.iter().find(|&&number| number == 0 || number > count) {
+            let help =
+                format!("the tables of this test in the file: {}", list_titles(&found.series));
             let finding = Diagnostic::new(path, format!("there is no table {number}"));
             return Err(finding.help(help).into());
         }
         found.series = numbers.iter().map(|number| found.series[number - 1].clone()).collect();
-        found.reading.push(format!("table {} of {all}", join(numbers)));
+        found.reading.push(format!("table {} of {count}", join_numbers(numbers)));
         return Ok(());
     }
+
+    // A single series is taken, even if its title contradicts the request.
     let Request { test, direction, .. } = request;
-    let other = |label: &str| {
-        let directions = heading::directions(label);
-        let tests = heading::tests(label);
-        let of_test = tests.is_empty() || tests.contains(test) || *test == Test::LoopBending;
-        !of_test || !(directions.is_empty() || directions.contains(direction))
-    };
-    if all == 1 {
-        if let Some(series) = found.series.iter().find(|series| other(&series.label)) {
+    if let [series] = found.series.as_slice() {
+        if contradicts(&series.label, request) {
             let (test, direction) = (test.name(), direction.name());
             let message = format!(
                 "its title is \"{}\", and it is given as {test}, {direction}",
@@ -330,153 +360,185 @@ fn choose(
         }
         return Ok(());
     }
-    let mine: Vec<Series> =
-        found.series.iter().filter(|series| !other(&series.label)).cloned().collect();
-    if mine.is_empty() {
+
+    let fitting: Vec<Series> = found
+        .series
+        .iter()
+        .filter(|series| !contradicts(&series.label, request))
+        .cloned()
+        .collect();
+    if fitting.is_empty() {
         let message = format!("no table is {} along the {}", test.name(), direction.name());
-        let help = format!("name it: table = 1, of {}", list(&found.series));
+        let help = format!("name it: table = 1, of {}", list_titles(&found.series));
         return Err(Diagnostic::new(path, message).help(help).into());
     }
-    if mine.len() < all {
+    if fitting.len() < count {
         found.reading.push(format!(
-            "of {all} tables the {} of {}, {}",
-            mine.len(),
+            "of {count} tables the {} of {}, {}",
+            fitting.len(),
             test.name(),
             direction.name()
         ));
     }
-    let repeats = is_repeat(&mine.iter().map(|series| series.label.as_str()).collect::<Vec<_>>());
-    if mine.len() > 1 && !repeats && layout.table == Take::Undeclared {
-        let message = format!("{} tables could be the curve: {}", mine.len(), list(&found.series));
-        let help = if mine.iter().any(|series| !series.block.sheet.is_empty()) {
+
+    let labels: Vec<&str> = fitting.iter().map(|series| series.label.as_str()).collect();
+    if fitting.len() > 1 && !is_repeat(&labels) && layout.table == Take::Undeclared {
+        let message =
+            format!("{} tables could be the curve: {}", fitting.len(), list_titles(&found.series));
+        let help = if fitting.iter().any(|series| !series.block.sheet.is_empty()) {
             "name the one to take: sheet = \"…\" or table = 1; repeats of one test: table = \"all\""
         } else {
             "name the one to take: table = 1; repeats of one test: table = \"all\""
         };
         let finding = Diagnostic::new(path, message).help(help);
-        return Err(Diagnostic { line: Some(mine[0].block.first_line()), ..finding }.into());
+        return Err(Diagnostic { line: Some(fitting[0].block.first_line()), ..finding }.into());
     }
-    found.series = mine;
+    found.series = fitting;
     Ok(())
 }
 
-/// Returns whether labels are those of repeats: what they do not share are numbers of specimens, or says
-/// nothing but test and direction.
+/// Returns whether `label` names another test or another direction than `request`.
+fn contradicts(label: &str, request: &Request<'_>) -> bool {
+    let Request { test, direction, .. } = request;
+    let directions = heading::directions(label);
+    let tests = heading::tests(label);
+    let fits_test = tests.is_empty() || tests.contains(test) || *test == Test::LoopBending;
+    !fits_test || !(directions.is_empty() || directions.contains(direction))
+}
+
+/// Returns whether `labels` are labels of repeats. Their different parts are numbers of specimens,
+/// or name only test and direction.
 pub(crate) fn is_repeat(labels: &[&str]) -> bool {
-    let parts: Vec<Vec<&str>> = labels.iter().map(|label| label.split(", ").collect()).collect();
-    let shared = |part: &&str| parts.iter().all(|other| other.contains(part));
-    parts.iter().all(|parts| {
-        let mut numbered = false;
-        let own: Vec<&&str> = parts.iter().filter(|part| !shared(part)).collect();
-        let own = if own.is_empty() { parts.iter().collect() } else { own };
-        let plain = own.into_iter().fold(true, |plain, part| {
-            let specimen = heading::is_specimen(part);
-            numbered |= specimen;
-            let named = !heading::directions(part).is_empty() || !heading::tests(part).is_empty();
-            plain && (specimen || named)
-        });
-        plain && numbered
+    let labels: Vec<Vec<&str>> = labels.iter().map(|label| label.split(", ").collect()).collect();
+    labels.iter().all(|parts| {
+        let is_shared = |part: &&str| labels.iter().all(|parts| parts.contains(part));
+        let mut different: Vec<&str> =
+            parts.iter().copied().filter(|part| !is_shared(part)).collect();
+        if different.is_empty() {
+            different.clone_from(parts);
+        }
+        different.iter().any(|part| heading::is_specimen(part))
+            && different.iter().all(|part| {
+                heading::is_specimen(part)
+                    || !heading::directions(part).is_empty()
+                    || !heading::tests(part).is_empty()
+            })
     })
 }
 
-fn list(series: &[Series]) -> String {
-    let one = |(index, series): (usize, &Series)| {
+/// Returns the numbers and labels of `series` as one text.
+fn list_titles(series: &[Series]) -> String {
+    let mut titles = Vec::with_capacity(series.len());
+    for (index, series) in series.iter().enumerate() {
         let title = if series.label.is_empty() {
             format!("line {}", series.block.first_line())
         } else {
             format!("\"{}\"", series.label)
         };
-        format!("{} {title}", index + 1)
-    };
-    series.iter().enumerate().map(one).collect::<Vec<_>>().join(", ")
+        titles.push(format!("{} {title}", index + 1));
+    }
+    titles.join(", ")
 }
 
-fn join(numbers: &[usize]) -> String {
+/// Returns `numbers` as one text.
+fn join_numbers(numbers: &[usize]) -> String {
     numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the decimal sign of the numbers of a series; refuses them where it cannot be told.
-pub(crate) fn decimal(series: &Series, layout: &Layout) -> Result<Decimal, Diagnostics> {
+/// Returns the decimal sign of the numbers of `series`: the declared or the detected one. Ambiguous
+/// numbers are refused.
+pub(crate) fn decimal_sign(series: &Series, layout: &Layout) -> Result<Decimal, Diagnostics> {
     if let Some(declared) = layout.decimal {
         return Ok(declared);
     }
-    let mut seen: [Option<(usize, String)>; 2] = [None, None];
-    let mut either = None;
+
+    // The first cells are noted that have a sign for certain, or that may be read either way.
+    let (mut with_point, mut with_comma, mut unclear) = (None, None, None);
     let columns = series.block.number_columns();
     for row in &series.block.rows {
         for &column in &columns {
             let Some(cell) = row.cells.get(column) else { continue };
-            let here = || (row.line, cell.text());
             match cell.evidence() {
-                Some(Evidence::Of(Decimal::Point)) => _ = seen[0].get_or_insert_with(here),
-                Some(Evidence::Of(Decimal::Comma)) => _ = seen[1].get_or_insert_with(here),
+                Some(Evidence::Only(Decimal::Point)) => {
+                    _ = with_point.get_or_insert((row.line, cell))
+                }
+                Some(Evidence::Only(Decimal::Comma)) => {
+                    _ = with_comma.get_or_insert((row.line, cell))
+                }
                 Some(Evidence::Either) if cell.text().contains(',') => {
-                    _ = either.get_or_insert_with(here);
+                    _ = unclear.get_or_insert((row.line, cell));
                 }
                 _ => {}
             }
         }
     }
-    let refuse = |line: usize, message: String| {
-        let help = "say which it is: decimal = \",\" or decimal = \".\"";
-        Err(Diagnostic::new(&series.path, message).on_line(line).help(help).into())
-    };
-    match (seen, either) {
-        ([Some((line, point)), Some((other, comma))], _) => refuse(
-            line.max(other),
-            format!(
-                "\"{point}\" on line {line} has a decimal point, \"{comma}\" on line {other} a comma"
-            ),
-        ),
-        ([None, Some(_)], _) => Ok(Decimal::Comma),
-        ([None, None], Some((line, text))) => {
+
+    let (line, message) = match (with_point, with_comma, unclear) {
+        (Some((point_line, point)), Some((comma_line, comma)), _) => {
+            let (point, comma) = (point.text(), comma.text());
+            let message = format!(
+                "\"{point}\" on line {point_line} has a decimal point, \"{comma}\" on line {comma_line} a comma"
+            );
+            (point_line.max(comma_line), message)
+        }
+        (None, None, Some((line, cell))) => {
+            let text = cell.text();
             let thousands = text.replace(',', "");
             let fraction = text.replace(',', ".");
-            refuse(
-                line,
-                format!("\"{text}\" may be {fraction} or {thousands}, and no other number tells"),
-            )
+            let message =
+                format!("\"{text}\" may be {fraction} or {thousands}, and no other number tells");
+            (line, message)
         }
-        _ => Ok(Decimal::Point),
-    }
+        (None, Some(_), _) => return Ok(Decimal::Comma),
+        _ => return Ok(Decimal::Point),
+    };
+    let help = "say which it is: decimal = \",\" or decimal = \".\"";
+    Err(Diagnostic::new(&series.path, message).on_line(line).help(help).into())
 }
 
-/// Keeps the rows of the declared cycles, by the column of cycles, or by the reversals.
+/// Keeps the rows of the declared cycles of `series`, numbered by the column of cycles, or by the
+/// reversals.
 fn take_cycles(series: &mut Series, layout: &Layout) -> Result<(), Diagnostics> {
-    let Take::These(wanted) = &layout.cycle else { return Ok(()) };
+    let Take::Numbers(wanted) = &layout.cycle else { return Ok(()) };
     let numbers = cycle_of_each_row(series)?;
     if let Some(missing) = wanted.iter().find(|number| !numbers.contains(&Some(**number))) {
         let mut known: Vec<usize> = numbers.iter().flatten().copied().collect();
         known.dedup();
         let finding = Diagnostic::new(&series.path, format!("there is no cycle {missing}"));
-        return Err(finding.help(format!("cycles of the file: {}", join(&known))).into());
+        return Err(finding.help(format!("cycles of the file: {}", join_numbers(&known))).into());
     }
-    let mut number = numbers.iter();
-    series.block.rows.retain(|_| {
-        number.next().is_some_and(|number| number.is_some_and(|n| wanted.contains(&n)))
-    });
+    let mut numbers = numbers.into_iter();
+    series
+        .block
+        .rows
+        .retain(|_| numbers.next().flatten().is_some_and(|number| wanted.contains(&number)));
     Ok(())
 }
 
+/// Returns the number of the cycle of each row of `series`, from 1.
 fn cycle_of_each_row(series: &Series) -> Result<Vec<Option<usize>>, Diagnostics> {
     let Series { block, pair, decimal, .. } = series;
-    let is_cycle = |column: &usize| {
+    let cycle_column = (0..block.width()).find(|column| {
         let heading = block.headings.get(*column);
         heading.and_then(|heading| heading::kind(&heading.name)) == Some(Kind::Cycle)
-    };
-    if let Some(column) = (0..block.width()).find(is_cycle) {
-        let number =
-            |row: &Row| row.cells.get(column)?.number(*decimal).map(|number| number as usize);
-        return Ok(block.rows.iter().map(number).collect());
+    });
+    if let Some(column) = cycle_column {
+        let cells = block.rows.iter().map(|row| row.cells.get(column));
+        return Ok(cells
+            .map(|cell| cell?.number(*decimal).map(|number| number as usize))
+            .collect());
     }
+
+    // A cycle is a branch and the branch back.
     let deformation = series.numbers(pair.deformation)?;
     let ends = crate::curves::branch::reversals(&deformation);
-    let branch = |row: usize| ends.partition_point(|&end| end < row).max(1) - 1;
-    Ok((0..block.rows.len()).map(|row| Some(branch(row) / 2 + 1)).collect())
+    let branches =
+        (0..block.rows.len()).map(|row| ends.partition_point(|&end| end < row).max(1) - 1);
+    Ok(branches.map(|branch| Some(branch / 2 + 1)).collect())
 }
 
-/// Adds what was found about header, decimal sign and repeats.
-fn describe(found: &mut Found, layout: &Layout) {
+/// Adds header, decimal sign and repeats to the reading of `found`.
+fn describe(found: &mut FoundSeries, layout: &Layout) {
     let Some(first) = found.series.first() else { return };
     let mut reading = Vec::new();
     let block = &first.block;
@@ -486,6 +548,7 @@ fn describe(found: &mut Found, layout: &Layout) {
     if first.decimal == Decimal::Comma && layout.decimal.is_none() {
         reading.push("decimal comma".to_owned());
     }
+
     match (block.header_line, block.units_line) {
         (Some(header), Some(units)) => {
             reading.push(format!("header on line {header}, units on line {units}"))

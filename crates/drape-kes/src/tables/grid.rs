@@ -7,21 +7,21 @@ use drape_input::is_unit;
 /// Cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cell {
-    /// Text as written, without blanks around; empty where there is none.
+    /// Text as written, without blanks around it; empty for an empty cell.
     Text(String),
-    /// Number of a spreadsheet.
+    /// Number in a spreadsheet.
     Number(f64),
-    /// Number of a spreadsheet that is shown in percent, in percent.
+    /// Number in a spreadsheet that is displayed in percent, in percent.
     Percent(f64),
 }
 
 impl Cell {
-    /// Returns whether nothing is written.
+    /// Returns whether the cell is empty.
     pub(crate) fn is_empty(&self) -> bool {
         matches!(self, Self::Text(text) if text.is_empty())
     }
 
-    /// Returns the cell as text, for names and messages.
+    /// Returns the cell as a text, for names and messages.
     pub(crate) fn text(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -30,70 +30,80 @@ impl Cell {
         }
     }
 
-    /// Returns whether the cell is a number, whatever its decimal sign, with a unit or without.
+    /// Returns whether the cell is a number, with either decimal sign, with or without a unit.
     pub(crate) fn is_number(&self) -> bool {
         match self {
-            Self::Text(text) => number::evidence(parted(text).0).is_some(),
+            Self::Text(text) => number::evidence(split_unit(text).0).is_some(),
             Self::Number(_) | Self::Percent(_) => true,
         }
     }
 
     /// Returns whether the cell is a number, alone or with its scatter: `0.085 ± 0.004`.
     pub(crate) fn is_value(&self) -> bool {
-        let is_scattered = |text: &str| {
-            let behind_sign = text.strip_prefix('±').map(str::trim);
-            scattered(text).is_some() || behind_sign.and_then(number::evidence).is_some()
-        };
-        self.is_number() || matches!(self, Self::Text(text) if is_scattered(text))
+        if self.is_number() {
+            return true;
+        }
+        let Self::Text(text) = self else { return false };
+        let behind_sign = text.strip_prefix('±').map(str::trim);
+        scattered(text).is_some() || behind_sign.and_then(number::evidence).is_some()
     }
 
-    /// Returns the number of the cell, without its unit.
+    /// Returns the number of the cell with the sign `decimal`, without its unit.
     pub(crate) fn number(&self, decimal: Decimal) -> Option<f64> {
         match self {
-            Self::Text(text) => number::parse(parted(text).0, decimal),
+            Self::Text(text) => number::parse(split_unit(text).0, decimal),
             Self::Number(number) | Self::Percent(number) => Some(*number),
         }
     }
 
-    /// Returns the unit behind the number of the cell; empty where there is none.
+    /// Returns the unit behind the number of the cell; empty without a unit.
     pub(crate) fn unit(&self) -> &str {
         match self {
-            Self::Text(text) => parted(text).1,
+            Self::Text(text) => split_unit(text).1,
             Self::Number(_) => "",
             Self::Percent(_) => "%",
         }
     }
 
-    /// Returns the decimal sign that the cell speaks for.
+    /// Returns the evidence of the cell for a decimal sign; `None` for a cell without a written
+    /// number.
     pub(crate) fn evidence(&self) -> Option<Evidence> {
         match self {
-            Self::Text(text) => number::evidence(parted(text).0),
+            Self::Text(text) => number::evidence(split_unit(text).0),
             Self::Number(_) | Self::Percent(_) => None,
         }
     }
 }
 
-/// Parts a cell into its number and the unit behind it: `0.5 mm`, `12 %`. A text that is anything else
-/// stays whole, with an empty unit.
-fn parted(text: &str) -> (&str, &str) {
-    let is_figure = |letter: char| letter.is_numeric() && !"²³¹".contains(letter);
-    let starts =
+/// Splits the `text` of a cell into its number and the unit behind it: `0.5 mm`, `12 %`. Every
+/// other text is returned whole, with an empty unit.
+fn split_unit(text: &str) -> (&str, &str) {
+    let begins_as_number =
         text.trim_start().starts_with(|letter| is_figure(letter) || "+-−.,".contains(letter));
-    // Most cells are bare numbers: without a sign or a letter of a unit there is nothing to part.
-    let of_unit = |letter: char| {
+    // Most cells are numbers alone: without a sign or a letter of a unit there is no unit.
+    let has_unit_letter = text.contains(|letter: char| {
         (letter.is_alphabetic() && !matches!(letter, 'e' | 'E')) || "%％°".contains(letter)
-    };
-    if !starts || !text.contains(of_unit) || number::evidence(text).is_some() {
+    });
+    if !begins_as_number || !has_unit_letter || number::evidence(text).is_some() {
         return (text, "");
     }
-    // Units have digits too, and an exponent has a letter: the shortest unit behind a number is taken.
-    let ends = text.char_indices().filter(|&(_, letter)| is_figure(letter) || letter == '.');
-    let split = |(place, letter): (usize, char)| {
+
+    // Units have digits too, and an exponent has a letter: the longest unit behind a number wins.
+    for (place, letter) in text.char_indices() {
+        if !(is_figure(letter) || letter == '.') {
+            continue;
+        }
         let (number, unit) = text.split_at(place + letter.len_utf8());
-        let unit = unit.trim();
-        (number::evidence(number).is_some() && is_unit(unit)).then_some((number, unit))
-    };
-    ends.filter_map(split).next().unwrap_or((text, ""))
+        if number::evidence(number).is_some() && is_unit(unit.trim()) {
+            return (number, unit.trim());
+        }
+    }
+    (text, "")
+}
+
+/// Returns whether `letter` is a digit, and no exponent of a unit.
+fn is_figure(letter: char) -> bool {
+    letter.is_numeric() && !"²³¹".contains(letter)
 }
 
 /// Row with its line in the file, or its row in the spreadsheet, from 1.
@@ -104,13 +114,13 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// Returns the cells that hold something.
+    /// Returns the cells that are not empty, with their columns.
     pub(crate) fn filled(&self) -> impl Iterator<Item = (usize, &Cell)> {
         self.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty())
     }
 
-    /// Returns the number of cells that hold numbers. A number with a unit counts where the row holds
-    /// numbers only; elsewhere it is a setting, such as `Gauge length; 50 mm`.
+    /// Returns the number of cells that hold numbers. In a row with other cells a number with a
+    /// unit is not counted, because it is a setting, such as `Gauge length; 50 mm`.
     pub(crate) fn numbers(&self) -> usize {
         let filled = self.filled().count();
         let numbers: Vec<&Cell> =
@@ -146,11 +156,11 @@ pub(crate) enum Separator {
 }
 
 impl Separator {
-    /// Separators, in the order in which equals are preferred.
+    /// Separators. The first of equally good separators is preferred.
     pub(crate) const ALL: [Self; 5] =
         [Self::Tab, Self::Semicolon, Self::Comma, Self::Bar, Self::Space];
 
-    /// Returns the name used in sheets and messages.
+    /// Returns the name in sheets and messages, such as `"tab"`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Tab => "tab",
@@ -161,14 +171,15 @@ impl Separator {
         }
     }
 
-    /// Splits a text into rows, without empty lines and comments.
+    /// Splits `text` into rows, without empty lines and comments. `Err` holds the line that cannot
+    /// be split.
     pub(crate) fn split(self, text: &str) -> Result<Vec<Row>, BrokenRow> {
         match self {
-            Self::Tab => delimited(text, b'\t'),
-            Self::Semicolon => delimited(text, b';'),
-            Self::Comma => delimited(text, b','),
-            Self::Bar => delimited(text, b'|'),
-            Self::Space => Ok(text.lines().enumerate().filter_map(blank_separated).collect()),
+            Self::Tab => split_delimited(text, b'\t'),
+            Self::Semicolon => split_delimited(text, b';'),
+            Self::Comma => split_delimited(text, b','),
+            Self::Bar => split_delimited(text, b'|'),
+            Self::Space => Ok(text.lines().enumerate().filter_map(split_at_blanks).collect()),
         }
     }
 }
@@ -180,8 +191,8 @@ pub(crate) struct BrokenRow {
     pub(crate) reason: String,
 }
 
-/// Splits a text at one character, with cells in quotes.
-fn delimited(text: &str, delimiter: u8) -> Result<Vec<Row>, BrokenRow> {
+/// Splits `text` at the character `delimiter`. Cells may stand in quotes.
+fn split_delimited(text: &str, delimiter: u8) -> Result<Vec<Row>, BrokenRow> {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)
         .comment(Some(b'#'))
@@ -189,6 +200,7 @@ fn delimited(text: &str, delimiter: u8) -> Result<Vec<Row>, BrokenRow> {
         .flexible(true)
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
+
     let mut rows = Vec::new();
     let (mut counted, mut lines) = (0, 0);
     for record in reader.records() {
@@ -196,12 +208,12 @@ fn delimited(text: &str, delimiter: u8) -> Result<Vec<Row>, BrokenRow> {
             line: error.position().map_or(1, |position| position.line() as usize),
             reason: error.to_string(),
         })?;
-        // The parser reports its start before the empty lines and comments that it skipped.
+        // The parser reports the start of a record before the empty lines and comments above it.
         let start = record.position().map_or(0, |position| position.byte() as usize);
         lines += text[counted..start].matches('\n').count();
         counted = start;
         let skipped = text[start..].lines().take_while(|line| is_skipped(line)).count();
-        let cells: Vec<Cell> = record.iter().map(|cell| Cell::Text(tidy(cell))).collect();
+        let cells: Vec<Cell> = record.iter().map(|cell| Cell::Text(on_one_line(cell))).collect();
         if cells.iter().any(|cell| !cell.is_empty()) {
             rows.push(Row { line: lines + skipped + 1, cells });
         }
@@ -209,12 +221,13 @@ fn delimited(text: &str, delimiter: u8) -> Result<Vec<Row>, BrokenRow> {
     Ok(rows)
 }
 
+/// Returns whether `line` is empty or a comment.
 fn is_skipped(line: &str) -> bool {
     line.trim().is_empty() || line.starts_with('#')
 }
 
-/// Returns a cell on one line, without a blank more than needed.
-fn tidy(cell: &str) -> String {
+/// Returns the text of a cell on one line, with single blanks.
+fn on_one_line(cell: &str) -> String {
     if cell.contains(['\n', '\r', '\u{3000}']) || cell.contains("  ") {
         cell.split_whitespace().collect::<Vec<_>>().join(" ")
     } else {
@@ -222,16 +235,16 @@ fn tidy(cell: &str) -> String {
     }
 }
 
-/// Splits a line at its blanks: at every one where all of its words are numbers, else at those of
-/// two or more, which leave `Extension (mm)` whole.
-fn blank_separated((index, line): (usize, &str)) -> Option<Row> {
+/// Splits a line at its blanks. A line of numbers is split at every blank. Another line is split at
+/// two or more blanks, which keep `Extension (mm)` whole.
+fn split_at_blanks((index, line): (usize, &str)) -> Option<Row> {
     if is_skipped(line) {
         return None;
     }
-    let unquoted = |word: &str| word.trim_matches('"').to_owned();
-    let words: Vec<String> = line.split_whitespace().map(unquoted).collect();
-    let is_number = |word: &String| number::evidence(parted(word).0).is_some();
-    let numbers = words.iter().filter(|word| is_number(word)).count();
+    let words: Vec<String> =
+        line.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
+    let numbers =
+        words.iter().filter(|word| number::evidence(split_unit(word).0).is_some()).count();
     let cells = if numbers >= 2 || 2 * numbers > words.len() {
         words
     } else {
@@ -240,19 +253,19 @@ fn blank_separated((index, line): (usize, &str)) -> Option<Row> {
             .flat_map(|part| part.split("  "))
             .map(str::trim)
             .filter(|part| !part.is_empty())
-            .map(unquoted)
+            .map(|part| part.trim_matches('"').to_owned())
             .collect();
-        if wide.len() > 1 { wide } else { with_their_units(words) }
+        if wide.len() > 1 { wide } else { join_units(words) }
     };
     Some(Row { line: index + 1, cells: cells.into_iter().map(Cell::Text).collect() })
 }
 
-/// Joins words in brackets with the word before: `Extension` and `(mm)`.
-fn with_their_units(words: Vec<String>) -> Vec<String> {
+/// Joins `words` in brackets with the word before: `Extension` and `(mm)`.
+fn join_units(words: Vec<String>) -> Vec<String> {
     let mut cells: Vec<String> = Vec::new();
     for word in words {
         match cells.last_mut() {
-            Some(last) if word.starts_with(['(', '[', '<', '（']) || open(last) => {
+            Some(last) if word.starts_with(['(', '[', '<', '（']) || is_open(last) => {
                 last.push(' ');
                 last.push_str(&word);
             }
@@ -262,75 +275,83 @@ fn with_their_units(words: Vec<String>) -> Vec<String> {
     cells
 }
 
-/// Returns whether a bracket is not closed.
-fn open(text: &str) -> bool {
-    let count = |brackets: [char; 3]| text.matches(brackets).count();
-    count(['(', '[', '（']) > count([')', ']', '）'])
+/// Returns whether `text` has a bracket that is not closed.
+fn is_open(text: &str) -> bool {
+    text.matches(['(', '[', '（']).count() > text.matches([')', ']', '）']).count()
 }
 
-/// Returns whether most lines have a sign between cells that stands nowhere else.
-fn is_parted(text: &str) -> bool {
+/// Returns whether most lines of `text` have a tab, a semicolon or a bar.
+fn has_separator(text: &str) -> bool {
     let lines: Vec<&str> = text.lines().filter(|line| !is_skipped(line)).collect();
-    let parted = |sign: char| lines.iter().filter(|line| line.trim().contains(sign)).count();
-    ['\t', ';', '|'].iter().any(|sign| 2 * parted(*sign) > lines.len())
+    ['\t', ';', '|'].iter().any(|sign| {
+        2 * lines.iter().filter(|line| line.trim().contains(*sign)).count() > lines.len()
+    })
 }
 
-/// Returns whether most lines are a key with its value: `W: 12.4 mg/cm2`.
-fn are_keys(text: &str) -> bool {
-    let is_key = |line: &&str| {
-        let Some((key, value)) = line.split_once([':', '=']) else { return false };
-        let is_name = key.trim_start().starts_with(char::is_alphanumeric);
-        let starts = value.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '-');
-        is_name && number::evidence(key).is_none() && starts && !line.contains([';', '\t', '|'])
-    };
+/// Returns whether most lines of `text` are a key with its value: `W: 12.4 mg/cm2`.
+fn has_keys(text: &str) -> bool {
     let lines: Vec<&str> = text.lines().filter(|line| !is_skipped(line)).collect();
-    2 * lines.iter().filter(|line| is_key(line)).count() > lines.len()
+    2 * lines.iter().filter(|line| is_key_with_value(line)).count() > lines.len()
 }
 
-/// Lines that the separator is looked for in: more would only cost time.
-const LINES_LOOKED_AT: usize = 2000;
+/// Returns whether `line` is a key with its value.
+fn is_key_with_value(line: &str) -> bool {
+    let Some((key, value)) = line.split_once([':', '=']) else { return false };
+    let is_name = key.trim_start().starts_with(char::is_alphanumeric);
+    let is_number = value.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '-');
+    is_name && number::evidence(key).is_none() && is_number && !line.contains([';', '\t', '|'])
+}
 
-/// Returns the separator that splits most lines into numbers, and nothing but numbers.
+/// Returns the separator that splits most lines of `text` into numbers, and into nothing but
+/// numbers.
 pub(crate) fn separator(text: &str) -> Separator {
-    let end = text.match_indices('\n').nth(LINES_LOOKED_AT).map_or(text.len(), |(end, _)| end);
-    // Lines of a key and its value are whole: their blanks and commas part nothing.
-    if are_keys(&text[..end]) {
+    /// Number of lines that are examined.
+    const LINES_EXAMINED: usize = 2000;
+
+    let end = text.match_indices('\n').nth(LINES_EXAMINED).map_or(text.len(), |(end, _)| end);
+    let start = &text[..end];
+    // A key with its value is one cell: its blanks and commas part nothing.
+    if has_keys(start) {
         return Separator::Tab;
     }
-    // Names with one number each, a table of results, count where no row has two numbers.
-    let score = |separator: Separator, least: usize| -> f64 {
-        let rows = separator.split(&text[..end]).unwrap_or_default();
-        let is_split = |row: &Row| {
-            let other = |cell: &Cell| {
-                let text = cell.text();
-                text.contains('\t') || (separator != Separator::Tab && text.contains([';', '|']))
-            };
-            row.filled().all(|(_, cell)| !other(cell))
-        };
-        let share = |row: &Row| {
-            let scattered = |(_, cell): &(usize, &Cell)| !cell.is_number() && cell.is_value();
-            let numbers = row.numbers() + row.filled().filter(scattered).count();
-            let filled = row.filled().count();
-            let counts = numbers >= least && filled >= 2 && is_split(row);
-            if counts { numbers as f64 / filled as f64 } else { 0.0 }
-        };
-        rows.iter().map(share).sum()
-    };
-    let best = |least: usize| {
-        let mut best = (Separator::Comma, 0.0);
-        for separator in Separator::ALL {
-            // Blanks are within the cells of lines that another sign parts.
-            if separator == Separator::Space && best.1 > 0.0 && is_parted(&text[..end]) {
-                continue;
-            }
-            let score = score(separator, least);
-            if score > best.1 * (1.0 + 1e-9) {
-                best = (separator, score);
-            }
+    // If no row has two numbers, names with one number each count: a table of results.
+    best_separator(start, 2).or_else(|| best_separator(start, 1)).unwrap_or(Separator::Comma)
+}
+
+/// Returns the separator with the best score in `text`; `None` if no line has `least` numbers.
+fn best_separator(text: &str, least: usize) -> Option<Separator> {
+    let mut best = (Separator::Comma, 0.0);
+    for separator in Separator::ALL {
+        // Blanks stand within the cells of lines that another sign parts.
+        if separator == Separator::Space && best.1 > 0.0 && has_separator(text) {
+            continue;
         }
-        (best.1 > 0.0).then_some(best.0)
-    };
-    best(2).or_else(|| best(1)).unwrap_or(Separator::Comma)
+        let score = score(text, separator, least);
+        if score > best.1 * (1.0 + 1e-9) {
+            best = (separator, score);
+        }
+    }
+    (best.1 > 0.0).then_some(best.0)
+}
+
+/// Returns the sum of the shares of numbers in the rows into which `separator` splits `text`. A row
+/// counts only if it has at least `least` numbers.
+fn score(text: &str, separator: Separator, least: usize) -> f64 {
+    let mut score = 0.0;
+    for row in separator.split(text).unwrap_or_default() {
+        let filled = row.filled().count();
+        let scattered =
+            row.filled().filter(|(_, cell)| !cell.is_number() && cell.is_value()).count();
+        let numbers = row.numbers() + scattered;
+        let is_split = row.filled().all(|(_, cell)| {
+            let text = cell.text();
+            !(text.contains('\t') || (separator != Separator::Tab && text.contains([';', '|'])))
+        });
+        if numbers >= least && filled >= 2 && is_split {
+            score += numbers as f64 / filled as f64;
+        }
+    }
+    score
 }
 
 #[cfg(test)]

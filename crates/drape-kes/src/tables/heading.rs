@@ -1,4 +1,4 @@
-//! Headings of columns: name and unit, and the words that tell what a column holds.
+//! Headings of columns: name and unit, and the kind of quantity that a column holds.
 
 pub(crate) mod words;
 
@@ -18,24 +18,20 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    /// Splits a heading into name and unit.
+    /// Splits the text `cell` into name and unit.
     ///
     /// ```text
     /// Load (N)   Load [N]   荷重（N）   Load / N   Load, N   Load in N   Load_N   Load N
     /// ```
     pub(crate) fn parse(cell: &str) -> Self {
-        // The half-width dot of Shift_JIS, in a file without another Japanese sign: gf･cm.
+        // The half-width dot of Shift_JIS, in a file with no other Japanese character: gf･cm.
         let cell = cell.replace('¥', "･");
         let cell = cell.trim().trim_matches('"').trim();
-        let named = |name: &str, unit: &str| Self {
-            name: name.trim().trim_end_matches([':', ',', '/', '-', '_']).trim().to_owned(),
-            unit: Some(unit.trim().to_owned()),
-        };
         for (open, close) in [('[', ']'), ('(', ')'), ('（', '）'), ('［', '］'), ('<', '>')] {
             if let Some(inside) = cell.strip_suffix(close)
-                && let Some((name, unit)) = split_bracket(inside, open, close)
+                && let Some((name, unit)) = split_at_bracket(inside, open, close)
             {
-                return named(name, unit);
+                return Self::with_unit(name, unit);
             }
         }
         for sign in [" / ", "/", ", ", " in ", " en ", ":", " ", "_"] {
@@ -44,24 +40,34 @@ impl Heading {
                 && !name.trim().is_empty()
                 && is_unit(unit.trim())
             {
-                return named(name, unit);
+                return Self::with_unit(name, unit);
             }
         }
         Self { name: cell.to_owned(), unit: None }
     }
 
-    /// Returns whether a name in a sheet means this heading.
+    /// Returns whether `name` in a sheet means this heading.
     pub(crate) fn is_named(&self, name: &str) -> bool {
-        let same = |a: &str, b: &str| normal(a) == normal(b);
-        same(&self.name, name) || {
-            let whole = Self::parse(name);
-            whole.unit.is_some() && whole.unit == self.unit && same(&self.name, &whole.name)
+        if normal(&self.name) == normal(name) {
+            return true;
+        }
+        let heading = Self::parse(name);
+        heading.unit.is_some()
+            && heading.unit == self.unit
+            && normal(&self.name) == normal(&heading.name)
+    }
+
+    /// Returns a heading of `name` and `unit`, without the signs between them.
+    fn with_unit(name: &str, unit: &str) -> Self {
+        Self {
+            name: name.trim().trim_end_matches([':', ',', '/', '-', '_']).trim().to_owned(),
+            unit: Some(unit.trim().to_owned()),
         }
     }
 }
 
-/// Splits `Load (max) (N` at the bracket that its end closes.
-fn split_bracket(inside: &str, open: char, close: char) -> Option<(&str, &str)> {
+/// Splits a text such as `Load (max) (N` at the bracket that its end closes.
+fn split_at_bracket(inside: &str, open: char, close: char) -> Option<(&str, &str)> {
     let mut depth = 0;
     for (place, letter) in inside.char_indices().rev() {
         if letter == close {
@@ -76,53 +82,57 @@ fn split_bracket(inside: &str, open: char, close: char) -> Option<(&str, &str)> 
     None
 }
 
-/// Returns a name in small letters, without signs between its words.
+/// Returns `name` in small letters, without signs between its words.
 pub(crate) fn normal(name: &str) -> String {
-    let letter = |letter: char| match letter {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
-        '_' | '-' | '.' | ':' | '#' | '"' | '\u{a0}' | '\u{3000}' => ' ',
-        other => other,
-    };
-    let name: String = name.chars().map(letter).collect::<String>().to_lowercase();
-    name.split_whitespace().collect::<Vec<_>>().join(" ")
+    let mut letters = String::with_capacity(name.len());
+    for letter in name.chars() {
+        letters.push(match letter {
+            '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
+            '_' | '-' | '.' | ':' | '#' | '"' | '\u{a0}' | '\u{3000}' => ' ',
+            letter => letter,
+        });
+    }
+    letters.to_lowercase().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the kind of a column by its name; `None` where no word is known.
+/// Returns the kind of the column `name`; `None` for a name without a known word.
 pub(crate) fn kind(name: &str) -> Option<Kind> {
     let name = normal(name);
-    // "Crosshead position" is a place, "crosshead travel" a lengthening: the weaker word is last.
-    let has = |words: Words| single(words).any(|word| has_word(&name, word));
-    let by_word = WORDS.iter().find(|(_, words)| has(words)).map(|(kind, _)| *kind);
+    // "Crosshead position" is a position, "crosshead travel" an extension: the weaker word is last.
+    let by_word = WORDS
+        .iter()
+        .find(|(_, words)| single(words).any(|word| has_word(&name, word)))
+        .map(|(kind, _)| *kind);
     by_word.or_else(|| {
-        let letter = name.split(' ').next().unwrap_or("").trim_end_matches(char::is_numeric);
-        SYMBOLS.iter().find(|(_, letters)| letters.contains(&letter)).map(|(kind, _)| *kind)
+        let symbol = name.split(' ').next().unwrap_or("").trim_end_matches(char::is_numeric);
+        SYMBOLS.iter().find(|(_, symbols)| symbols.contains(&symbol)).map(|(kind, _)| *kind)
     })
 }
 
-/// Returns whether a name has a word: at the start of one of its words, or anywhere for the scripts
-/// and languages that join words.
+/// Returns whether `name` has `word` at the start of one of its words. In scripts and languages
+/// that join words, `word` may stand anywhere.
 pub(crate) fn has_word(name: &str, word: &str) -> bool {
-    let joins = |word: &str| !word.is_ascii() || JOINED.contains(&word);
+    let is_joined = !word.is_ascii() || JOINED.contains(&word);
     name.match_indices(word).any(|(place, _)| {
         let before = name[..place].chars().next_back();
         let after = name[place + word.len()..].chars().next();
         let starts = before.is_none_or(|letter| !letter.is_alphabetic());
         let ends = after.is_none_or(|letter| !letter.is_alphabetic() || letter == 's');
-        joins(word) || (starts && (ends || word.len() > 4))
+        is_joined || (starts && (ends || word.len() > 4))
     })
 }
 
-/// Returns the directions that a label names.
+/// Returns the directions that `label` names.
 pub(crate) fn directions(label: &str) -> Vec<Direction> {
-    named(&DIRECTIONS, label)
+    words_in(&DIRECTIONS, label)
 }
 
-/// Returns the tests that a label names.
+/// Returns the tests that `label` names.
 pub(crate) fn tests(label: &str) -> Vec<Test> {
-    named(&TESTS, label)
+    words_in(&TESTS, label)
 }
 
-/// Returns the number of letters of known words beyond ASCII that a text has.
+/// Returns the number of letters of `text` that belong to known words beyond ASCII.
 pub(crate) fn known_letters(text: &str) -> usize {
     let text = text.to_lowercase();
     let kinds = WORDS.iter().map(|(_, words)| *words);
@@ -133,42 +143,51 @@ pub(crate) fn known_letters(text: &str) -> usize {
     known.filter(|word| text.contains(word)).map(|word| word.chars().count()).sum()
 }
 
-/// Returns whether a label names a strip that is cut at 45° to the yarns.
+/// Returns whether `label` names a strip that is cut at 45° to the yarns.
 pub(crate) fn is_bias(label: &str) -> bool {
-    let (label, written) = (normal(label), label.to_lowercase());
-    let is_word = |word: &str| {
-        // "Diagonal twill" is a weave, and so is "斜纹"; the words stand alone.
-        label.match_indices(word).any(|(place, _)| {
-            let before = label[..place].chars().next_back();
-            let after = label[place + word.len()..].chars().next();
-            !word.is_ascii() || [before, after].iter().flatten().all(|c| !c.is_alphabetic())
+    let name = normal(label);
+    names_45_degrees(&label.to_lowercase())
+        || single(BIAS).any(|word| {
+            // "Diagonal twill" is a weave, and so is "斜纹": the words stand alone.
+            name.match_indices(word).any(|(place, _)| {
+                let before = name[..place].chars().next_back();
+                let after = name[place + word.len()..].chars().next();
+                !word.is_ascii() || [before, after].iter().flatten().all(|c| !c.is_alphabetic())
+            })
         })
-    };
-    // At 45 degrees; a bare 45 is the number of something.
-    let at_45 = written.match_indices("45").any(|(place, _)| {
-        let before = written[..place].chars().next_back();
-        let after = written[place + 2..].trim_start_matches([' ', '_', '-', '\u{a0}']);
+}
+
+/// Returns whether `label`, in small letters, states 45 degrees. A number 45 without sign or
+/// degrees counts something else.
+fn names_45_degrees(label: &str) -> bool {
+    label.match_indices("45").any(|(place, _)| {
+        let before = label[..place].chars().next_back();
+        let after = label[place + 2..].trim_start_matches([' ', '_', '-', '\u{a0}']);
         let is_degree = ["°", "º", "deg", "grad", "度", "゜"].iter().any(|d| after.starts_with(d));
         let is_signed = matches!(before, Some('±' | '+'));
         let is_number = before.is_none_or(|c| !c.is_ascii_digit() && !".,".contains(c));
         is_number && (is_degree || is_signed && !after.starts_with(|c: char| c.is_ascii_digit()))
-    });
-    at_45 || single(BIAS).any(is_word)
+    })
 }
 
-fn named<T: Copy>(known: &[(T, Words)], label: &str) -> Vec<T> {
+/// Returns the meanings of the `known` words that `label` has.
+fn words_in<T: Copy>(known: &[(T, Words)], label: &str) -> Vec<T> {
     let label = normal(label);
-    let has = |words: Words| single(words).any(|word| has_word(&label, word));
-    known.iter().filter(|(_, words)| has(words)).map(|(found, _)| *found).collect()
+    known
+        .iter()
+        .filter(|(_, words)| single(words).any(|word| has_word(&label, word)))
+        .map(|(meaning, _)| *meaning)
+        .collect()
 }
 
-/// Returns whether a label names a part of one history: a cycle, the way back.
+/// Returns whether `label` names a part of one history: a cycle, or the recovery.
 pub(crate) fn is_part(label: &str) -> bool {
     let label = normal(label);
     single(PARTS).any(|word| has_word(&label, word))
 }
 
-/// Returns whether a label is that of one specimen of several: a number, with a word for specimens.
+/// Returns whether `label` is the label of one of several specimens: a number, with a word for
+/// specimens.
 pub(crate) fn is_specimen(label: &str) -> bool {
     let label = normal(label);
     let has_number = label.contains(|letter: char| letter.is_ascii_digit());

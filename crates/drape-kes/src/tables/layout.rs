@@ -1,4 +1,4 @@
-//! What a sheet declares about a file of a curve; everything else is detected.
+//! Layout of a curve file that a sheet declares. Everything else is detected.
 
 use encoding_rs::Encoding;
 
@@ -15,23 +15,23 @@ pub(crate) enum Column {
     Number(usize),
 }
 
-/// Choice among several of a kind: tables, cycles, specimens.
+/// Choice among numbered tables, cycles or specimens.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Take {
-    /// Nothing declared.
+    /// The sheet declares nothing.
     #[default]
     Undeclared,
     All,
-    /// Those numbers.
-    These(Vec<usize>),
+    /// The given numbers.
+    Numbers(Vec<usize>),
 }
 
 impl Take {
-    /// Returns whether a number is taken.
-    pub(crate) fn takes(&self, number: usize) -> bool {
+    /// Returns whether the choice contains `number`.
+    pub(crate) fn contains(&self, number: usize) -> bool {
         match self {
             Self::Undeclared | Self::All => true,
-            Self::These(numbers) => numbers.contains(&number),
+            Self::Numbers(numbers) => numbers.contains(&number),
         }
     }
 }

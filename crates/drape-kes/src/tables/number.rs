@@ -1,4 +1,5 @@
-//! Numbers as they are written: decimal point or comma, digits in groups, exponents; with their scatter.
+//! Numbers as written: decimal point or comma, digits in groups, exponents; `scattered`: with their
+//! scatter.
 
 pub(crate) mod scattered;
 
@@ -10,10 +11,10 @@ pub(crate) enum Decimal {
 }
 
 impl Decimal {
-    /// Decimal signs by their names in a sheet.
+    /// Decimal signs that a sheet may name.
     pub(crate) const ALL: [Self; 2] = [Self::Point, Self::Comma];
 
-    /// Returns the name used in sheets.
+    /// Returns the name in sheets.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Point => ".",
@@ -21,6 +22,7 @@ impl Decimal {
         }
     }
 
+    /// Returns the decimal sign as a character.
     fn sign(self) -> char {
         match self {
             Self::Point => '.',
@@ -28,7 +30,8 @@ impl Decimal {
         }
     }
 
-    fn other(self) -> char {
+    /// Returns the sign that may stand between groups of three digits.
+    fn group_sign(self) -> char {
         match self {
             Self::Point => ',',
             Self::Comma => '.',
@@ -36,29 +39,31 @@ impl Decimal {
     }
 }
 
-/// Decimal sign that a written number speaks for.
+/// Decimal sign that follows from a written number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Evidence {
-    /// Number of that decimal sign, and of no other.
-    Of(Decimal),
-    /// Number by either: `1,234`.
+    /// The text is a number only with this decimal sign.
+    Only(Decimal),
+    /// The text is a number with either sign: `1,234`.
     Either,
-    /// Number without a sign.
+    /// The text is a number without a sign.
     Whole,
 }
 
-/// Parses a number with a decimal sign; digits before it may stand in groups of three.
+/// Parses `text` as a number with the sign `decimal`. Digits before the sign may stand in groups of
+/// three.
 ///
 /// ```text
 /// 1234.5   1,234.5   1 234,5   1'234.5   1.2E-03   −0,5   ５
 /// ```
 pub(crate) fn parse(text: &str, decimal: Decimal) -> Option<f64> {
-    let text = plain(text);
+    let text = plain_letters(text);
     if let Ok(number) = text.parse::<f64>()
         && (decimal == Decimal::Point || !text.contains('.'))
     {
         return Some(number);
     }
+
     let (mantissa, exponent) = match text.find(['e', 'E']) {
         Some(place) if place > 0 => text.split_at(place),
         _ => (text.as_str(), ""),
@@ -71,53 +76,62 @@ pub(crate) fn parse(text: &str, decimal: Decimal) -> Option<f64> {
         Some((whole, fraction)) => (whole, fraction),
         None => (digits, ""),
     };
-    let figures = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    if !figures(fraction) || (whole.is_empty() && fraction.is_empty()) {
+    if !are_digits(fraction) || (whole.is_empty() && fraction.is_empty()) {
         return None;
     }
-    let whole = ungrouped(whole, decimal.other())?;
+    let whole = join_groups(whole, decimal.group_sign())?;
     format!("{sign}{whole}.{fraction}{exponent}").parse().ok()
 }
 
-/// Returns the decimal sign that a text speaks for; `None` where it is not a number by either.
+/// Returns the decimal sign that follows from `text`; `None` if `text` is no number with either
+/// sign.
 pub(crate) fn evidence(text: &str) -> Option<Evidence> {
     let [point, comma] = Decimal::ALL.map(|decimal| parse(text, decimal));
     match (point, comma) {
         (None, None) => None,
-        (Some(_), None) => Some(Evidence::Of(Decimal::Point)),
-        (None, Some(_)) => Some(Evidence::Of(Decimal::Comma)),
+        (Some(_), None) => Some(Evidence::Only(Decimal::Point)),
+        (None, Some(_)) => Some(Evidence::Only(Decimal::Comma)),
         (Some(a), Some(b)) if a == b || (a.is_nan() && b.is_nan()) => Some(Evidence::Whole),
         (Some(_), Some(_)) => Some(Evidence::Either),
     }
 }
 
-/// Returns the text of a number in plain characters: without blanks around, with ASCII digits.
-fn plain(text: &str) -> String {
-    let plain = |letter: char| match letter {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
-        '−' | '‐' | '–' => '-',
-        '\u{a0}' | '\u{202f}' | '\u{2009}' | '\u{3000}' => ' ',
-        '’' | '`' => '\'',
-        other => other,
-    };
-    text.trim().chars().map(plain).collect::<String>().trim().to_owned()
+/// Returns `text` without blanks around it, and with ASCII digits and signs.
+fn plain_letters(text: &str) -> String {
+    let mut letters = String::with_capacity(text.len());
+    for letter in text.trim().chars() {
+        letters.push(match letter {
+            '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
+            '−' | '‐' | '–' => '-',
+            '\u{a0}' | '\u{202f}' | '\u{2009}' | '\u{3000}' => ' ',
+            '’' | '`' => '\'',
+            letter => letter,
+        });
+    }
+    letters.trim().to_owned()
 }
 
-/// Joins digits that stand in groups of three; `None` where they are not digits in groups.
-fn ungrouped(whole: &str, group: char) -> Option<String> {
+/// Returns whether `text` has only ASCII digits.
+fn are_digits(text: &str) -> bool {
+    text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Joins the digits of `whole` that stand in groups of three, between blanks, apostrophes or the
+/// sign `group`. Returns `None` for other texts.
+fn join_groups(whole: &str, group: char) -> Option<String> {
     let signs = [group, ' ', '\''];
-    let figures = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     let Some(sign) = signs.into_iter().find(|&sign| whole.contains(sign)) else {
-        return figures(whole).then(|| whole.to_owned());
+        return are_digits(whole).then(|| whole.to_owned());
     };
+
     let mut groups = whole.split(sign);
     let first = groups.next()?;
     let rest: Vec<&str> = groups.collect();
-    let good = (1..=3).contains(&first.len())
+    let are_groups = (1..=3).contains(&first.len())
         && !first.starts_with('0')
-        && figures(first)
-        && rest.iter().all(|group| group.len() == 3 && figures(group));
-    good.then(|| format!("{first}{}", rest.concat()))
+        && are_digits(first)
+        && rest.iter().all(|group| group.len() == 3 && are_digits(group));
+    are_groups.then(|| format!("{first}{}", rest.concat()))
 }
 
 #[cfg(test)]
@@ -150,10 +164,10 @@ mod tests {
     #[test]
     fn the_decimal_sign_is_known_from_the_number_or_not_at_all() {
         let cases = [
-            ("0,125", Evidence::Of(Decimal::Comma)),
-            ("1,25", Evidence::Of(Decimal::Comma)),
-            ("0.125", Evidence::Of(Decimal::Point)),
-            ("1,234.5", Evidence::Of(Decimal::Point)),
+            ("0,125", Evidence::Only(Decimal::Comma)),
+            ("1,25", Evidence::Only(Decimal::Comma)),
+            ("0.125", Evidence::Only(Decimal::Point)),
+            ("1,234.5", Evidence::Only(Decimal::Point)),
             ("1,234", Evidence::Either),
             ("1.234", Evidence::Either),
             ("12", Evidence::Whole),

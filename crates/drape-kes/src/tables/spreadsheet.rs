@@ -4,12 +4,12 @@ use std::path::Path;
 
 use crate::tables::grid::Grid;
 
-/// Endings of the files that are spreadsheets.
+/// Endings of the names of spreadsheets.
 const ENDINGS: [&str; 5] = ["xlsx", "xlsm", "xlsb", "xls", "ods"];
 
-/// Returns whether a file is a spreadsheet, by its ending and its first bytes.
+/// Returns whether a file is a spreadsheet, by the ending of `path` and its first `bytes`.
 ///
-/// Programs write text under `.xls` too, which is read as text.
+/// Some programs write text under the ending `.xls`. Such a file is read as text.
 pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
     let named = ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known));
@@ -18,9 +18,11 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
     zip || compound || (named && !ending.eq_ignore_ascii_case("xls"))
 }
 
-/// Reads the sheets of a spreadsheet; `Err` holds the reason why it cannot be read.
+/// Reads the sheets of a spreadsheet from its `bytes`. `Err` holds the reason why the spreadsheet
+/// cannot be read.
 ///
-/// Only `.xlsx` files tell which numbers are shown in percent. A date is a text, since it is no number of a test.
+/// Only `.xlsx` files tell which numbers are displayed in percent. A date is read as a text,
+/// because it is no number of a test.
 #[cfg(feature = "spreadsheets")]
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
     use calamine::{Data, Reader, SheetType};
@@ -31,42 +33,42 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
     let mut book =
         calamine::open_workbook_auto_from_rs(cursor).map_err(|error| error.to_string())?;
     let mut grids = Vec::new();
-    // Sheets that hold a chart or a macro have no cells.
-    let tables = |sheet: &&calamine::Sheet| sheet.typ == SheetType::WorkSheet;
-    let names: Vec<String> =
-        book.sheets_metadata().iter().filter(tables).map(|sheet| sheet.name.clone()).collect();
+    // Sheets of a chart or a macro have no cells.
+    let names: Vec<String> = book
+        .sheets_metadata()
+        .iter()
+        .filter(|sheet| sheet.typ == SheetType::WorkSheet)
+        .map(|sheet| sheet.name.clone())
+        .collect();
     for sheet in names {
         let range = book.worksheet_range(&sheet).map_err(|error| error.to_string())?;
         let styles = book.worksheet_style(&sheet).ok();
         let (first_row, first_column) = range.start().unwrap_or((0, 0));
-        let is_percent = |row: u32, column: u32| {
-            let style = styles.as_ref().and_then(|styles| styles.get((row, column)));
-            let format = style.and_then(|style| style.number_format.as_ref());
-            format.is_some_and(|format| is_of_percent(&format.format_code))
-        };
-        let row = |(index, cells): (usize, &[Data])| {
-            let line = first_row + index as u32;
-            let mut row = vec![Cell::Text(String::new()); first_column as usize];
-            for (place, data) in cells.iter().enumerate() {
-                row.push(match data {
-                    Data::Float(number) if is_percent(line, first_column + place as u32) => {
-                        Cell::Percent(100.0 * number)
-                    }
-                    other => cell(other),
+        let mut rows = Vec::new();
+        for (line, data) in (first_row..).zip(range.rows()) {
+            let mut cells = vec![Cell::Text(String::new()); first_column as usize];
+            for (column, data) in (first_column..).zip(data) {
+                let style = styles.as_ref().and_then(|styles| styles.get((line, column)));
+                let format = style.and_then(|style| style.number_format.as_ref());
+                let is_percent =
+                    format.is_some_and(|format| is_percent_format(&format.format_code));
+                cells.push(match data {
+                    Data::Float(number) if is_percent => Cell::Percent(100.0 * number),
+                    data => cell(data),
                 });
             }
-            let line = line as usize + 1;
-            row.iter().any(|cell| !cell.is_empty()).then_some(Row { line, cells: row })
-        };
-        let rows = range.rows().enumerate().filter_map(row).collect();
+            if cells.iter().any(|cell| !cell.is_empty()) {
+                rows.push(Row { line: line as usize + 1, cells });
+            }
+        }
         grids.push(Grid { sheet, rows, ..Grid::default() });
     }
     Ok(grids)
 }
 
-/// Returns whether a format of numbers shows them in percent: with the sign outside of quotes.
+/// Returns whether a number `format` displays percent: the sign stands outside of quotes.
 #[cfg(feature = "spreadsheets")]
-fn is_of_percent(format: &str) -> bool {
+fn is_percent_format(format: &str) -> bool {
     let (mut is_quoted, mut is_escaped) = (false, false);
     for letter in format.chars() {
         match letter {
@@ -80,7 +82,7 @@ fn is_of_percent(format: &str) -> bool {
     false
 }
 
-/// Returns what a cell holds.
+/// Returns the cell of `data`.
 #[cfg(feature = "spreadsheets")]
 fn cell(data: &calamine::Data) -> crate::tables::grid::Cell {
     use calamine::Data;
@@ -101,7 +103,7 @@ fn cell(data: &calamine::Data) -> crate::tables::grid::Cell {
             })
         }
         // An error of the spreadsheet, such as #DIV/0!, is a text that is not a number.
-        other => Cell::Text(other.to_string().trim().to_owned()),
+        data => Cell::Text(data.to_string().trim().to_owned()),
     }
 }
 
@@ -118,10 +120,10 @@ mod tests {
     #[test]
     fn a_format_shows_percent_by_a_sign_that_is_no_quoted_text() {
         for format in ["0%", "0.00%", "0.0\\ %", "[Red]0%;-0%"] {
-            assert!(is_of_percent(format), "{format}");
+            assert!(is_percent_format(format), "{format}");
         }
         for format in ["General", "0.00", "0.0\" %\"", "0.0\\%"] {
-            assert!(!is_of_percent(format), "{format}");
+            assert!(!is_percent_format(format), "{format}");
         }
     }
 }

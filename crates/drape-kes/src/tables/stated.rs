@@ -1,6 +1,6 @@
-//! Gauge and width that a file states: above its numbers, or in a column of them.
+//! Gauge and width that a file states, above its numbers or in a column.
 
-use crate::tables::block::{Block, unbracketed};
+use crate::tables::block::{Block, without_brackets};
 use crate::tables::grid::{Cell, Row};
 use crate::tables::heading::words::{Words, single};
 use crate::tables::heading::{Heading, normal};
@@ -30,122 +30,149 @@ pub(crate) const WIDTH: Words = &[
 
 /// Length that a file states.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Stated {
+pub(crate) struct StatedLength {
     /// Length, in metres.
     pub(crate) length: f64,
     pub(crate) line: usize,
-    /// Name that the file gives it.
+    /// Name of the length in the file.
     pub(crate) name: String,
 }
 
-/// What a sheet holds around its curves.
+/// Texts and tables around the curves of a sheet.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Around {
+pub(crate) struct Surroundings {
     /// Lines of text.
     pub(crate) rows: Vec<Row>,
-    /// Tables with a column of gauges or of widths.
+    /// Tables with a column of gauges or widths.
     pub(crate) tables: Vec<Block>,
 }
 
-impl Around {
-    /// Returns the length that goes by one of some names; `None` where there is none, or two that differ.
+impl Surroundings {
+    /// Returns the length under one of `words`; `None` if there is none, or if two lengths differ.
     ///
     /// In a table of several specimens the rows with the `title` of the curve decide.
-    pub(crate) fn stated(&self, title: &str, words: Words) -> Option<Stated> {
-        let mut all: Vec<Stated> = self.rows.iter().flat_map(|row| of_row(row, words)).collect();
+    pub(crate) fn stated(&self, title: &str, words: Words) -> Option<StatedLength> {
+        let mut all: Vec<StatedLength> =
+            self.rows.iter().flat_map(|row| lengths_of_row(row, words)).collect();
         if all.is_empty() {
-            all = self.tables.iter().flat_map(|block| of_table(block, title, words)).collect();
+            all = self
+                .tables
+                .iter()
+                .flat_map(|block| lengths_of_table(block, title, words))
+                .collect();
         }
         let first = all.first()?.clone();
-        all.iter().all(|other| (other.length / first.length - 1.0).abs() < 1e-9).then_some(first)
+        let are_equal = all.iter().all(|length| (length.length / first.length - 1.0).abs() < 1e-9);
+        are_equal.then_some(first)
     }
 }
 
-/// Returns whether a table has a column of gauges or of widths.
+/// Returns whether `block` has a column of gauges or widths.
 pub(crate) fn has_sizes(block: &Block) -> bool {
     [GAUGE, WIDTH].iter().any(|words| size_column(block, &[], words).is_some())
 }
 
-/// Returns the lengths of the rows of a table, or of the rows that have a name.
-fn of_table(block: &Block, title: &str, words: Words) -> Vec<Stated> {
+/// Returns the lengths of the rows of `block` with the name `title`, or of all rows if no row has
+/// the name.
+fn lengths_of_table(block: &Block, title: &str, words: Words) -> Vec<StatedLength> {
     let Some(column) = size_column(block, &[], words) else { return Vec::new() };
     let heading = &block.headings[column];
-    let is_title = |text: String| !title.is_empty() && normal(&text) == normal(title);
-    let is_titled = |row: &&Row| row.filled().any(|(_, cell)| is_title(cell.text()));
+    let title = normal(title);
+    let is_titled = |row: &&Row| {
+        !title.is_empty() && row.filled().any(|(_, cell)| normal(&cell.text()) == title)
+    };
     let titled: Vec<&Row> = block.rows.iter().filter(is_titled).collect();
     let rows = if titled.is_empty() { block.rows.iter().collect() } else { titled };
-    let of_row = |row: &Row| {
-        let value = row.cells.get(column)?.text();
-        let (number, own) = split_unit(value.trim())?;
-        let unit = parse_unit(&own.or(heading.unit.clone())?, &[Quantity::Length]).ok()?;
-        let length = number * unit.factor;
-        (length > 0.0).then(|| Stated { length, line: row.line, name: heading.name.clone() })
-    };
-    rows.into_iter().filter_map(of_row).collect()
+    rows.into_iter()
+        .filter_map(|row| {
+            let value = row.cells.get(column)?.text();
+            stated_length(heading, &value, heading.unit.as_deref(), row.line)
+        })
+        .collect()
 }
 
-/// Returns the column of lengths whose heading is one of some names, other than the columns of the curve; `None`
-/// where there is none, or several.
+/// Returns the column of lengths of `block` whose heading is one of `words`, except the columns
+/// `of_curve`. Returns `None` if there is none, or several.
 pub(crate) fn size_column(block: &Block, of_curve: &[usize], words: Words) -> Option<usize> {
-    let of_length = |heading: &Heading| {
+    let mut sizes = block.number_columns().into_iter().filter(|column| {
+        let Some(heading) = block.headings.get(*column) else { return false };
         let unit = heading.unit.as_deref();
-        unit.is_some_and(|unit| parse_unit(unit, &[Quantity::Length]).is_ok())
-    };
-    let is_size = |column: &usize| {
-        let heading = block.headings.get(*column);
-        heading.is_some_and(|heading| is_named(&heading.name, words) && of_length(heading))
-    };
-    let numbers = block.number_columns().into_iter();
-    let mut sizes = numbers.filter(|column| !of_curve.contains(column)).filter(is_size);
+        !of_curve.contains(column)
+            && is_size_name(&heading.name, words)
+            && unit.is_some_and(|unit| parse_unit(unit, &[Quantity::Length]).is_ok())
+    });
     sizes.next().filter(|_| sizes.next().is_none())
 }
 
-/// Returns whether a name is one of some, or begins with it.
-fn is_named(name: &str, words: Words) -> bool {
+/// Returns whether `name` begins with one of `words`.
+fn is_size_name(name: &str, words: Words) -> bool {
     let plain = normal(name);
     single(words).any(|word| {
-        let ends = |rest: &str| !rest.starts_with(|letter: char| letter.is_alphanumeric());
-        let is_start = plain.strip_prefix(word).is_some_and(|rest| word.len() > 2 || ends(rest));
+        let is_start = plain.strip_prefix(word).is_some_and(|rest| {
+            word.len() > 2 || !rest.starts_with(|letter: char| letter.is_alphanumeric())
+        });
         is_start || (!word.is_ascii() && plain.contains(word))
     })
 }
 
-/// Returns the lengths of a row: each stands behind its name, in one cell or in the next.
-fn of_row(row: &Row, words: Words) -> Vec<Stated> {
+/// Returns the lengths of `row`: each stands behind its name, in one cell or in the next cell.
+fn lengths_of_row(row: &Row, words: Words) -> Vec<StatedLength> {
     let cells: Vec<String> = row.filled().map(|(_, cell)| Cell::text(cell)).collect();
-    let length = |name: &str, value: &str, next: Option<&String>| {
-        let heading = Heading::parse(name);
-        if !is_named(&heading.name, words) {
-            return None;
-        }
-        let (number, own) = split_unit(value.trim())?;
-        let unit = own.or_else(|| heading.unit.clone()).or_else(|| next.cloned())?;
-        let unit = parse_unit(unbracketed(&unit), &[Quantity::Length]).ok()?;
-        let length = number * unit.factor;
-        (length > 0.0).then_some(Stated { length, line: row.line, name: heading.name })
-    };
-    if let [one] = cells.as_slice() {
+    if let [cell] = cells.as_slice() {
         // "Gauge length: 50 mm", "Gauge length 50 mm".
-        let sign = one.split_once([':', '=', '：']);
-        let digit = || one.split_at_checked(one.find(|letter: char| letter.is_ascii_digit())?);
-        let pair = sign.or_else(digit);
-        return pair.and_then(|(name, value)| length(name, value, None)).into_iter().collect();
+        let digit = cell.find(|letter: char| letter.is_ascii_digit());
+        let pair = cell
+            .split_once([':', '=', '：'])
+            .or_else(|| digit.and_then(|place| cell.split_at_checked(place)));
+        let length = pair.and_then(|(name, value)| named_length(name, value, None, (row, words)));
+        return length.into_iter().collect();
     }
-    let of_place = |place: usize| {
-        let (name, value) = (&cells[place], cells.get(place + 1)?);
-        length(name, value, cells.get(place + 2))
-    };
-    (0..cells.len()).filter_map(of_place).collect()
+    let mut lengths = Vec::new();
+    for (place, pair) in cells.windows(2).enumerate() {
+        let unit = cells.get(place + 2).map(String::as_str);
+        lengths.extend(named_length(&pair[0], &pair[1], unit, (row, words)));
+    }
+    lengths
 }
 
-/// Splits `50 mm` into number and unit.
-fn split_unit(text: &str) -> Option<(f64, Option<String>)> {
-    let of_unit = |letter: char| letter.is_alphabetic() || "㎜㎝".contains(letter);
-    let end = text.find(of_unit).unwrap_or(text.len());
+/// Returns the length `value` behind `name`, if the name is one of the words. The unit stands
+/// behind the number, in the name, or in the `next` cell.
+fn named_length(
+    name: &str,
+    value: &str,
+    next: Option<&str>,
+    (row, words): (&Row, Words),
+) -> Option<StatedLength> {
+    let heading = Heading::parse(name);
+    if !is_size_name(&heading.name, words) {
+        return None;
+    }
+    stated_length(&heading, value, heading.unit.as_deref().or(next), row.line)
+}
+
+/// Returns the length `value` with the name of `heading`. A value without a unit has the given
+/// `unit`.
+fn stated_length(
+    heading: &Heading,
+    value: &str,
+    unit: Option<&str>,
+    line: usize,
+) -> Option<StatedLength> {
+    let (number, written) = split_unit(value.trim())?;
+    let unit = written.or(unit)?;
+    let unit = parse_unit(without_brackets(unit), &[Quantity::Length]).ok()?;
+    let length = number * unit.factor;
+    (length > 0.0).then(|| StatedLength { length, line, name: heading.name.clone() })
+}
+
+/// Splits a `text` such as `50 mm` into number and unit.
+fn split_unit(text: &str) -> Option<(f64, Option<&str>)> {
+    let is_of_unit = |letter: char| letter.is_alphabetic() || "㎜㎝".contains(letter);
+    let end = text.find(is_of_unit).unwrap_or(text.len());
     let (number, unit) = text.split_at(end);
     let decimal = if number.contains(',') { Decimal::Comma } else { Decimal::Point };
     let number = parse(number, decimal)?;
-    Some((number, (!unit.trim().is_empty()).then(|| unit.trim().to_owned())))
+    Some((number, Some(unit.trim()).filter(|unit| !unit.is_empty())))
 }
 
 #[cfg(test)]
@@ -153,9 +180,9 @@ mod tests {
     use super::*;
     use crate::tables::grid::Separator;
 
-    fn around(text: &str) -> Around {
+    fn around(text: &str) -> Surroundings {
         let rows = Separator::Semicolon.split(text).expect("it splits");
-        Around { rows, ..Around::default() }
+        Surroundings { rows, ..Surroundings::default() }
     }
 
     #[test]
@@ -191,10 +218,10 @@ mod tests {
             let grid = crate::tables::grid::Grid { rows, ..Default::default() };
             let tables = crate::tables::block::blocks(&grid, Default::default()).blocks;
             assert!(tables.iter().any(has_sizes), "{text}");
-            Around { tables, ..Around::default() }
+            Surroundings { tables, ..Surroundings::default() }
         };
         let same = table(&text(50.0));
-        let near = |found: Option<Stated>, wanted: f64| {
+        let near = |found: Option<StatedLength>, wanted: f64| {
             assert!(found.is_some_and(|found| (found.length - wanted).abs() < 1e-12));
         };
         near(same.stated("", GAUGE), 0.2);

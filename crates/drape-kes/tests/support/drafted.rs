@@ -26,7 +26,8 @@ pub fn drafted(file: &str, bytes: &[u8]) -> (SheetDraft, Sheet) {
     (draft.clone(), sheet)
 }
 
-/// Returns a value of a sheet in the laboratory's unit, and its standard deviation as the draft writes it.
+/// Returns a value of a sheet in the laboratory's unit, and its standard deviation as the draft
+/// writes it.
 pub fn get(
     draft: &SheetDraft,
     sheet: &Sheet,
@@ -48,7 +49,8 @@ pub fn get(
     (value, deviation.unwrap_or(0.0))
 }
 
-/// Holds values of a file against what they should be: key, direction, value in the laboratory's unit.
+/// Holds values of a file against what they should be: key, direction, value in the laboratory's
+/// unit.
 pub fn assert_values(
     file: &str,
     bytes: &[u8],

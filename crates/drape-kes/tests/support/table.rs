@@ -32,7 +32,8 @@ impl Table {
         (self.0.iter().map(row).collect::<Vec<_>>().join("\n") + "\n").into_bytes()
     }
 
-    /// Returns the table as a workbook with one sheet. An empty cell behind a text in a row of texts is merged with it.
+    /// Returns the table as a workbook with one sheet. An empty cell behind a text in a row of
+    /// texts is merged with it.
     pub fn workbook(&self, sheet: &str) -> Vec<u8> {
         let mut book = rust_xlsxwriter::Workbook::new();
         let sheet = book.add_worksheet().set_name(sheet).expect("a name");

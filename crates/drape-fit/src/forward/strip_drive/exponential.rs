@@ -8,8 +8,8 @@ use drape_hysteresis::exp_m1;
 
 use crate::forward::strip_drive::strip_state::{StripState, StripStep};
 
-/// Traction law with an exponential toe that stores the end of its toe and what takes an exponential
-/// to compute.
+/// Traction law with an exponential toe that stores the end of its toe and the quantities that need
+/// an exponential.
 pub(crate) struct ExponentialStrip {
     toe: ExponentialToe,
     friction: ProportionalFriction,
@@ -21,7 +21,7 @@ pub(crate) struct ExponentialStrip {
 }
 
 impl ExponentialStrip {
-    /// Prepares a law; `None` where its toe is not exponential.
+    /// Prepares `law`; `None` if its toe is not exponential.
     pub(crate) fn new(law: &TractionLaw) -> Option<Self> {
         let TractionBackbone::Exponential(toe) = law.backbone else { return None };
         let friction = match law.friction {
@@ -40,11 +40,12 @@ impl ExponentialStrip {
         })
     }
 
+    /// Returns the state of a strip at rest that was never stretched.
     pub(crate) fn virgin(&self) -> StripState {
         StripState { memory: Memory::default(), toe: self.toe.toe_strain }
     }
 
-    /// Returns load and state at a `strain` that follows a `state`.
+    /// Returns load and state at `strain`, after the state `state`.
     pub(crate) fn step(&self, state: &StripState, strain: f64) -> StripStep {
         let StripState { memory, toe } = *state;
         let ExponentialToe { toe_strain, toe_strain_after, .. } = self.toe;
@@ -70,7 +71,7 @@ impl ExponentialStrip {
         StripStep { load: elastic + weight * friction, state: StripState { memory, toe: next_toe } }
     }
 
-    /// Returns the elastic load at a `strain` of at least 0 with a toe that ends at `toe`.
+    /// Returns the elastic load at a `strain` of at least 0, with a toe that ends at `toe`.
     fn tension(&self, toe: f64, strain: f64) -> f64 {
         let ExponentialToe { base_stiffness, stiffness, steepness, .. } = self.toe;
         let added = if strain > toe {
@@ -82,6 +83,7 @@ impl ExponentialStrip {
         base_stiffness * strain + stiffness * added
     }
 
+    /// Returns the elastic load at a negative `strain`.
     fn compression(&self, strain: f64) -> f64 {
         let Buckling { strain: scale, stiffness } = self.buckling;
         self.rest_stiffness * scale * exp_m1(strain / scale) - 0.5 * stiffness * strain * strain

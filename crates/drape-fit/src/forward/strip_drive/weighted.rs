@@ -5,7 +5,8 @@ use drape_hysteresis::Slip;
 
 use crate::forward::strip_drive::strip_state::{StripState, StripStep};
 
-/// Traction law of the papers that stores the length of its priming zone, which takes an exponential to compute.
+/// Traction law of the papers that stores the length of its priming zone, which needs an
+/// exponential.
 ///
 /// It is the law of drape-fabric, in half the time along a history.
 pub(crate) struct WeightedStrip<'a> {
@@ -17,6 +18,7 @@ pub(crate) struct WeightedStrip<'a> {
 }
 
 impl<'a> WeightedStrip<'a> {
+    /// Prepares `law` for a history.
     pub(crate) fn new(law: &'a TractionLaw) -> Self {
         let (primed, weight_at_rest) = match law.backbone {
             TractionBackbone::Primed(primed) => (Some(primed), 2.0 - 1.0 / primed.toe_ratio),
@@ -29,12 +31,13 @@ impl<'a> WeightedStrip<'a> {
         Self { law, friction, primed, weight_at_rest }
     }
 
+    /// Returns the state of a strip at rest that was never stretched.
     pub(crate) fn virgin(&self) -> StripState {
         let toe = self.primed.map_or(0.0, |primed| primed.toe_strain);
         StripState { memory: Memory::default(), toe }
     }
 
-    /// Returns load and state at a strain that follows a state.
+    /// Returns load and state at `strain`, after the state `state`.
     ///
     /// With the toe ratio `$r$` the elastic load is
     /// `$k\varepsilon((1 - r)\varepsilon/\varepsilon_c + 2r - 1)$` up to the end `$\varepsilon_c$`
@@ -64,37 +67,40 @@ impl<'a> WeightedStrip<'a> {
         StripStep { load, state: StripState { memory, toe: next_toe } }
     }
 
-    /// Returns the friction after a monotonic step, which is split where the slope of its weight
-    /// changes.
+    /// Returns the friction at `strain` after a monotonic step from `state`. The step is split
+    /// where the slope of the weight changes.
     fn friction(&self, state: &StripState, strain: f64) -> [f64; 2] {
         let StripState { memory, toe } = *state;
         let slack = -self.law.buckling.strain;
-        let weight = |strain: f64| {
-            if strain >= toe {
-                1.0
-            } else if strain >= 0.0 {
-                self.weight_at_rest + (1.0 - self.weight_at_rest) * strain / toe
-            } else {
-                self.weight_at_rest * (1.0 - strain / slack).max(0.0)
-            }
-        };
-        let (mut at, mut loads) = (memory.position, memory.friction);
-        let mut advance = |end: f64| {
-            let slip = Slip::weighted(end - at, weight(at), weight(end));
-            loads = self.friction.advance(loads, slip);
-            at = end;
-        };
-        let knots = [slack, 0.0, toe];
-        let between = |knot: &f64| {
-            (*knot > memory.position && *knot < strain)
-                || (*knot < memory.position && *knot > strain)
-        };
-        if strain >= memory.position {
-            knots.into_iter().filter(between).for_each(&mut advance);
-        } else {
-            knots.into_iter().rev().filter(between).for_each(&mut advance);
+        let mut ends: Vec<f64> = [slack, 0.0, toe]
+            .into_iter()
+            .filter(|knot| {
+                (*knot > memory.position && *knot < strain)
+                    || (*knot < memory.position && *knot > strain)
+            })
+            .collect();
+        if strain < memory.position {
+            ends.reverse();
         }
-        advance(strain);
+        ends.push(strain);
+        let (mut from, mut loads) = (memory.position, memory.friction);
+        for to in ends {
+            let slip = Slip::weighted(to - from, self.weight(from, toe), self.weight(to, toe));
+            loads = self.friction.advance(loads, slip);
+            from = to;
+        }
         loads
+    }
+
+    /// Returns the weight of the friction at `strain`, with a priming zone that ends at `toe`.
+    fn weight(&self, strain: f64, toe: f64) -> f64 {
+        let slack = -self.law.buckling.strain;
+        if strain >= toe {
+            1.0
+        } else if strain >= 0.0 {
+            self.weight_at_rest + (1.0 - self.weight_at_rest) * strain / toe
+        } else {
+            self.weight_at_rest * (1.0 - strain / slack).max(0.0)
+        }
     }
 }

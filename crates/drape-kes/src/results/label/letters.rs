@@ -1,9 +1,9 @@
-//! Words, numbers and letters of the text of a cell.
+//! Words, numbers and letters in the text of a cell.
 
 use crate::tables::heading::words::{Words, single};
 
-/// Takes words out of a text; returns whether there were any.
-pub(crate) fn take(text: &mut String, words: Words) -> bool {
+/// Removes `words` from `text`, longest words first. Returns whether `text` had any of them.
+pub(crate) fn take_words(text: &mut String, words: Words) -> bool {
     let mut found = false;
     let mut known: Vec<&str> = single(words).collect();
     known.sort_by_key(|word| std::cmp::Reverse(word.len()));
@@ -19,13 +19,13 @@ pub(crate) fn take(text: &mut String, words: Words) -> bool {
     found
 }
 
-/// Returns the numbers of a text that stand by themselves, with a decimal point or comma.
+/// Returns the numbers of `text` that stand alone, with a decimal point or comma.
 pub(crate) fn numbers(text: &str) -> Vec<f64> {
-    let letters = |letter: char| !(letter.is_ascii_digit() || letter == '.' || letter == ',');
+    let is_separator = |letter: char| !(letter.is_ascii_digit() || letter == '.' || letter == ',');
     let mut numbers = Vec::new();
     let mut before = ' ';
-    for part in text.split_inclusive(letters) {
-        let digits = part.trim_end_matches(letters).trim_matches([',', '.']);
+    for part in text.split_inclusive(is_separator) {
+        let digits = part.trim_end_matches(is_separator).trim_matches([',', '.']);
         if !before.is_alphabetic()
             && let Ok(number) = digits.replace(',', ".").parse()
         {
@@ -36,15 +36,19 @@ pub(crate) fn numbers(text: &str) -> Vec<f64> {
     numbers
 }
 
-/// Returns a text with its letters, digits and signs of full width in half width, and digits below the line on it.
+/// Returns `text` with full-width letters, digits and signs in half width, and subscript digits as
+/// digits.
 pub(crate) fn half_width(text: &str) -> String {
-    let letter = |letter: char| match letter {
-        '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
-        '\u{3000}' | '\u{a0}' => ' ',
-        '₀'..='₉' => char::from_u32(letter as u32 - 0x2080 + 0x30).unwrap_or(letter),
-        '【' | '〔' | '「' => '(',
-        '】' | '〕' | '」' => ')',
-        other => other,
-    };
-    text.chars().map(letter).collect::<String>().trim().to_owned()
+    let mut letters = String::with_capacity(text.len());
+    for letter in text.chars() {
+        letters.push(match letter {
+            '\u{ff01}'..='\u{ff5e}' => char::from_u32(letter as u32 - 0xfee0).unwrap_or(letter),
+            '\u{3000}' | '\u{a0}' => ' ',
+            '₀'..='₉' => char::from_u32(letter as u32 - 0x2080 + 0x30).unwrap_or(letter),
+            '【' | '〔' | '「' => '(',
+            '】' | '〕' | '」' => ')',
+            letter => letter,
+        });
+    }
+    letters.trim().to_owned()
 }

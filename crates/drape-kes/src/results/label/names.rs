@@ -1,10 +1,10 @@
-//! Names of items, and the words beside them, in small letters, a line for each language: English, German, French,
-//! Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
+//! Names of items, and the words beside them, in small letters, one line per language: English,
+//! German, French, Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
 
 use crate::results::item::Item;
 use crate::tables::heading::words::Words;
 
-/// Names of items; the longest name in a label decides.
+/// Names of items. The longest name in a label decides.
 pub(super) const ITEMS: [(Item, Words); 25] = [
     (
         Item::Key("B"),
@@ -224,7 +224,8 @@ pub(super) const ITEMS: [(Item, Words); 25] = [
     ),
 ];
 
-/// Words of other tests than those of KES, FAST and cantilevers: to the break, or of a body that does not slide yet.
+/// Words for tests other than KES, FAST and cantilevers: until the break, or of a body that does
+/// not slide yet.
 pub(super) const OTHER_TESTS: Words = &[
     "break, breaking, rupture, at maximum force, tear, tearing, static, bruch, reiß, höchstzugkraft",
     "weiterreiß, haft, haftreibung, à la rupture, déchirure, statique, rottura, rotura, ruptura",
@@ -296,19 +297,19 @@ pub(super) const FABRIC: Words = &[
     "tecido, artigo, kumaş, malzeme, 生地, 布, 品番, 品名, 試料名, 織物, 织物, 面料, 编号, 品种",
 ];
 
-/// Words of either: samples are fabrics in some laboratories, specimens of one in others.
+/// Words for samples, which are fabrics in some laboratories and specimens in others.
 pub(super) const SAMPLE: Words = &[
     "sample, samples, sample id, sample no, sample name, muster, échantillon, campione, muestra",
     "amostra, numune, 試料, サンプル, 样品",
 ];
 
-/// Words of units, at the head of a column of them.
+/// Words for units, at the head of a column of units.
 pub(super) const UNIT: Words = &[
     "unit, units, uom, einheit, einheiten, unité, unités, unità, unidad, unidades, unidade",
     "birim, 単位, 单位, 單位",
 ];
 
-/// Words that say nothing: heads of the columns of names, units and values, and names of tests.
+/// Words without meaning: heads of the columns of names, units and values, and names of tests.
 pub(super) const GENERIC: Words = &[
     "parameter, parameters, property, properties, symbol, unit, units, value, values, result, results",
     "test, tests, item, items, data, table, kes, kes f, kesf, fb1, fb2, fb3, fb4, direction, dir",

@@ -1,4 +1,4 @@
-//! What a text beside numbers says of them, besides the item.
+//! Tags of a text beside numbers: direction, statistic, face, and the kind of names.
 
 use crate::test::Direction;
 
@@ -14,12 +14,12 @@ pub(crate) enum Cut {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Statistic {
     Mean,
-    /// Mean whose cells have a coefficient of variation beside it, in percent.
+    /// Mean with a coefficient of variation in the cell, in percent.
     MeanWithVariation,
-    /// Mean whose cells have its standard error beside it.
+    /// Mean with its standard error in the cell.
     MeanWithError,
     Deviation,
-    /// In percent of the mean.
+    /// Coefficient of variation, in percent of the mean.
     Variation,
     /// Standard error of the mean.
     Error,
@@ -34,12 +34,12 @@ pub(crate) enum Face {
     Back,
 }
 
-/// Words at the head of a row or a column of names.
+/// Kind of the names in a row or a column, which its head states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Axis {
+pub(crate) enum HeadKind {
     Specimen,
     Fabric,
-    /// Samples: specimens, or fabrics.
+    /// Samples, which may be specimens or fabrics.
     Sample,
     /// Units.
     Unit,

@@ -11,8 +11,8 @@ use crate::sheets::sheet::Sheet;
 use crate::test::{Direction, Test};
 
 impl Sheet {
-    /// Returns the largest load of the tensile curves, in N/m; `None` without a curve that begins
-    /// taut.
+    /// Returns the largest load of the tensile curves, in N/m. Returns `None` without a curve that
+    /// begins taut.
     pub(crate) fn load_of_curves(&self) -> Option<f64> {
         let tensile =
             self.curves.iter().filter(|curve| curve.test == Test::Tensile && !curve.slack);
@@ -20,17 +20,18 @@ impl Sheet {
         loads.max_by(f64::total_cmp)
     }
 
-    /// Returns whether the sheet has a value of the tensile test.
+    /// Returns whether the sheet has a value of the tensile test in `warp` or `weft`.
     pub(crate) fn has_tensile_values(&self) -> bool {
         [&self.warp, &self.weft]
             .into_iter()
             .any(|values| [values.lt, values.wt, values.rt, values.em].iter().any(Option::is_some))
     }
 
-    /// Tells of tensile curves that end at another load than the values of their direction.
+    /// Warns about tensile curves that end at another load than the values of their direction.
     pub(crate) fn compare_loads(&self, findings: &mut Findings<'_>) {
         let unit = Quantity::ForcePerWidth.laboratory().factor;
         let wanted = self.maximum_tension();
+
         for direction in [Direction::Warp, Direction::Weft] {
             let values = self.values(direction);
             let given = [values.lt, values.wt, values.rt, values.em];
@@ -44,6 +45,7 @@ impl Sheet {
             if given.iter().all(Option::is_none) || (reached / wanted - 1.0).abs() <= NEAR_MAXIMUM {
                 continue;
             }
+
             let name = direction.name();
             let (reached, wanted) = (reached / unit, wanted / unit);
             let origin = if self.fm.is_some() { "FM" } else { "the standard FM" };

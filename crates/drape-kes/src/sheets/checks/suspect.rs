@@ -1,12 +1,12 @@
-//! Checks of a curve: slips that are safe to repair, and curves that cannot be right.
+//! Checks of a curve: mistakes that are safe to repair, and curves that no fabric has.
 //!
-//! The last stage of `curve_file`. A repair is a warning; anything else is an error with the
-//! reading that was probably meant.
+//! The last stage of `curve_file`. A repair is a warning. Every other mistake is an error that
+//! names the reading that was probably meant.
 
 use std::ops::RangeInclusive;
 
 use crate::curves::branch::Branch;
-use crate::curves::curve::{Curve, Extent, Point};
+use crate::curves::curve::{Curve, Point};
 use crate::sheets::axis::Zero;
 use crate::sheets::findings::Findings;
 use crate::test::Test;
@@ -14,26 +14,26 @@ use drape_input::{Quantity, Unit, parse_unit};
 
 /// Part of the load range by which unloading may lie above loading on average.
 ///
-/// Noise of a few per cent averages out over the points of two branches; a curve whose branches or
-/// columns are exchanged misses by its whole loop width, 5 % and more.
+/// Noise of a few per cent averages out over the points of two branches. A curve with exchanged
+/// branches or columns misses by its whole loop width, 5 % and more.
 const GAIN_ALLOWED: f64 = 0.02;
 /// Number of deformations at which two branches are compared.
 const GAIN_POINTS: u32 = 32;
 
-/// Part of its range by which a deformation may miss zero at the start of a tensile test.
+/// Part of the range of strains by which the first strain of a tensile test may miss zero.
 const ZERO_ALLOWED: f64 = 0.005;
 
-/// Part of its range below which a load counts as none.
+/// Part of the range of loads below which a load counts as no load.
 const NO_LOAD: f64 = 0.02;
 
 /// Key paths of a curve in the sheet, for the findings.
-pub(crate) struct Keys {
+pub(crate) struct CurveKeyPaths {
     pub(crate) file: String,
     pub(crate) deformation: String,
     pub(crate) load: String,
     pub(crate) zero_strain: String,
-    /// Whether the sheet says which way the signs are: they are then left as they are.
-    pub(crate) turned: bool,
+    /// Whether the sheet declares the signs. Declared signs are kept.
+    pub(crate) sign_is_declared: bool,
 }
 
 /// Numbers of an axis as written, and their conversion to SI.
@@ -51,8 +51,8 @@ pub(crate) struct AsWritten {
 }
 
 impl AsWritten {
-    /// Converts a number of this axis to SI.
-    fn to_si(self, number: f64) -> f64 {
+    /// Converts `number` of this axis to SI.
+    fn convert(self, number: f64) -> f64 {
         let si = number * self.unit.factor;
         match (self.unit.quantity, self.size) {
             (Quantity::Length, Some(gauge)) => match self.zero {
@@ -80,9 +80,11 @@ struct UsualSize {
     load: RangeInclusive<f64>,
 }
 
+/// Returns the usual sizes of `test`, from the most limp to the stiffest fabric, with a margin on
+/// both sides.
 impl UsualSize {
     /// Returns the sizes from the most limp to the stiffest fabric, with a margin on both sides.
-    fn of(test: Test) -> Option<Self> {
+    fn for_test(test: Test) -> Option<Self> {
         let (deformation, load) = match test {
             Test::Tensile => (2e-3..=1.0, 0.2..=1e5),
             Test::Shear => (5e-3..=0.9, 0.02..=2e3),
@@ -93,22 +95,24 @@ impl UsualSize {
     }
 }
 
-/// Checks a curve and repairs it where that is safe; `None` after reporting what is wrong with it.
+/// Checks `curve` and repairs it where a repair is safe. Returns `None` after reporting a mistake.
 pub(crate) fn examine(
     curve: Curve,
     written: &AxesAsWritten,
-    keys: &Keys,
+    keys: &CurveKeyPaths,
     findings: &mut Findings<'_>,
 ) -> Option<Curve> {
-    let curve = without_duplicates(curve, keys, findings);
-    if let Some(wrong) = wrong_size(&curve, written) {
-        findings.error(wrong.key(keys), wrong.message, wrong.help);
+    let curve = remove_duplicates(curve, keys, findings);
+    if let Some(mistake) = impossible_size(&curve, written) {
+        findings.error(mistake.key(keys), mistake.message, mistake.help);
         return None;
     }
+
     if curve.test == Test::LoopBending {
         return Some(curve);
     }
-    let curve = upright(curve, keys, findings).prepared().into_owned();
+    let curve = with_usual_signs(curve, keys, findings).prepared().into_owned();
+
     if let Some(EnergyGain { deformation, excess }) = energy_gain(&curve) {
         let message = format!(
             "unloading lies above loading, by {:.0} % of the load's range at a deformation of {deformation:.4e}",
@@ -119,14 +123,15 @@ pub(crate) fn examine(
         findings.error(&keys.file, message, help);
         return None;
     }
+
     match written.zero_strain {
-        Some(zero) => from_given_zero(&curve, zero, keys, findings),
-        None => from_zero(curve, keys, findings),
+        Some(zero) => begin_at_given_zero(&curve, zero, keys, findings),
+        None => begin_at_zero(curve, keys, findings),
     }
 }
 
-/// Leaves out points that repeat the one before.
-fn without_duplicates(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Curve {
+/// Removes points of `curve` that repeat the point before.
+fn remove_duplicates(curve: Curve, keys: &CurveKeyPaths, findings: &mut Findings<'_>) -> Curve {
     let mut kept: Vec<Point> = curve.points().collect();
     let all = kept.len();
     kept.dedup();
@@ -146,14 +151,15 @@ enum Axis {
 }
 
 /// Axis of an impossible size, with what was probably meant.
-struct WrongSize {
+struct ImpossibleSize {
     axis: Axis,
     message: String,
     help: String,
 }
 
-impl WrongSize {
-    fn key<'a>(&self, keys: &'a Keys) -> &'a str {
+impl ImpossibleSize {
+    /// Returns the key path of the axis among the paths `keys`.
+    fn key<'a>(&self, keys: &'a CurveKeyPaths) -> &'a str {
         match self.axis {
             Axis::Deformation => &keys.deformation,
             Axis::Load => &keys.load,
@@ -161,49 +167,59 @@ impl WrongSize {
     }
 }
 
-fn wrong_size(curve: &Curve, written: &AxesAsWritten) -> Option<WrongSize> {
-    let usual = UsualSize::of(curve.test)?;
-    let size = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let (deformation, load) = (size(curve.deformation()), size(curve.load()));
+/// Returns the axis of `curve` whose size no fabric has, with a suggestion that follows from the
+/// numbers `written`.
+fn impossible_size(curve: &Curve, written: &AxesAsWritten) -> Option<ImpossibleSize> {
+    let usual = UsualSize::for_test(curve.test)?;
+    let deformation = largest_magnitude(curve.deformation());
+    let load = largest_magnitude(curve.load());
     let good_deformation = usual.deformation.contains(&deformation);
     let good_load = usual.load.contains(&load);
     if good_deformation && good_load {
         return None;
     }
-    let (axis, name, found, range) = if good_deformation {
+
+    let (axis, name, size, range) = if good_deformation {
         (Axis::Load, "load", load, &usual.load)
     } else {
         (Axis::Deformation, "deformation", deformation, &usual.deformation)
     };
     let message = format!(
-        "the {name} reaches {found:.3e} in SI; a {} test of a fabric reaches {:.0e} to {:.0e}",
+        "the {name} reaches {size:.3e} in SI; a {} test of a fabric reaches {:.0e} to {:.0e}",
         curve.test.name(),
         range.start(),
         range.end()
     );
+
+    // Exchanged columns and another unit are the usual mistakes.
     let AxesAsWritten { deformation: q, load: f, .. } = written;
-    let mut help = Vec::new();
-    let exchanged = usual.deformation.contains(&q.to_si(f.largest).abs())
-        && usual.load.contains(&f.to_si(q.largest).abs());
-    if exchanged {
-        help.push("exchange the columns of deformation and load".to_owned());
+    let mut suggestions = Vec::new();
+    let are_exchanged = usual.deformation.contains(&q.convert(f.largest).abs())
+        && usual.load.contains(&f.convert(q.largest).abs());
+    if are_exchanged {
+        suggestions.push("exchange the columns of deformation and load".to_owned());
     }
     if axis == Axis::Deformation && good_load {
         for unit in deformation_units(curve.test) {
-            let other = (unit.quantity, unit.factor) != (q.unit.quantity, q.unit.factor);
-            if other && usual.deformation.contains(&(q.largest * unit.factor)) {
-                help.push(format!("write unit = \"{}\"", unit.spelling));
+            let differs = (unit.quantity, unit.factor) != (q.unit.quantity, q.unit.factor);
+            if differs && usual.deformation.contains(&(q.largest * unit.factor)) {
+                suggestions.push(format!("write unit = \"{}\"", unit.spelling));
             }
         }
     }
-    let help = match help.as_slice() {
+    let help = match suggestions.as_slice() {
         [] => "check the column and its unit".to_owned(),
-        readings => format!("did you mean to {}?", readings.join(", or to ")),
+        suggestions => format!("did you mean to {}?", suggestions.join(", or to ")),
     };
-    Some(WrongSize { axis, message, help })
+    Some(ImpossibleSize { axis, message, help })
 }
 
-/// Returns the units that are mistaken for each other.
+/// Returns the largest magnitude among `values`.
+fn largest_magnitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}
+
+/// Returns the units of the deformation of `test` that are mistaken for each other.
 fn deformation_units(test: Test) -> impl Iterator<Item = Unit> {
     let (quantity, spellings): (Quantity, &[&str]) = match test {
         Test::Tensile => (Quantity::Ratio, &["%", "1"]),
@@ -214,7 +230,7 @@ fn deformation_units(test: Test) -> impl Iterator<Item = Unit> {
     spellings.iter().filter_map(move |spelling| parse_unit(spelling, &[quantity]).ok())
 }
 
-/// Signs that are to be turned.
+/// Signs that are to be reversed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Turn {
     deformation: bool,
@@ -222,85 +238,92 @@ struct Turn {
 }
 
 impl Turn {
-    /// Returns the signs that are wrong beyond doubt: none where the curve as it is given may be right.
+    /// Returns the signs of `curve` that are certainly wrong.
     ///
     /// A strip is stretched and pulled, so both columns of a tensile test reach further above zero
     /// than below. A loop may lie anywhere, but its load rises with its deformation.
-    fn of(curve: &Curve) -> Self {
+    fn certain(curve: &Curve) -> Self {
         if curve.test == Test::Tensile {
             // The zeros of a slack strip may be anywhere.
-            let below = |range: Extent| !curve.slack && -range.low > range.high;
-            return Self {
-                deformation: below(curve.deformation_range()),
-                load: below(curve.load_range()) && !curve.slack,
-            };
+            let [deformation, load] = [curve.deformation_range(), curve.load_range()]
+                .map(|range| !curve.slack && -range.low > range.high);
+            return Self { deformation, load };
         }
         let (q, f) = (curve.deformation(), curve.load());
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-        let (middle, level) = (mean(q), mean(f));
+        let [middle, level] = [q, f].map(|values| values.iter().sum::<f64>() / values.len() as f64);
         let covariance: f64 = q.iter().zip(f).map(|(q, f)| (q - middle) * (f - level)).sum();
         Self { deformation: false, load: covariance < 0.0 }
     }
 }
 
-/// Reverses the sign of the load, or of both columns, where it is the wrong one.
-fn upright(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Curve {
-    let Turn { deformation: turn_q, load: turn_f } = Turn::of(&curve);
-    if keys.turned || !(turn_q || turn_f) {
+/// Reverses the sign of the load of `curve`, or of both columns, where the sign is wrong.
+fn with_usual_signs(curve: Curve, keys: &CurveKeyPaths, findings: &mut Findings<'_>) -> Curve {
+    let turn = Turn::certain(&curve);
+    if keys.sign_is_declared || !(turn.deformation || turn.load) {
         return curve;
     }
-    let (columns, key) = match (turn_q, turn_f) {
-        (true, true) => ("deformation and load have", &keys.file),
-        (true, false) => ("the deformation has", &keys.deformation),
-        _ => ("the load has", &keys.load),
+    let (columns, key) = if turn.deformation && turn.load {
+        ("deformation and load have", &keys.file)
+    } else if turn.deformation {
+        ("the deformation has", &keys.deformation)
+    } else {
+        ("the load has", &keys.load)
     };
     let help =
         "it was turned; reversed = true on the axis says the same, reversed = false keeps it";
     findings.warn(key, format!("{columns} the opposite sign"), help);
-    let sign = |turn: bool| if turn { -1.0 } else { 1.0 };
+    let [deformation_sign, load_sign] =
+        [turn.deformation, turn.load].map(|is_turned| if is_turned { -1.0 } else { 1.0 });
     let points = curve.points().map(|point| Point {
-        deformation: sign(turn_q) * point.deformation,
-        load: sign(turn_f) * point.load,
+        deformation: deformation_sign * point.deformation,
+        load: load_sign * point.load,
     });
     let points = points.collect();
     curve.with_points(points)
 }
 
-/// Largest excess of unloading over loading, over the load range.
+/// Largest excess of unloading over loading, and its deformation in SI.
 struct EnergyGain {
     deformation: f64,
+    /// Excess over the load range, a ratio.
     excess: f64,
 }
 
-/// Returns the first pair of neighbouring branches that gains energy.
+/// Returns the largest excess in the first pair of neighbouring branches of `curve` that gains
+/// energy.
 fn energy_gain(curve: &Curve) -> Option<EnergyGain> {
     let span = curve.load_range().span();
-    let all: Vec<Point> = curve.points().collect();
-    let gain_of = |pair: &[Branch]| -> Option<EnergyGain> {
-        let (rising, falling) =
-            if pair[0].rising { (&pair[0], &pair[1]) } else { (&pair[1], &pair[0]) };
-        let sorted = |branch: &Branch| -> Vec<Point> {
-            let mut points = all[branch.points.clone()].to_vec();
-            points.sort_by(|a, b| a.deformation.total_cmp(&b.deformation));
-            points
-        };
-        let (rising, falling) = (sorted(rising), sorted(falling));
-        let from = rising[0].deformation.max(falling[0].deformation);
-        let to = rising[rising.len() - 1].deformation.min(falling[falling.len() - 1].deformation);
-        let gain = |step: u32| {
-            let deformation = from + (to - from) * (f64::from(step) + 0.5) / f64::from(GAIN_POINTS);
-            let excess = load_at(&falling, deformation) - load_at(&rising, deformation);
-            EnergyGain { deformation, excess: excess / span }
-        };
-        let gains: Vec<EnergyGain> = (0..GAIN_POINTS).map(gain).collect();
-        let mean = gains.iter().map(|gain| gain.excess).sum::<f64>() / gains.len() as f64;
-        let worst = gains.into_iter().max_by(|a, b| a.excess.total_cmp(&b.excess));
-        worst.filter(|_| to > from && mean > GAIN_ALLOWED)
-    };
-    curve.branches().windows(2).find_map(gain_of)
+    let points: Vec<Point> = curve.points().collect();
+    curve.branches().windows(2).find_map(|pair| gain_of_pair(pair, &points, span))
 }
 
-/// Returns the load at a deformation, interpolated between sorted points.
+/// Returns the largest excess of two neighbouring branches of `points`, over the `span` of the
+/// loads. Returns `None` if the pair gains no energy.
+fn gain_of_pair(pair: &[Branch], points: &[Point], span: f64) -> Option<EnergyGain> {
+    let [first, second] = [&pair[0], &pair[1]].map(|branch| {
+        let mut sorted = points[branch.points.clone()].to_vec();
+        sorted.sort_by(|a, b| a.deformation.total_cmp(&b.deformation));
+        sorted
+    });
+    let (rising, falling) = if pair[0].rising { (first, second) } else { (second, first) };
+
+    // The branches are compared where both were measured.
+    let from = rising[0].deformation.max(falling[0].deformation);
+    let to = rising[rising.len() - 1].deformation.min(falling[falling.len() - 1].deformation);
+    let mut gains = Vec::with_capacity(GAIN_POINTS as usize);
+    for step in 0..GAIN_POINTS {
+        let deformation = from + (to - from) * (f64::from(step) + 0.5) / f64::from(GAIN_POINTS);
+        let excess = load_at(&falling, deformation) - load_at(&rising, deformation);
+        gains.push(EnergyGain { deformation, excess: excess / span });
+    }
+
+    // Noise may exceed the limit at one deformation, but not on average.
+    let mean = gains.iter().map(|gain| gain.excess).sum::<f64>() / gains.len() as f64;
+    let worst = gains.into_iter().max_by(|a, b| a.excess.total_cmp(&b.excess));
+    worst.filter(|_| to > from && mean > GAIN_ALLOWED)
+}
+
+/// Returns the load at `deformation`, interpolated between `points` sorted by deformation.
 fn load_at(points: &[Point], deformation: f64) -> f64 {
     let after = points.partition_point(|point| point.deformation < deformation);
     let after = after.clamp(1, points.len() - 1);
@@ -313,8 +336,9 @@ fn load_at(points: &[Point], deformation: f64) -> f64 {
     }
 }
 
-/// Shifts a tensile test to begin at zero strain, where it begins without load.
-fn from_zero(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<Curve> {
+/// Shifts a tensile `curve` to begin at zero strain, if the curve begins without load. Returns
+/// `None` after reporting a curve that begins with a load.
+fn begin_at_zero(curve: Curve, keys: &CurveKeyPaths, findings: &mut Findings<'_>) -> Option<Curve> {
     if curve.test != Test::Tensile || curve.slack {
         return Some(curve);
     }
@@ -322,6 +346,7 @@ fn from_zero(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<C
     if start.abs() <= ZERO_ALLOWED * curve.deformation_range().span() {
         return Some(curve);
     }
+
     if load.abs() > NO_LOAD * curve.load_range().span() {
         let message = format!("starts at a strain of {start:.4e} with a load of {load:.4e} N/m");
         let help = "measure from zero, or set slack = true so that both zeros are fitted";
@@ -333,14 +358,16 @@ fn from_zero(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<C
     Some(curve.counted_from(start))
 }
 
-/// Shifts a tensile test to begin at a given zero of strain, and leaves out the slack before it.
-fn from_given_zero(
+/// Shifts a tensile `curve` to begin at the strain `zero`, and removes the slack before it. Returns
+/// `None` after reporting a `zero` outside the strains.
+fn begin_at_given_zero(
     curve: &Curve,
     zero: f64,
-    keys: &Keys,
+    keys: &CurveKeyPaths,
     findings: &mut Findings<'_>,
 ) -> Option<Curve> {
     let shifted = curve.counted_from(zero).taut();
+
     if shifted.is_none() {
         let range = curve.deformation_range();
         let message = format!(

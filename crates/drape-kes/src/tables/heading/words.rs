@@ -1,25 +1,25 @@
-//! Words by which the headings and titles of tables are understood, in small letters, a line for each language:
-//! English, German, French, Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
+//! Words that tell the meaning of headings and titles of tables, in small letters, one line per
+//! language: English, German, French, Italian, Spanish, Portuguese, Turkish, Japanese and Chinese.
 
 use crate::test::{Direction, Test};
 
-/// Words with commas between, in several lines.
+/// Words separated by commas, in several lines.
 pub(crate) type Words = &'static [&'static str];
 
-/// Returns the single words of lines of words.
+/// Returns the single words of the lines of `words`.
 pub(crate) fn single(words: Words) -> impl Iterator<Item = &'static str> {
     words.iter().flat_map(|line| line.split(", "))
 }
 
-/// Kind of a column, by the words of its heading.
+/// Kind of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Strain,
-    /// Lengthening of the specimen, zero at the start.
+    /// Extension of the specimen, zero at the start.
     Extension,
-    /// Place of the moving clamp, whose zero is arbitrary.
+    /// Position of the moving clamp, whose zero is arbitrary.
     Position,
-    /// Distance of the clamps, the gauge at the start.
+    /// Distance of the clamps, the gauge length at the start.
     Distance,
     Angle,
     Curvature,
@@ -27,12 +27,12 @@ pub(crate) enum Kind {
     Moment,
     Cycle,
     Specimen,
-    /// Something else, known by name: time, width, stress, temperature.
+    /// A known quantity that is neither deformation nor load: time, width, stress, temperature.
     Other,
 }
 
-/// Words of headings; the first entry that has one of them decides, so that "cycle time" is a time,
-/// and "bending moment" no bend.
+/// Words of headings. The first entry with a matching word decides, so that "cycle time" is a time,
+/// and "bending moment" a moment.
 pub(super) const WORDS: [(Kind, Words); 11] = [
     (
         Kind::Other,
@@ -109,7 +109,7 @@ pub(super) const WORDS: [(Kind, Words); 11] = [
     ),
 ];
 
-/// Single letters that are symbols of a column.
+/// Symbols of a column.
 pub(super) const SYMBOLS: [(Kind, &[&str]); 5] = [
     (Kind::Strain, &["e", "ε", "eps"]),
     (Kind::Force, &["f", "p", "fs", "ft"]),
@@ -118,7 +118,7 @@ pub(super) const SYMBOLS: [(Kind, &[&str]); 5] = [
     (Kind::Angle, &["φ", "γ", "θ"]),
 ];
 
-/// German words that end others: Standardkraft, Prüfzeit, Schubwinkel.
+/// German words that end compound words: Standardkraft, Prüfzeit, Schubwinkel.
 pub(super) const JOINED: [&str; 10] = [
     "kraft", "weg", "zeit", "winkel", "dehnung", "spannung", "abstand", "moment", "breite", "dicke",
 ];
@@ -143,12 +143,12 @@ pub(super) const DIRECTIONS: [(Direction, Words); 2] = [
     ),
 ];
 
-/// Words of the time at which a point was measured.
+/// Words for the time of a point.
 pub(crate) const TIMES: Words =
     &["time, zeit, prüfzeit, temps, tiempo, tempo, zaman, süre", "時間, 経過時間, 时间"];
 
-/// Words of a strip that is cut at 45° to the yarns, besides the angle itself.
-pub(super) const BIAS: Words = &[
+/// Words for a strip that is cut at 45° to the yarns, besides the angle.
+pub(crate) const BIAS: Words = &[
     "bias, biais, sbieco, al bies, sesgo, viés, verev, schräg, diagonal, diagonale, diagonalrichtung",
     "バイアス, 斜め, 斜向, 斜裁, 正斜",
 ];
@@ -178,19 +178,19 @@ pub(super) const TESTS: [(Test, Words); 3] = [
     ),
 ];
 
-/// Words of a part of one history.
+/// Words for a part of one history.
 pub(super) const PARTS: Words = &[
     "cycle, loading, unloading, recovery, return, zyklus, belastung, entlastung, hin, rück",
     "retour, aller, サイクル, 往, 復, 回復, 戻り",
 ];
 
-/// Words of a specimen of several, besides its number.
+/// Words for one of several specimens, besides its number.
 pub(super) const SPECIMENS: Words = &[
     "specimen, sample, test, repeat, replicate, run, n, no, probe, prüfling, versuch, nr",
     "échantillon, éprouvette, essai, provino, probeta, numune, 試料, 試験片, サンプル, 试样",
 ];
 
-/// Further words of tables of results, by which the encoding of a file is known.
+/// Further words of tables of results, which tell the encoding of a file.
 pub(super) const NAMES: Words = &[
     "biegesteifigkeit, flächengewicht, flächenmasse, prüfbericht, größe, maß, mäßig, für",
     "propriété, rigidité, résilience, unité, échantillon, moyenne, écart-type, linéarité, énergie",

@@ -11,30 +11,31 @@ const DEVIATIONS: [&str; 9] = ["±", "s.d.", "std", "sd", "stdev", "s", "σ", "�
 /// Words before a coefficient of variation within its brackets, in small letters.
 const VARIATIONS: [&str; 6] = ["cv%", "c.v.", "cv", "vk", "変動係数", "变异系数"];
 
-/// What the second number of a cell is.
+/// Meaning of the second number of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Spread {
     /// In the unit of the first number.
     Absolute,
     /// Percent of the first number.
     Percent,
-    /// Percent of the first number, or in its unit where that is percent too.
+    /// Percent of the first number, or in the unit of the first number if that unit is percent.
     PercentOrUnit,
-    /// A whole number behind one with a fraction, as in `0.112 (3)`: last digits, or something else.
+    /// A whole number behind a number with a fraction, as in `0.112 (3)`: last digits, or something
+    /// else.
     Unclear,
 }
 
-/// Number and scatter as they are written, without the signs between.
+/// Number and scatter as written, without the signs between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scattered<'t> {
     pub(crate) number: &'t str,
     pub(crate) deviation: &'t str,
     pub(crate) spread: Spread,
-    /// Unit of both; empty where none is written.
+    /// Unit of both numbers; empty if none is written.
     pub(crate) unit: &'t str,
 }
 
-/// Parts a cell into a number and its scatter; `None` where the cell is anything else.
+/// Splits `text` into a number and its scatter; `None` for any other text.
 ///
 /// ```text
 /// 0.085 ± 0.004   0,085±0,004   0.085 +/- 0.004   (0.085 ± 0.004) N   0.085 ± 5 %
@@ -47,33 +48,35 @@ pub(crate) fn scattered(text: &str) -> Option<Scattered<'_>> {
     }
     let sign = SIGNS.iter().find_map(|sign| text.split_once(sign));
     match sign.filter(|(before, _)| !before.trim().is_empty()) {
-        Some((before, behind)) => by_sign(before, behind),
-        None => by_brackets(text),
+        Some((before, behind)) => split_at_sign(before, behind),
+        None => split_at_brackets(text),
     }
 }
 
-fn by_sign<'t>(before: &'t str, behind: &'t str) -> Option<Scattered<'t>> {
+/// Splits a text at the sign between the number `before` and the scatter `behind`.
+fn split_at_sign<'t>(before: &'t str, behind: &'t str) -> Option<Scattered<'t>> {
     // One pair of brackets may stand around both numbers, with the unit behind it.
-    let open = |letter: char| BRACKETS.iter().any(|(open, _)| *open == letter);
-    let before = before.trim().trim_start_matches(open);
+    let [opening, closing] = [BRACKETS.map(|(open, _)| open), BRACKETS.map(|(_, close)| close)];
+    let before = before.trim().trim_start_matches(opening);
     let (number, unit) = leading_number(before)?;
     let (deviation, rest) = leading_number(behind.trim())?;
-    let close = |letter: char| BRACKETS.iter().any(|(_, close)| *close == letter);
-    let rest = rest.trim().trim_start_matches(close).trim();
-    let (is_percent, rest) = percent(rest);
+    let rest = rest.trim().trim_start_matches(closing).trim();
+    let (is_percent, rest) = strip_percent(rest);
     let unit = if rest.is_empty() { unit } else { rest };
+
     let spread = if !is_percent {
         Spread::Absolute
-    } else if unit.is_empty() || percent(unit).0 {
+    } else if unit.is_empty() || strip_percent(unit).0 {
         Spread::PercentOrUnit
     } else {
         Spread::Percent
     };
-    let unit = if spread == Spread::PercentOrUnit || percent(unit).0 { "%" } else { unit };
+    let unit = if spread == Spread::PercentOrUnit || strip_percent(unit).0 { "%" } else { unit };
     Some(Scattered { number, deviation, spread, unit })
 }
 
-fn by_brackets(text: &str) -> Option<Scattered<'_>> {
+/// Splits `text` at the brackets around the scatter.
+fn split_at_brackets(text: &str) -> Option<Scattered<'_>> {
     let (start, open) =
         text.char_indices().find(|(_, c)| BRACKETS.iter().any(|(open, _)| open == c))?;
     let close = BRACKETS.iter().find(|(sign, _)| *sign == open).map(|(_, close)| *close)?;
@@ -81,26 +84,21 @@ fn by_brackets(text: &str) -> Option<Scattered<'_>> {
     let (number, unit) = leading_number(&text[..start])?;
     let behind = text[end + close.len_utf8()..].trim();
     let unit = if behind.is_empty() { unit } else { behind };
-    // What stands within: perhaps a word, a number, perhaps a unit.
+
+    // Within the brackets may stand a word, a number and a unit.
     let inside = text[start + open.len_utf8()..end].trim();
     let small = inside.to_lowercase();
-    let word = |words: &[&'static str]| {
-        let starts = |word: &&&str| small.starts_with(**word);
-        words.iter().filter(starts).map(|word| word.len()).max()
-    };
-    let (is_variation, skipped) = match (word(&VARIATIONS), word(&DEVIATIONS)) {
-        (Some(length), _) => (true, length),
-        (None, Some(length)) => (false, length),
-        (None, None) => (false, 0),
-    };
+    let variation = longest_start(&small, &VARIATIONS);
+    let is_variation = variation.is_some();
+    let skipped = variation.or_else(|| longest_start(&small, &DEVIATIONS)).unwrap_or(0);
     let inside = inside.get(skipped..)?.trim_start_matches(['=', ':', ' ', '.']);
     let (deviation, rest) = leading_number(inside)?;
-    let (is_percent, rest) = percent(rest);
+    let (is_percent, rest) = strip_percent(rest);
     if !rest.is_empty() && rest != unit && !unit.is_empty() {
         return None;
     }
-    let is_whole = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    let spread = if is_variation || (is_percent && !percent(unit).0 && !unit.is_empty()) {
+
+    let spread = if is_variation || (is_percent && !strip_percent(unit).0 && !unit.is_empty()) {
         Spread::Percent
     } else if is_percent {
         Spread::PercentOrUnit
@@ -110,22 +108,39 @@ fn by_brackets(text: &str) -> Option<Scattered<'_>> {
         Spread::Absolute
     };
     let unit = if unit.is_empty() { rest } else { unit };
-    Some(Scattered { number, deviation, spread, unit: if percent(unit).0 { "%" } else { unit } })
+    Some(Scattered {
+        number,
+        deviation,
+        spread,
+        unit: if strip_percent(unit).0 { "%" } else { unit },
+    })
 }
 
-/// Splits a text behind the longest number at its start; `None` where it begins otherwise.
+/// Returns the length of the longest of `words` with which `text` starts.
+fn longest_start(text: &str, words: &[&str]) -> Option<usize> {
+    words.iter().filter(|word| text.starts_with(**word)).map(|word| word.len()).max()
+}
+
+/// Returns whether `text` has only ASCII digits.
+fn is_whole(text: &str) -> bool {
+    text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Splits `text` behind the longest number at its start; `None` if no number stands there.
 pub(crate) fn leading_number(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
-    let of_number = |letter: char| letter.is_numeric() || "+-−－.,．，' \u{a0}eE".contains(letter);
-    let end = text.find(|letter| !of_number(letter)).unwrap_or(text.len());
-    let ends = text[..end].char_indices().map(|(place, letter)| place + letter.len_utf8()).rev();
-    let is_figure = |end: &usize| text[..*end].ends_with(char::is_numeric);
-    let end = ends.filter(is_figure).find(|&end| evidence(&text[..end]).is_some())?;
+    let end = text
+        .find(|letter: char| !(letter.is_numeric() || "+-−－.,．，' \u{a0}eE".contains(letter)))
+        .unwrap_or(text.len());
+    let mut ends =
+        text[..end].char_indices().map(|(place, letter)| place + letter.len_utf8()).rev();
+    let end = ends
+        .find(|&end| text[..end].ends_with(char::is_numeric) && evidence(&text[..end]).is_some())?;
     Some((&text[..end], text[end..].trim()))
 }
 
-/// Returns whether a text begins with the sign of percent, and what stands behind it.
-fn percent(text: &str) -> (bool, &str) {
+/// Returns whether `text` begins with the sign of percent, and the text behind the sign.
+fn strip_percent(text: &str) -> (bool, &str) {
     let behind = text.strip_prefix('%').or_else(|| text.strip_prefix('％'));
     (behind.is_some(), behind.unwrap_or(text).trim())
 }

@@ -1,4 +1,4 @@
-//! What the files of a draft hold: curves, values, and files that give nothing.
+//! Contents of the files of a draft: curves, values, and files without either.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,9 +8,9 @@ use drape_input::{Diagnostic, Diagnostics, Quantity, parse_unit};
 use crate::exports::compression;
 use crate::exports::curve_draft::{CurveDraft, Key};
 use crate::exports::evidence::Evidence;
-use crate::exports::files::{Files, is_other};
-use crate::exports::found::{Export, OpenDraft, in_words};
-use crate::results::average::{Averaged, Given, rounded};
+use crate::exports::file_curves::{Export, OpenDraft, describe_mistake};
+use crate::exports::files::{Files, holds_no_table};
+use crate::results::average::{AssumedDirection, AveragedValue, rounded};
 use crate::results::item::Item;
 use crate::results::sheet_results::results;
 use crate::tables::block::{Lines, blocks};
@@ -20,37 +20,32 @@ use crate::tables::grid::{Grid, Row};
 use crate::tables::layout::Layout;
 use crate::tables::number::Decimal;
 use crate::tables::series::Series;
-use crate::tables::stated::Around;
+use crate::tables::stated::Surroundings;
 use crate::test::Test;
 
-/// Relative difference of the gauges of two curves from which on they are no repeats.
-const REPEAT_GAUGE: f64 = 0.1;
-/// Rows of a block of numbers that are looked through for values: a longer one is a curve, perhaps with values beside
-/// its beginning.
-const ROWS_OF_VALUES: usize = 1000;
-
-/// Parts of a draft while the files are read.
+/// Contents of the files of a draft.
 #[derive(Default)]
-pub(crate) struct Parts {
+pub(crate) struct FileContents {
     pub(crate) curves: Vec<CurveDraft>,
-    /// Curves that need a word.
+    /// Curves that a person has to complete.
     pub(crate) open: Vec<OpenDraft>,
     /// Curves of strips on the bias.
     pub(crate) bias: Vec<OpenDraft>,
     pub(crate) values: Vec<FileValue>,
-    /// Files that gave nothing, with the reason.
+    /// Files without a curve or value, with the reason.
     pub(crate) unread: Vec<(String, String)>,
     pub(crate) notes: Vec<String>,
 }
 
-/// Value with its place.
+/// Value of a file with its place.
 #[derive(Clone, Debug)]
+/// Name of the fabric, if its table gives a name.
 pub(crate) struct FileValue {
     /// Name of the fabric, where its table gives one.
     pub(crate) fabric: Option<String>,
-    /// Name of the file, and of its sheet; empty for a text file.
+    /// Name of the file and name of its sheet. A text file has an empty name of a sheet.
     pub(crate) table: (String, String),
-    pub(crate) value: Averaged,
+    pub(crate) value: AveragedValue,
 }
 
 impl FileValue {
@@ -68,9 +63,9 @@ impl FileValue {
     }
 }
 
-impl Parts {
-    /// Reads all files.
-    pub(crate) fn of(files: &Files) -> Self {
+impl FileContents {
+    /// Reads all `files`.
+    pub(crate) fn from_files(files: &Files) -> Self {
         let mut parts = Self::default();
         files.files.iter().for_each(|(path, name)| parts.add(path, name, &files.folder));
         parts.join_repeats(&files.folder);
@@ -83,26 +78,25 @@ impl Parts {
         curves == [0; 3] && self.values.is_empty()
     }
 
-    /// Adds what a file holds.
+    /// Adds the contents of the file `path` with the given `name`. Its curves are verified in
+    /// `folder`.
     fn add(&mut self, path: &Path, name: &str, folder: &Path) {
-        if is_other(path) {
+        if holds_no_table(path) {
             self.unread.push((name.to_owned(), "no table, by its ending".into()));
             return;
         }
         let file = match file::read(path, &Layout::default()) {
             Ok(file) => file,
             Err(mistakes) => {
-                let words: Vec<String> = mistakes.0.iter().map(in_words).collect();
+                let words: Vec<String> = mistakes.0.iter().map(describe_mistake).collect();
                 self.unread.push((name.to_owned(), words.join("; ")));
                 return;
             }
         };
+
         let export = Export { path, name: name.to_owned(), file: &file, folder };
         let drafts = export.drafts();
-        let found = |parts: &Self| {
-            parts.curves.len() + parts.open.len() + parts.bias.len() + parts.values.len()
-        };
-        let before = found(self);
+        let before = self.count();
         self.curves.extend(drafts.good);
         self.open.extend(drafts.open);
         self.bias.extend(drafts.bias);
@@ -110,9 +104,9 @@ impl Parts {
         for grid in &file.grids {
             self.add_values(grid, &export, &mut reasons);
         }
-        if found(self) == before {
+        if self.count() == before {
             if reasons.is_empty() {
-                reasons = why_nothing(path, &file);
+                reasons = reason_for_nothing(path, &file);
             }
             self.unread.push((name.to_owned(), reasons.join("; ")));
         } else {
@@ -120,12 +114,21 @@ impl Parts {
         }
     }
 
-    /// Adds the values of a sheet of a file: of its tables of results, and of a compression curve.
+    /// Returns the number of curves and values.
+    fn count(&self) -> usize {
+        self.curves.len() + self.open.len() + self.bias.len() + self.values.len()
+    }
+
+    /// Adds the values of a sheet of a file: its tables of results and its compression curves. Adds
+    /// to `reasons` what has no use.
     fn add_values(&mut self, grid: &Grid, export: &Export<'_>, reasons: &mut Vec<String>) {
-        let found = blocks(grid, Lines::default());
+        /// Largest number of rows of a block that are searched for values. A longer block is a
+        /// curve, perhaps with values beside its beginning.
+        const ROWS_OF_VALUES: usize = 1000;
+
         let mut without: BTreeSet<usize> = BTreeSet::new();
-        let mut all: Vec<(Option<String>, Averaged)> = Vec::new();
-        for block in found.blocks {
+        let mut all: Vec<(Option<String>, AveragedValue)> = Vec::new();
+        for block in blocks(grid, Lines::default()).blocks {
             let beyond = block.rows.iter().skip(ROWS_OF_VALUES);
             without.extend(beyond.map(|row: &Row| row.line));
             let Some(columns) = compression::columns(&block) else { continue };
@@ -137,27 +140,32 @@ impl Parts {
                 pair: Pair { deformation, load, label: String::new() },
                 decimal: Decimal::Point,
                 label: String::new(),
-                around: Around::default(),
-                several: false,
+                around: Surroundings::default(),
+                has_neighbours: false,
                 block,
             };
             match compression::values(&series, columns) {
-                Ok(c) => all.extend(of_compression(c, line).into_iter().map(|value| (None, value))),
+                Ok(values) => all.extend(
+                    compression_values(values, line).into_iter().map(|value| (None, value)),
+                ),
                 Err(reason) => reasons.push(format!("compression, line {line}: {reason}")),
             }
         }
-        let evidence = Evidence::of_rows(&grid.sheet, &[], export.path);
-        let told = evidence.direction().ok().filter(|_| evidence.bias().is_none());
-        let given = told.map(|told| Given { direction: told.value, why: told.why });
-        let of_tables = results(grid, &without, given.as_ref());
-        let sheet = |note: String| match grid.sheet.as_str() {
+
+        // The name of the sheet or the file may name the direction of all values.
+        let evidence = Evidence::from_rows(&grid.sheet, &[], export.path);
+        let direction = evidence.direction().ok().filter(|_| evidence.bias().is_none());
+        let assumed = direction
+            .map(|direction| AssumedDirection { direction: direction.value, why: direction.why });
+        let of_tables = results(grid, &without, assumed.as_ref());
+        reasons.extend(of_tables.notes.into_iter().map(|note| match grid.sheet.as_str() {
             "" => note,
             sheet => format!("sheet \"{sheet}\": {note}"),
-        };
-        reasons.extend(of_tables.notes.into_iter().map(sheet));
+        }));
         for (fabric, values) in of_tables.fabrics {
             all.extend(values.into_iter().map(|value| (fabric.clone(), value)));
         }
+
         let table = (export.name.clone(), grid.sheet.clone());
         self.values.extend(all.into_iter().map(|(fabric, value)| FileValue {
             fabric,
@@ -166,37 +174,20 @@ impl Parts {
         }));
     }
 
-    /// Joins curves of several files that are alike: the repeats of a laboratory. Arches are no repeats: they
-    /// buckle up or down.
+    /// Joins curves of several files that are repeats of one test. Arches are never joined, because
+    /// they may buckle up or down.
     fn join_repeats(&mut self, folder: &Path) {
         let mut joined: Vec<CurveDraft> = Vec::new();
         for curve in std::mem::take(&mut self.curves) {
-            let direction = |curve: &CurveDraft| curve.direction.as_ref().ok().map(|d| d.value);
-            let plain = |keys: &[Key]| -> Vec<(&'static str, String)> {
-                let told = keys.iter().filter(|key| !["header", "decimal"].contains(&key.name));
-                told.map(|key| (key.name, key.value.clone())).collect()
-            };
-            let alike = |other: &&mut CurveDraft| {
-                curve.test.value != Test::LoopBending
-                    && other.test.value == curve.test.value
-                    && direction(other) == direction(&curve)
-                    && plain(&other.layout) == plain(&curve.layout)
-                    && (0..2).all(|axis| plain(&other.axes[axis]) == plain(&curve.axes[axis]))
-            };
-            let gauge = |draft: &CurveDraft| draft.read(folder).ok()?.first()?.gauge;
-            let is_as_long = |other: &CurveDraft| {
-                let lengths = gauge(other).zip(gauge(&curve));
-                lengths.is_none_or(|(a, b)| (a / b - 1.0).abs() < REPEAT_GAUGE)
-            };
-            let is_repeat = |other: &&mut CurveDraft| alike(other) && is_as_long(other);
-            if let Some(other) = joined.iter_mut().find(is_repeat) {
-                let mut both = other.clone();
+            let is_repeat = |other: &&mut CurveDraft| are_alike(other, &curve, folder);
+            if let Some(first) = joined.iter_mut().find(is_repeat) {
+                let mut both = first.clone();
                 both.files.extend(curve.files.clone());
                 if both.layout != curve.layout {
-                    both.layout.retain(|key| !["header", "decimal"].contains(&key.name));
+                    both.layout.retain(|key| !FILE_KEYS.contains(&key.name));
                 }
                 if both.read(folder).is_ok() {
-                    *other = both;
+                    *first = both;
                     continue;
                 }
             }
@@ -205,18 +196,18 @@ impl Parts {
         self.curves = joined;
     }
 
-    /// Returns the mistake of files without anything to read.
+    /// Returns the mistake of `files` without a curve or value.
     pub(crate) fn nothing(&self, files: &Path) -> Diagnostics {
-        let all = &self.unread;
         let is_folder = files.is_dir();
-        if all.is_empty() {
-            let what = if is_folder { "folder" } else { "archive" };
-            let finding = Diagnostic::new(files, format!("the {what} holds no files"));
+        if self.unread.is_empty() {
+            let kind = if is_folder { "folder" } else { "archive" };
+            let finding = Diagnostic::new(files, format!("the {kind} holds no files"));
             return finding.help("export the curves from the instrument's program into it").into();
         }
-        let one = |(name, reason): &(String, String)| format!("{name}: {reason}");
-        let reasons: Vec<String> = all.iter().take(10).map(one).collect();
-        let message = match (is_folder, all.as_slice()) {
+
+        let reasons: Vec<String> =
+            self.unread.iter().take(10).map(|(name, reason)| format!("{name}: {reason}")).collect();
+        let message = match (is_folder, self.unread.as_slice()) {
             (false, [(_, reason)]) => format!("there is no curve and no value in it: {reason}"),
             (false, _) => {
                 format!("no file of the archive is a curve or a value: {}", reasons.join("; "))
@@ -230,8 +221,43 @@ impl Parts {
     }
 }
 
-/// Returns the values of a compression curve.
-fn of_compression(c: compression::Compression, line: usize) -> Vec<Averaged> {
+/// Keys of the layout that may differ between the files of repeats.
+const FILE_KEYS: [&str; 2] = ["header", "decimal"];
+
+/// Returns whether two drafts are repeats of one test: their keys agree, and their gauges are
+/// equal.
+fn are_alike(first: &CurveDraft, second: &CurveDraft, folder: &Path) -> bool {
+    /// Relative difference of the gauges of two curves above which the curves are no repeats.
+    const REPEAT_GAUGE: f64 = 0.1;
+
+    let [direction, other_direction] =
+        [first, second].map(|curve| curve.direction.as_ref().ok().map(|direction| direction.value));
+    let have_one_layout = first.test.value != Test::LoopBending
+        && first.test.value == second.test.value
+        && direction == other_direction
+        && have_equal_keys(&first.layout, &second.layout)
+        && first.axes.iter().zip(&second.axes).all(|(a, b)| have_equal_keys(a, b));
+    // The files are read only if the keys agree, because reading takes time.
+    have_one_layout && {
+        let [gauge, other_gauge] =
+            [first, second].map(|curve| curve.read(folder).ok()?.first()?.gauge);
+        gauge.zip(other_gauge).is_none_or(|(a, b)| (a / b - 1.0).abs() < REPEAT_GAUGE)
+    }
+}
+
+/// Returns whether two lists of keys agree, except in the keys that may differ between files.
+fn have_equal_keys(first: &[Key], second: &[Key]) -> bool {
+    let [first, second] = [first, second].map(|keys| {
+        keys.iter()
+            .filter(|key| !FILE_KEYS.contains(&key.name))
+            .map(|key| (key.name, &key.value))
+            .collect::<Vec<_>>()
+    });
+    first == second
+}
+
+/// Returns the values of the compression curve on `line` as values of a sheet.
+fn compression_values(c: compression::Compression, line: usize) -> Vec<AveragedValue> {
     let values = [
         ("T0", Some(c.t0), Quantity::Length),
         ("TM", Some(c.tm), Quantity::Length),
@@ -239,31 +265,31 @@ fn of_compression(c: compression::Compression, line: usize) -> Vec<Averaged> {
         ("WC", Some(c.wc), Quantity::WorkPerArea),
         ("RC", c.rc, Quantity::Ratio),
     ];
-    let value = |(key, number, quantity): (&'static str, Option<f64>, Quantity)| {
+    let mut values_of_sheet = Vec::new();
+    for (key, number, quantity) in values {
+        let Some(number) = number else { continue };
         let unit = quantity.laboratory();
-        Some(Averaged {
+        values_of_sheet.push(AveragedValue {
             item: Item::Key(key),
             direction: None,
-            // The digits of the curve, not those of the sum.
-            number: rounded(number?, 6),
+            // The integral has no more digits than the curve.
+            number: rounded(number, 6),
             deviation: None,
             unit: parse_unit(unit.spelling, &[quantity]).ok().filter(|_| key != "LC"),
             lines: (line, line),
             remark: "from a compression curve".to_owned(),
-        })
-    };
-    values.into_iter().filter_map(value).collect()
+        });
+    }
+    values_of_sheet
 }
 
-/// Returns why a file has no curve and no value.
-fn why_nothing(path: &Path, file: &TableFile) -> Vec<String> {
+/// Returns the reasons why `file` has no curve and no value.
+fn reason_for_nothing(path: &Path, file: &TableFile) -> Vec<String> {
     let mut rows = 0;
     for grid in &file.grids {
-        let found = blocks(grid, Lines::default());
-        if let Some(block) = found.blocks.iter().max_by_key(|block| block.rows.len()) {
-            rows += block.rows.len();
-        }
-        let evidence = Evidence::of_rows(&grid.sheet, &grid.rows, path);
+        let blocks = blocks(grid, Lines::default()).blocks;
+        rows += blocks.iter().map(|block| block.rows.len()).max().unwrap_or(0);
+        let evidence = Evidence::from_rows(&grid.sheet, &grid.rows, path);
         if let Some(other) = evidence.other_test().filter(|_| rows > 0) {
             let help = match other.value {
                 "surface" => "write MIU, MMD, SMD of its program",
@@ -272,6 +298,7 @@ fn why_nothing(path: &Path, file: &TableFile) -> Vec<String> {
             return vec![format!("{} it is a {} test: {help} as values", other.why, other.value)];
         }
     }
+
     if rows == 0 {
         return vec!["it has no rows of numbers".to_owned()];
     }
