@@ -90,7 +90,7 @@ impl<'a> Clip<'a> {
 
     /// Returns the number of frames, at least 1.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub fn frame_count(&self) -> usize {
         self.frames.len()
     }
 
@@ -130,7 +130,7 @@ impl<'a> Clip<'a> {
     /// Returns so many of the frames at most, with the first and the last, evenly by number.
     #[must_use]
     pub fn thinned(&self, most: usize) -> Clip<'a> {
-        let count = self.count();
+        let count = self.frame_count();
         if count <= most {
             return self.clone();
         }
@@ -205,7 +205,7 @@ mod tests {
     fn what_there_is_not_is_refused() {
         let folder = example::folder(&[0.0, 0.1]);
         let recording = Recording::open(folder.path()).unwrap();
-        let clip = |range, rate| Clip::new(&recording, range, rate).map(|clip| clip.count());
+        let clip = |range, rate| Clip::new(&recording, range, rate).map(|clip| clip.frame_count());
         assert!(matches!(clip(0..=2, None), Err(Error::Frames(_))));
         assert!(matches!(clip(0..=1, Some(0.0)), Err(Error::BadRate { .. })));
         assert!(matches!(clip(0..=1, Some(f64::NAN)), Err(Error::BadRate { .. })));

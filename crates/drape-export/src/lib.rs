@@ -37,6 +37,6 @@ pub use format::pc2::write_pc2;
 pub use format::svg::{PatternMap, write_svg};
 pub use format::table::write_csv;
 pub use format::usda::write_usda;
-pub use format::vtk::{Listed, PolyData, Surface, write_pvd, write_vtp};
+pub use format::vtk::{CollectionFile, PolyData, Surface, write_pvd, write_vtp};
 pub use scale::rounded_up;
 pub use view::{Named, View};

@@ -102,7 +102,7 @@ impl Track {
         let mut tracks = vec![Track::default(); meshes.len()];
         let panels = meshes.iter().any(|mesh| matches!(mesh.kind, Kind::Panel(_)));
         let mut bodies_file = None;
-        for index in 0..clip.count() {
+        for index in 0..clip.frame_count() {
             let frame = clip.read(index)?;
             let moved = index == 0 || frame.bodies_file != bodies_file;
             let (manifest, topology) = (clip.recording().manifest(), clip.recording().topology());

@@ -6,7 +6,7 @@
 //! of [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] makes a [`CutPattern`] of it: a
 //! [`Cut`] of each panel and the [`SeamNodes`] of each seam. [`Quality`] measures a cut, [`figure`]
 //! draws it. What is wrong is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the
-//! file; what only should be known is a [`Note`].
+//! file; what only should be known is a [`PatternNote`].
 //!
 //! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; the
 //! chapters `panel` and `pattern`, `sketch`; the chapters `read` and `cut`; `write`.
@@ -39,7 +39,7 @@ pub use ease::{DEFAULT_EASE, MAX_EASE};
 pub use edge::{Curve, Edge};
 pub use error::Error;
 pub use mistake::Mistake;
-pub use note::Note;
+pub use note::PatternNote;
 pub use panel::dart::{Dart, OpenDart};
 pub use panel::placement::Placement;
 pub use panel::{Fold, Panel};
@@ -47,6 +47,6 @@ pub use pattern::Pattern;
 pub use pattern::seam::{EdgeId, Seam};
 #[cfg(feature = "schema")]
 pub use read::pattern_schema;
-pub use read::{Place, Request, SeamKeys, Unit};
-pub use sketch::{Sketch, Wrong};
+pub use read::{PatternTable, Request, SeamKeys, Unit};
+pub use sketch::{Sketch, SketchFault};
 pub use write::{Page, Paper, figure, seam_colour};

@@ -2,11 +2,11 @@
 
 use crate::length::{Extents, Millimetres};
 
-/// Note on a pattern or its cut that its user should know, and that prevents nothing. Lengths are
+/// PatternNote on a pattern or its cut that its user should know, and that prevents nothing. Lengths are
 /// in m.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Note {
+pub enum PatternNote {
     /// The outline was given clockwise.
     #[error("panel {panel}: its outline ran clockwise and was reversed")]
     Reversed {

@@ -7,7 +7,7 @@ pub(crate) mod seam;
 use crate::ease::MAX_EASE;
 use crate::edge::{Edge, distance};
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::panel::dart::Dart;
 use chain::turn_listings;
@@ -31,7 +31,7 @@ use seam::{EdgeId, Seam};
 pub struct Pattern {
     panels: Vec<Panel>,
     seams: Vec<Seam>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
 }
 
 impl Pattern {
@@ -59,8 +59,8 @@ impl Pattern {
     }
 
     /// Returns the notes of its reader.
-    pub(crate) fn reader_notes(&self) -> Vec<Note> {
-        let of_reader = |note: &&Note| !matches!(note, Note::Twisted { .. });
+    pub(crate) fn reader_notes(&self) -> Vec<PatternNote> {
+        let of_reader = |note: &&PatternNote| !matches!(note, PatternNote::Twisted { .. });
         self.notes.iter().filter(of_reader).cloned().collect()
     }
 
@@ -72,19 +72,21 @@ impl Pattern {
         let name = self.panels[panel].name().to_owned();
         self.panels[panel] = self.panels[panel].clone().with_grain(grain)?;
         for note in &mut self.notes {
-            if let Note::NoGrain { panels } = note {
+            if let PatternNote::NoGrain { panels } = note {
                 panels.retain(|other| *other != name);
             }
         }
-        self.notes.retain(|note| !matches!(note, Note::NoGrain { panels } if panels.is_empty()));
+        self.notes
+            .retain(|note| !matches!(note, PatternNote::NoGrain { panels } if panels.is_empty()));
         Ok(self)
     }
 
     /// Returns the pattern with the notes of its reader, and notes on seams that seem twisted.
-    pub(crate) fn with_notes(mut self, notes: Vec<Note>) -> Self {
+    pub(crate) fn with_notes(mut self, notes: Vec<PatternNote>) -> Self {
         let twisted = (0..self.seams.len()).filter_map(|k| self.twisted(k));
         let sewn = !self.seams.is_empty();
-        let notes = notes.into_iter().filter(|n| !(sewn && matches!(n, Note::NoSeams { .. })));
+        let notes =
+            notes.into_iter().filter(|n| !(sewn && matches!(n, PatternNote::NoSeams { .. })));
         self.notes = notes.chain(twisted).collect();
         self
     }
@@ -103,7 +105,7 @@ impl Pattern {
 
     /// Notes on the pattern for its user.
     #[must_use]
-    pub fn notes(&self) -> &[Note] {
+    pub fn notes(&self) -> &[PatternNote] {
         &self.notes
     }
 
@@ -221,7 +223,7 @@ impl Pattern {
 
     /// Returns a note if the ends of a seam lie much closer to each other in space when it is
     /// reversed.
-    fn twisted(&self, index: usize) -> Option<Note> {
+    fn twisted(&self, index: usize) -> Option<PatternNote> {
         let seam = &self.seams[index];
         let [first, second] = &seam.sides;
         let end = |id: EdgeId, at_end: bool| {
@@ -237,6 +239,6 @@ impl Pattern {
         let given = apart(a, c).max(apart(b, d));
         let reversed = apart(a, d).max(apart(b, c));
         let name = seam.name.clone();
-        (given > 2.0 * reversed).then_some(Note::Twisted { seam: name, given, reversed })
+        (given > 2.0 * reversed).then_some(PatternNote::Twisted { seam: name, given, reversed })
     }
 }

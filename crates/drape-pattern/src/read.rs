@@ -35,7 +35,7 @@ use crate::sketch::Sketch;
 use diagnostic::{foreign, syntax};
 
 pub use request::Request;
-pub use seams::{Place, SeamKeys};
+pub use seams::{PatternTable, SeamKeys};
 #[cfg(feature = "schema")]
 pub use toml_file::keys::pattern_schema;
 pub use unit::Unit;

@@ -42,7 +42,7 @@ struct SketchSeam {
 /// What is wrong in a sketch: a part of it, with the place where that is known, in the frame of the
 /// panel, in m.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wrong {
+pub struct SketchFault {
     /// The part.
     pub subject: Subject,
     /// The place.
@@ -52,7 +52,7 @@ pub struct Wrong {
 impl Sketch {
     /// Returns the sketch of a sound pattern.
     #[must_use]
-    pub fn of(pattern: &Pattern) -> Self {
+    pub fn from_pattern(pattern: &Pattern) -> Self {
         let mut sketch = Self::default();
         pattern.panels().iter().for_each(|panel| sketch.put(panel));
         for seam in pattern.seams() {
@@ -115,7 +115,7 @@ impl Sketch {
     }
 
     /// Returns whether an edge of a panel is wrong, as data says it.
-    pub(crate) fn is_wrong(&self, panel: &SketchPanel, edge: &Edge, wrong: &[Wrong]) -> bool {
+    pub(crate) fn is_wrong(&self, panel: &SketchPanel, edge: &Edge, wrong: &[SketchFault]) -> bool {
         let word = format!("{}.{}", panel.name, edge.name);
         let part = |whole: &String| edge_is_part(&word, whole);
         wrong.iter().any(|wrong| match &wrong.subject {
@@ -179,10 +179,10 @@ impl SketchPanel {
     }
 }
 
-impl Wrong {
+impl SketchFault {
     /// Returns what a mistake finds wrong in a pattern; `None` of the spacing.
     #[must_use]
-    pub fn of(mistake: &Mistake) -> Option<Self> {
+    pub fn from_mistake(mistake: &Mistake) -> Option<Self> {
         Some(Self { subject: mistake.subject()?, at: mistake.place() })
     }
 }

@@ -32,7 +32,7 @@ const INDICES: u32 = 34963;
 /// Frames cannot be read, the file would be larger than the format allows, or those of the writer.
 pub fn write_glb(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.thinned(GLB_FRAMES_MAX);
-    let last = clip.read(clip.count() - 1)?;
+    let last = clip.read(clip.frame_count() - 1)?;
     let meshes = mesh::meshes(clip.recording(), &last);
     let tracks = Track::read(&clip, &meshes)?;
     let mut file = Document::default();
@@ -188,7 +188,7 @@ impl Document {
         let view = self.begin(None, None);
         let times: Vec<[f32; 1]> = clip.seconds().iter().map(|seconds| [*seconds as f32]).collect();
         let input = self.floats(&view, &times, true);
-        let (frames, targets) = (clip.count(), clip.count() - 1);
+        let (frames, targets) = (clip.frame_count(), clip.frame_count() - 1);
         let weight = |at: usize| [f32::from(u8::from(at / targets == at % targets))];
         let weights: Vec<[f32; 1]> = (0..frames * targets).map(weight).collect();
         let output = self.floats(&view, &weights, false);

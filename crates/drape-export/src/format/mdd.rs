@@ -19,12 +19,12 @@ use crate::error::Error;
 pub fn write_mdd(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.resampled();
     let points = clip.recording().topology().material.len();
-    to.write_all(&count("MDD", "frames", clip.count())?.to_be_bytes())?;
+    to.write_all(&count("MDD", "frames", clip.frame_count())?.to_be_bytes())?;
     to.write_all(&count("MDD", "points", points)?.to_be_bytes())?;
     for seconds in clip.seconds() {
         to.write_all(&(seconds as f32).to_be_bytes())?;
     }
-    for index in 0..clip.count() {
+    for index in 0..clip.frame_count() {
         let frame = clip.read(index)?;
         let numbers = frame.cloth.iter().flatten();
         let bytes: Vec<u8> = numbers.flat_map(|part| (*part as f32).to_be_bytes()).collect();

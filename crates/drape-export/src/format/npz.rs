@@ -23,7 +23,7 @@ use crate::mesh;
 pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
     let (manifest, topology) = (clip.recording().manifest(), clip.recording().topology());
     let mut archive = Archive { zip: zip::ZipWriter::new(to) };
-    let frames = clip.count();
+    let frames = clip.frame_count();
     let shape = [frames, topology.material.len(), 3];
     archive.array("positions", &shape, |clip_index| {
         Ok(clip.read(clip_index)?.cloth.into_flattened())
@@ -80,7 +80,7 @@ fn owners(parts: &[Part]) -> Vec<u32> {
 /// Returns whether bodies move between frames of a clip.
 fn bodies_move(clip: &Clip) -> Result<bool, Error> {
     let first = clip.read(0)?;
-    for index in 1..clip.count() {
+    for index in 1..clip.frame_count() {
         let Frame { bodies_file, bodies, .. } = clip.read(index)?;
         if bodies_file != first.bodies_file && bodies != first.bodies {
             return Ok(true);

@@ -23,8 +23,8 @@ pub fn write_pc2(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let (first, frames_per_sample) = (0.0_f32, 1.0_f32);
     to.write_all(&first.to_le_bytes())?;
     to.write_all(&frames_per_sample.to_le_bytes())?;
-    to.write_all(&count("PC2", "frames", clip.count())?.to_le_bytes())?;
-    for index in 0..clip.count() {
+    to.write_all(&count("PC2", "frames", clip.frame_count())?.to_le_bytes())?;
+    for index in 0..clip.frame_count() {
         let frame = clip.read(index)?;
         let numbers = frame.cloth.iter().flatten();
         let bytes: Vec<u8> = numbers.flat_map(|part| (*part as f32).to_le_bytes()).collect();

@@ -38,7 +38,7 @@ pub fn write_usda(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let mut left = &meshes[..];
     let mut names = names.iter();
     while !left.is_empty() {
-        let (group, others) = left.split_at(fit(left, clip.count()));
+        let (group, others) = left.split_at(fit(left, clip.frame_count()));
         for ((mesh, track), name) in group.iter().zip(Track::read(clip, group)?).zip(&mut names) {
             let samples = Samples { codes: &codes, samples: &track.samples };
             prim(&Prim { mesh, name }, &samples, &mut to)?;

@@ -95,7 +95,7 @@ pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
 
 /// File of a list, with its time in s.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Listed {
+pub struct CollectionFile {
     /// Time, in s.
     pub time: f64,
     /// Path of the file, from the folder of the list, with slashes.
@@ -108,13 +108,13 @@ pub struct Listed {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_pvd(files: &[Listed], mut to: impl Write) -> Result<(), Error> {
+pub fn write_pvd(files: &[CollectionFile], mut to: impl Write) -> Result<(), Error> {
     writeln!(to, "<?xml version=\"1.0\"?>")?;
     writeln!(
         to,
         "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>"
     )?;
-    for Listed { time, file, surface } in files {
+    for CollectionFile { time, file, surface } in files {
         let (part, name) = match surface {
             Surface::Cloth => (0, "cloth"),
             Surface::Bodies => (1, "bodies"),
@@ -279,7 +279,7 @@ mod tests {
     #[test]
     fn the_list_has_every_file_whatever_its_name() {
         let name = "a \"b\" <&> 'c'\n袖/run-00000.vtp";
-        let files = [Surface::Cloth, Surface::Bodies].map(|surface| Listed {
+        let files = [Surface::Cloth, Surface::Bodies].map(|surface| CollectionFile {
             time: 0.25,
             file: name.to_owned(),
             surface,

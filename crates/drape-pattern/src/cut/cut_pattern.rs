@@ -2,7 +2,7 @@
 
 use super::panel_cut::Cut;
 use super::seam_nodes::SeamNodes;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::pattern::partition::Partition;
 
 /// Pattern cut at one spacing.
@@ -15,14 +15,14 @@ pub struct CutPattern {
     /// Nodes of the seams, in the order of the pattern.
     pub seams: Vec<SeamNodes>,
     /// Notes on the cut for its user.
-    pub notes: Vec<Note>,
+    pub notes: Vec<PatternNote>,
 }
 
 impl CutPattern {
     /// Returns the number of particles when all seams are closed: the nodes of a pair are one
     /// particle, and tied nodes are none.
     #[must_use]
-    pub fn particles(&self) -> usize {
+    pub fn particle_count(&self) -> usize {
         let mut first = Vec::new();
         let mut count = 0;
         for cut in &self.panels {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::panel_cut::Cut;
 use super::rim::angles;
 use crate::edge::{difference, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 
 /// Number of points at which the outline is compared with each chord.
@@ -79,7 +79,7 @@ impl Cut {
     /// Returns a note on the narrowest part of the panel if it is thin: the shortest distance
     /// between nodes of the outline that are far apart along it and joined by one edge, or by two
     /// through one node.
-    pub(crate) fn thin_part(&self, spacing: f64) -> Option<Note> {
+    pub(crate) fn thin_part(&self, spacing: f64) -> Option<PatternNote> {
         // Number of the closed line of each node on one, place along the line, and length of the line.
         let mut along = vec![None; self.positions.len()];
         for (number, line) in self.lines().enumerate() {
@@ -109,7 +109,7 @@ impl Cut {
             .flat_map(|(_, all)| all.iter().flat_map(move |&a| all.iter().map(move |&b| (a, b))));
         let widths = direct.chain(through).filter_map(|(a, b)| width(a, b));
         let (width, node) = widths.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Note::Thin { panel: self.panel.clone(), width, at: at(node), spacing })
+        Some(PatternNote::Thin { panel: self.panel.clone(), width, at: at(node), spacing })
     }
 }
 

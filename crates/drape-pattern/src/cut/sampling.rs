@@ -10,7 +10,7 @@ use super::seam_nodes::{NodeId, SeamNodes, Tie};
 use super::simplify::Simplifier;
 use crate::edge::{Curve, Edge};
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 use crate::pattern::partition::Partition;
@@ -54,7 +54,7 @@ pub(crate) struct SampledPattern {
     pub panels: Vec<SampledPanel>,
     /// Nodes of each seam.
     pub seams: Vec<SeamNodes>,
-    pub notes: Vec<Note>,
+    pub notes: Vec<PatternNote>,
 }
 
 impl SampledPattern {

@@ -5,7 +5,7 @@
 
 use super::breakpoint::{Breakpoints, SeamPiece};
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 
@@ -33,7 +33,7 @@ struct Partner {
 /// Result of a simplification: notes on what was joined, mistakes of what could not be.
 #[derive(Debug, Default)]
 pub(crate) struct Simplified {
-    pub notes: Vec<Note>,
+    pub notes: Vec<PatternNote>,
     pub mistakes: Vec<Mistake>,
 }
 
@@ -93,7 +93,7 @@ impl Simplifier<'_> {
 
     /// Makes one breakpoint of the ends of short pieces, given with their lengths, in m, and the
     /// breakpoints before them; returns notes on those of which that could be done.
-    fn collapse(&mut self, short: &[(f64, usize)]) -> Vec<Note> {
+    fn collapse(&mut self, short: &[(f64, usize)]) -> Vec<PatternNote> {
         let mut notes = Vec::new();
         for &(length, point) in short {
             // An earlier one may have changed it.
@@ -104,7 +104,7 @@ impl Simplifier<'_> {
             }
             let EdgeName { panel, edge } = self.edge_after(point);
             if self.breakpoints.collapse(point) {
-                notes.push(Note::Merged { panel, edge, length, spacing: self.spacing });
+                notes.push(PatternNote::Merged { panel, edge, length, spacing: self.spacing });
             }
         }
         notes
@@ -112,7 +112,7 @@ impl Simplifier<'_> {
 
     /// Removes the smooth breakpoints inside runs of short pieces, of which digitised outlines
     /// consist.
-    fn dissolve_runs(&mut self, shortest: f64) -> Vec<Note> {
+    fn dissolve_runs(&mut self, shortest: f64) -> Vec<PatternNote> {
         let points = 0..self.breakpoints.points.len();
         let short: Vec<bool> =
             points.clone().map(|point| self.breakpoints.counted_after(point) < shortest).collect();
@@ -128,7 +128,7 @@ impl Simplifier<'_> {
             }
         }
         let panels = self.pattern.panels().iter().zip(lost).filter(|(_, ends)| *ends > 0);
-        let note = |(panel, ends): (&Panel, usize)| Note::Dissolved {
+        let note = |(panel, ends): (&Panel, usize)| PatternNote::Dissolved {
             panel: panel.name().into(),
             ends,
             spacing: self.spacing,
@@ -244,7 +244,7 @@ impl Simplifier<'_> {
     }
 
     /// Returns a note on a piece that loses a breakpoint of a class, if that is the end of an edge.
-    fn note(&self, piece: usize, class: usize) -> Option<Note> {
+    fn note(&self, piece: usize, class: usize) -> Option<PatternNote> {
         let points = &self.breakpoints.points;
         let after = points[piece].neighbours[1];
         let lost = if points[piece].class == class { piece } else { after };
@@ -253,7 +253,13 @@ impl Simplifier<'_> {
         let neighbour = if lost == piece { points[piece].neighbours[0] } else { after };
         let with = self.edge_after(neighbour).edge;
         let length = self.breakpoints.length_after(piece);
-        (edge != with).then_some(Note::Joined { panel, edge, with, length, spacing: self.spacing })
+        (edge != with).then_some(PatternNote::Joined {
+            panel,
+            edge,
+            with,
+            length,
+            spacing: self.spacing,
+        })
     }
 
     /// Returns the names of the panel and of the edge in the middle of the piece after a

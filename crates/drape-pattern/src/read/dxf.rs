@@ -24,7 +24,7 @@ use super::request::Request;
 use super::size::Doubt;
 use super::unit::Unit;
 use crate::edge::Edge;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::pattern::Pattern;
 use crate::sketch::Sketch;
 
@@ -63,7 +63,7 @@ pub(crate) fn read(
             None => return Err(doubt.question(document, request, unit.word()).into()),
         }
     }
-    notes.push(Note::NoSeams { format: "DXF" });
+    notes.push(PatternNote::NoSeams { format: "DXF" });
     match Pattern::new(panels, Vec::new()) {
         Ok(pattern) => Ok(pattern.with_notes(notes)),
         Err(all) => Err(Diagnostics(
@@ -118,9 +118,9 @@ fn unit(
     contents: &Contents,
     request: &Request,
     pieces: &[&Block],
-) -> Result<(Unit, Note), Diagnostics> {
+) -> Result<(Unit, PatternNote), Diagnostics> {
     let taken = |unit: Unit, reason: String| {
-        (unit, Note::Taken { taken: format!("lengths are in {}", unit.word()), reason })
+        (unit, PatternNote::Taken { taken: format!("lengths are in {}", unit.word()), reason })
     };
     if let Some(unit) = request.unit {
         return Ok(taken(unit, "it is asked for".into()));
@@ -183,7 +183,7 @@ fn of_size<'a>(
     contents: &Contents,
     request: &Request,
     pieces: Vec<&'a Block>,
-) -> Result<(Vec<&'a Block>, Option<Note>), Diagnostics> {
+) -> Result<(Vec<&'a Block>, Option<PatternNote>), Diagnostics> {
     let size = |block: &Block| field(block, "size");
     let sizes: BTreeSet<String> = pieces.iter().filter_map(|block| size(block)).collect();
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
@@ -210,7 +210,7 @@ fn of_size<'a>(
         (None, _) if !graded => return Ok((pieces, None)),
         (None, Some(sample)) if sizes.contains(&sample) => {
             let taken = format!("the size is {sample} of {list}");
-            note = Some(Note::Taken { taken, reason: "it is the sample size".into() });
+            note = Some(PatternNote::Taken { taken, reason: "it is the sample size".into() });
             sample
         }
         (None, _) => {

@@ -14,7 +14,7 @@ use super::diagnostic::{diagnostic, syntax};
 use super::marks::{add_notch, grain_of, says_on_fold, unfold};
 use super::size::{Doubt, wrong_size};
 use crate::edge::{Curve, Edge, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 use crate::sketch::Sketch;
@@ -164,7 +164,7 @@ struct Reader<'a> {
     document: &'a Document,
     sketch: &'a mut Sketch,
     mistakes: Vec<Diagnostic>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
     grainless: Vec<String>,
 }
 
@@ -195,9 +195,9 @@ pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, 
         reader.mistakes.push(Diagnostic::new(document.path(), message).help(help));
     }
     if !reader.grainless.is_empty() {
-        reader.notes.push(Note::NoGrain { panels: reader.grainless });
+        reader.notes.push(PatternNote::NoGrain { panels: reader.grainless });
     }
-    reader.notes.push(Note::NoSeams { format: "a FreeSewing draft" });
+    reader.notes.push(PatternNote::NoSeams { format: "a FreeSewing draft" });
     if reader.mistakes.is_empty() {
         let doubt = Doubt::of_file(&panels, UNIT);
         reader.notes.extend(doubt.map(|doubt| doubt.note()));
@@ -232,11 +232,12 @@ impl Reader<'_> {
         notches(&mut edges, part);
         let fold = line("__macro_cutonfold").or_else(|| part.said_fold());
         match fold.and_then(|fold| unfold(&mut edges, fold)) {
-            Some(edge) => self.notes.push(Note::Unfolded { panel: name.into(), edge }),
+            Some(edge) => self.notes.push(PatternNote::Unfolded { panel: name.into(), edge }),
             None => {
                 let text = part.texts().find(|text| says_on_fold(text));
                 let text = text.or(fold.map(|_| "cut on fold"));
-                let half = text.map(|text| Note::Half { panel: name.into(), text: text.into() });
+                let half =
+                    text.map(|text| PatternNote::Half { panel: name.into(), text: text.into() });
                 self.notes.extend(half);
             }
         }
@@ -255,7 +256,7 @@ impl Reader<'_> {
         }
         self.mistakes.extend(wrong_size(&panel).map(|m| diagnostic(self.document, &m)));
         if panel.was_clockwise() {
-            self.notes.push(Note::Reversed { panel: name.into() });
+            self.notes.push(PatternNote::Reversed { panel: name.into() });
         }
         panel.with_grain(grain.unwrap_or_default()).ok()
     }
@@ -289,11 +290,11 @@ impl Reader<'_> {
                 } else {
                     format!("no closed path among {}", known.join(", "))
                 };
-                self.notes.push(Note::LeftOut { part: format!("part {name}"), reason });
+                self.notes.push(PatternNote::LeftOut { part: format!("part {name}"), reason });
                 return None;
             }
         };
-        self.notes.push(Note::Taken {
+        self.notes.push(PatternNote::Taken {
             taken: format!("panel {name}: its outline is the path \"{key}\""),
             reason: "there is no \"seam\", and it is the closed path round the largest area".into(),
         });

@@ -15,7 +15,7 @@ use super::diagnostic::{diagnostic, syntax};
 use super::size::{Doubt, wrong_size};
 use crate::ease::MAX_EASE;
 use crate::edge::{Curve, Edge};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::panel::placement::Placement;
 use crate::pattern::Pattern;
@@ -69,7 +69,7 @@ struct Reader<'a> {
     document: &'a Document,
     sketch: &'a mut Sketch,
     mistakes: Vec<Diagnostic>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
     /// Unit of lengths of the file, in m.
     metres: f64,
     /// Whether control points are absolute.
@@ -152,7 +152,7 @@ impl Reader<'_> {
             match Pattern::new(panels, seams) {
                 Ok(pattern) => {
                     // The format has no grain.
-                    self.notes.push(Note::NoGrain { panels: order });
+                    self.notes.push(PatternNote::NoGrain { panels: order });
                     return Ok(pattern.with_notes(self.notes));
                 }
                 Err(all) => self.mistakes.extend(all.iter().map(|m| diagnostic(self.document, m))),
@@ -225,7 +225,7 @@ impl Reader<'_> {
         if !panel.was_clockwise() {
             return Some(panel);
         }
-        self.notes.push(Note::TurnedOver { panel: name.into() });
+        self.notes.push(PatternNote::TurnedOver { panel: name.into() });
         Some(panel.turned_over())
     }
 

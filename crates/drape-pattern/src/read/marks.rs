@@ -2,7 +2,7 @@
 
 use super::fit::distance_from_segment;
 use crate::edge::{Curve, Edge, difference, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 
 /// Distance below which a point lies on a line, in m.
 const ON_LINE: f64 = 5e-5;
@@ -144,7 +144,7 @@ const SEWING: f64 = 0.6;
 
 /// Returns those outlines that are panels, each under a name of its own. Small ones are marks; one
 /// that lies in another is its sewing line if it is nearly as large, and else a mark or a hole.
-pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline> {
+pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<PatternNote>) -> Vec<Outline> {
     struct Measured {
         number: usize,
         outline: Outline,
@@ -165,7 +165,10 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
     }
     if small > 0 {
         let reason = "marks, not panels".into();
-        notes.push(Note::LeftOut { part: format!("{small} closed shapes under 20 mm"), reason });
+        notes.push(PatternNote::LeftOut {
+            part: format!("{small} closed shapes under 20 mm"),
+            reason,
+        });
     }
     measured.sort_by(|a, b| b.area.total_cmp(&a.area));
     let mut kept: Vec<Measured> = Vec::new();
@@ -188,12 +191,12 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
             );
             let reason =
                 format!("the other, \"{}\", runs round it and is the cut line", outer.outline.name);
-            notes.push(Note::Taken { taken, reason });
+            notes.push(PatternNote::Taken { taken, reason });
             *outer = inner;
         } else {
             let part = format!("a closed shape \"{}\"", inner.outline.name);
             let reason = format!("it lies in panel {}: a hole or a mark", outer.outline.name);
-            notes.push(Note::LeftOut { part, reason });
+            notes.push(PatternNote::LeftOut { part, reason });
         }
     }
     // In the order of the file.

@@ -48,7 +48,7 @@ pub struct SeamKeys {
 
 /// Place of a table with seams and panels in a file.
 #[derive(Debug, Clone, Copy)]
-pub struct Place<'a> {
+pub struct PatternTable<'a> {
     /// File that states them.
     pub document: &'a Document,
     /// Key of the table, with a dot at its end; empty at the top of the file.
@@ -57,7 +57,7 @@ pub struct Place<'a> {
     pub unit: f64,
 }
 
-impl Place<'_> {
+impl PatternTable<'_> {
     /// Returns a mistake at a key of the table.
     pub(crate) fn at(&self, key: &str, message: impl Into<String>, help: &str) -> Diagnostic {
         self.document.at(&format!("{}{key}", self.prefix), message).help(help)
@@ -93,7 +93,7 @@ pub(crate) type Known<'a> = Vec<(&'a str, Option<&'a Panel>)>;
 
 /// Returns the seams that a file states, or all mistakes of their keys.
 pub(crate) fn seams(
-    place: &Place<'_>,
+    place: &PatternTable<'_>,
     keys: &BTreeMap<String, SeamKeys>,
     known: &Known<'_>,
 ) -> Result<Vec<Seam>, Vec<Diagnostic>> {
@@ -192,7 +192,7 @@ pub(crate) fn merged(mut own: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
 }
 
 /// Returns the answer to a mistake of a pattern whose seams or panels a file states.
-pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
+pub(crate) fn located(place: &PatternTable<'_>, mistake: &Mistake) -> Diagnostic {
     let subject = mistake.subject();
     let key = match &subject {
         Some(Subject::Edge { panel, .. } | Subject::Panel(panel)) => {
@@ -211,7 +211,7 @@ pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
 
 /// Returns the answer to a mistake of a pattern to which a file adds seams.
 pub(crate) fn answer(
-    place: &Place<'_>,
+    place: &PatternTable<'_>,
     mistake: &Mistake,
     seams: &BTreeMap<String, SeamKeys>,
 ) -> Diagnostic {
@@ -237,7 +237,7 @@ impl Pattern {
     pub fn with_seams(
         self,
         seams: &BTreeMap<String, SeamKeys>,
-        place: &Place<'_>,
+        place: &PatternTable<'_>,
     ) -> Result<Self, Diagnostics> {
         let known = self.panels().iter().map(|panel| (panel.name(), Some(panel)));
         let added = self::seams(place, seams, &known.collect()).map_err(Diagnostics)?;

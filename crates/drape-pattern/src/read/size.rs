@@ -5,7 +5,7 @@ use drape_input::{Diagnostic, Document, Subject, toml_string};
 use super::request::Request;
 use super::unit::Unit;
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 
 /// Longest panel, in m: a sari has 9 m, the strip of a ruffle more.
@@ -104,9 +104,9 @@ impl Doubt {
     }
 
     /// Returns the doubt as a note.
-    pub(crate) fn note(&self) -> Note {
+    pub(crate) fn note(&self) -> PatternNote {
         let Self { panel, size, likely, meant } = self.clone();
-        Note::Size { panel, size, likely: likely.word(), meant }
+        PatternNote::Size { panel, size, likely: likely.word(), meant }
     }
 
     /// Returns the doubt as a question to the user of a file whose unit was taken from what it says:

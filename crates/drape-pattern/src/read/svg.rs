@@ -30,7 +30,7 @@ use super::size::{Doubt, wrong_size};
 use super::toml_file;
 use super::unit::Unit;
 use crate::edge::Edge;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 use crate::sketch::Sketch;
@@ -115,7 +115,7 @@ struct Reader<'a> {
     /// Statements that a part is cut on the fold, in m with y up.
     folds: Vec<FoldMark>,
     mistakes: Vec<Diagnostic>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
 }
 
 /// Returns the corners of the bounding box of edges, with their control points.
@@ -232,7 +232,7 @@ impl Reader<'_> {
             if own.is_some() {
                 let taken = format!("panel {name}: its edges are numbered anew");
                 let reason = "their number is another than when the drawing was written".into();
-                self.notes.push(Note::Taken { taken, reason });
+                self.notes.push(PatternNote::Taken { taken, reason });
             }
         }
         let polygon: Vec<[f64; 2]> = edges.iter().flat_map(Edge::polyline).collect();
@@ -265,8 +265,10 @@ impl Reader<'_> {
             Some(line) => panel.with_grain(grain_of(*line)).ok(),
             None => {
                 match self.notes.last_mut() {
-                    Some(Note::NoGrain { panels }) => panels.push(panel.name().into()),
-                    _ => self.notes.push(Note::NoGrain { panels: vec![panel.name().into()] }),
+                    Some(PatternNote::NoGrain { panels }) => panels.push(panel.name().into()),
+                    _ => {
+                        self.notes.push(PatternNote::NoGrain { panels: vec![panel.name().into()] })
+                    }
                 }
                 Some(panel)
             }
@@ -288,8 +290,8 @@ impl Reader<'_> {
         let Some(mark) = marks.first() else { return };
         let fold = marks.iter().find_map(|mark| unfold_beside(edges, mark.line, FOLD_REACH));
         self.notes.push(match fold {
-            Some(edge) => Note::Unfolded { panel: name.into(), edge },
-            None => Note::Half { panel: name.into(), text: mark.text.clone() },
+            Some(edge) => PatternNote::Unfolded { panel: name.into(), edge },
+            None => PatternNote::Half { panel: name.into(), text: mark.text.clone() },
         });
     }
 
@@ -303,7 +305,7 @@ impl Reader<'_> {
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
         let more = tree.descendants().find(|node| node.has_tag_name((NAMESPACE, "pattern")));
         if more.is_none() {
-            self.notes.push(Note::NoSeams { format: "a drawing" });
+            self.notes.push(PatternNote::NoSeams { format: "a drawing" });
         }
         if let Some(doubt) = Doubt::of_drawing(&panels, self.scale) {
             // What nobody can confirm by the name of a unit is not asked.
@@ -326,7 +328,7 @@ impl Reader<'_> {
             let read = file.pattern(Some(pattern), self.sketch)?;
             let mut notes = read.reader_notes();
             if !lost.is_empty() {
-                notes.push(Note::SeamsLeftOut { seams: lost });
+                notes.push(PatternNote::SeamsLeftOut { seams: lost });
             }
             Ok(read.with_notes(notes))
         });

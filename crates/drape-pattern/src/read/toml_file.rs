@@ -37,7 +37,7 @@ use super::request::Request;
 use super::seams::{Known, answer, merged, seams};
 use super::size::Doubt;
 use super::unit::Unit;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 use crate::pattern::seam::{EdgeId, Seam};
@@ -277,7 +277,7 @@ impl Reader<'_> {
             made.push((name, panel));
         }
         if !grainless.is_empty() {
-            self.notes.push(Note::NoGrain { panels: grainless });
+            self.notes.push(PatternNote::NoGrain { panels: grainless });
         }
         for entry in entries {
             if let Some((keys, of)) =
@@ -342,10 +342,10 @@ impl Reader<'_> {
                 |name: &String| keys.panel.get(name).is_none_or(|k| k.grain.is_none() && !k.omit);
             for note in base.reader_notes() {
                 match note {
-                    Note::NoGrain { panels } => {
+                    PatternNote::NoGrain { panels } => {
                         let panels: Vec<String> = panels.into_iter().filter(own).collect();
                         if !panels.is_empty() {
-                            self.notes.push(Note::NoGrain { panels });
+                            self.notes.push(PatternNote::NoGrain { panels });
                         }
                     }
                     note => self.notes.push(note),
@@ -402,7 +402,7 @@ impl Reader<'_> {
             }
         }
         if !lost.is_empty() {
-            self.notes.push(Note::SeamsLeftOut { seams: lost.into_iter().collect() });
+            self.notes.push(PatternNote::SeamsLeftOut { seams: lost.into_iter().collect() });
         }
         seams
     }

@@ -7,7 +7,7 @@ use drape_input::{Diagnostic, Subject};
 use super::layout::Rows;
 use super::xml::escape;
 use crate::edge::{Edge, difference};
-use crate::sketch::{Sketch, SketchPanel, Wrong};
+use crate::sketch::{Sketch, SketchFault, SketchPanel};
 
 /// Approximate ratio of the width of the drawing to its height.
 const SHAPE: f64 = 2.2;
@@ -23,7 +23,7 @@ const LETTERS: usize = 160;
 /// Drawing of one sketch. Lengths are in mm.
 struct Drawing<'a> {
     sketch: &'a Sketch,
-    wrong: &'a [Wrong],
+    wrong: &'a [SketchFault],
     /// Size of letters.
     letter: f64,
     svg: String,
@@ -57,7 +57,7 @@ impl Sketch {
     /// panels and seams, places, gaps between edges, and edges that cross. The mistakes are written
     /// below.
     #[must_use]
-    pub fn figure(&self, wrong: &[Wrong], mistakes: &[Diagnostic]) -> String {
+    pub fn figure(&self, wrong: &[SketchFault], mistakes: &[Diagnostic]) -> String {
         let extents: Vec<[[f64; 2]; 2]> = self.panels.iter().map(extent).collect();
         let area: f64 =
             extents.iter().map(|[low, high]| difference(*high, *low)).map(|[x, y]| x * y).sum();

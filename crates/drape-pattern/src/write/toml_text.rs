@@ -7,7 +7,7 @@ use drape_input::{toml_key, toml_string};
 use super::number::{as_written, decimal, millimetres, point};
 use crate::ease::{DEFAULT_EASE, MAX_EASE};
 use crate::edge::{Curve, Edge, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 use crate::pattern::seam::{EdgeId, Seam};
@@ -51,7 +51,7 @@ impl Pattern {
         let key = toml_key(panel.name());
         let _ = writeln!(text, "\n[panel.{key}]");
         let assumed = self.notes().iter().any(|note| match note {
-            Note::NoGrain { panels } => panels.iter().any(|name| name == panel.name()),
+            PatternNote::NoGrain { panels } => panels.iter().any(|name| name == panel.name()),
             _ => false,
         });
         let remark = if assumed { "    # assumed" } else { "" };

@@ -5,7 +5,7 @@ use drape_input::{Diagnostic, Document, Subject};
 use super::entities::{Block, Form, field, layer, texts};
 use super::slit::{close_slits, drop_specks};
 use crate::edge::{Curve, Edge, difference, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::read::chains::joined;
 use crate::read::diagnostic::diagnostic;
@@ -36,7 +36,7 @@ pub(crate) struct Reader<'a> {
     /// Largest distance of curves from the chords that they take the place of, in m.
     pub(crate) tolerance: f64,
     pub(crate) mistakes: Vec<Diagnostic>,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: Vec<PatternNote>,
 }
 
 /// Returns the name of a piece: what its text says, or the block's.
@@ -56,7 +56,7 @@ impl Reader<'_> {
         if !slits.is_empty() {
             let taken = format!("panel {name}: {} slits of its line are notches", slits.len());
             let reason = "the line runs in and back there";
-            self.notes.push(Note::Taken { taken, reason: reason.into() });
+            self.notes.push(PatternNote::Taken { taken, reason: reason.into() });
         }
         let corners: Vec<[f64; 2]> = self.points(block, &[2]);
         let mut edges = self.divided(&name, outline, &corners);
@@ -73,11 +73,11 @@ impl Reader<'_> {
         };
         let (fold, grain) = (line(6), line(7));
         match fold.and_then(|fold| unfold(&mut edges, fold)) {
-            Some(edge) => self.notes.push(Note::Unfolded { panel: name.clone(), edge }),
+            Some(edge) => self.notes.push(PatternNote::Unfolded { panel: name.clone(), edge }),
             None => {
                 let text = texts(block).find(|text| says_on_fold(text)).map(str::to_owned);
                 let text = text.or(fold.map(|_| "a mirror line, layer 6".into()));
-                self.notes.extend(text.map(|text| Note::Half { panel: name.clone(), text }));
+                self.notes.extend(text.map(|text| PatternNote::Half { panel: name.clone(), text }));
             }
         }
         self.remarks(block, &name);
@@ -107,7 +107,7 @@ impl Reader<'_> {
         match grain {
             Some(line) => panel.with_grain(grain_of(line)).ok(),
             None => {
-                self.notes.push(Note::NoGrain { panels: vec![name] });
+                self.notes.push(PatternNote::NoGrain { panels: vec![name] });
                 Some(panel)
             }
         }
@@ -166,7 +166,7 @@ impl Reader<'_> {
                         1e3 * width,
                         1e3 * width
                     );
-                    self.notes.push(Note::Taken { taken, reason });
+                    self.notes.push(PatternNote::Taken { taken, reason });
                 }
                 Some(sewing).filter(|edges| self.few(edges, name, block.line))
             }
@@ -180,7 +180,7 @@ impl Reader<'_> {
                         "the sewing line, layer 14, is open; a seam allowance is part of the panel"
                     }
                 };
-                self.notes.push(Note::Taken { taken, reason: reason.into() });
+                self.notes.push(PatternNote::Taken { taken, reason: reason.into() });
                 Some(cut).filter(|edges| self.few(edges, name, block.line))
             }
             (None, None) => {
@@ -274,7 +274,7 @@ impl Reader<'_> {
             } else {
                 "corners are turns of 20° or more"
             };
-            self.notes.push(Note::Taken { taken, reason: reason.into() });
+            self.notes.push(PatternNote::Taken { taken, reason: reason.into() });
         }
         edges
     }
@@ -289,7 +289,7 @@ impl Reader<'_> {
                 field(block, key).filter(|value| !matches!(value.as_str(), "1" | "1,0" | "1, 0"))
             {
                 let taken = format!("panel {name}: the file says \"{key}: {value}\"");
-                self.notes.push(Note::Taken { taken, reason: advice.into() });
+                self.notes.push(PatternNote::Taken { taken, reason: advice.into() });
             }
         }
         let count =
@@ -298,7 +298,7 @@ impl Reader<'_> {
             let found = count(number);
             if found > 0 {
                 let part = format!("panel {name}: {found} {what} on layer {number}");
-                self.notes.push(Note::LeftOut {
+                self.notes.push(PatternNote::LeftOut {
                     part,
                     reason: "the pattern has no words for them".into(),
                 });
@@ -310,7 +310,7 @@ impl Reader<'_> {
         });
         if let Some(kind) = others.into_iter().next() {
             let part = format!("panel {name}: entities {kind}");
-            self.notes.push(Note::LeftOut {
+            self.notes.push(PatternNote::LeftOut {
                 part,
                 reason: "outlines are read of lines, arcs and polylines".into(),
             });

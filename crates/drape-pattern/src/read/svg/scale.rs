@@ -6,7 +6,7 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use svgtypes::{Length, LengthUnit, ViewBox};
 
 use super::shapes::Shape;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::read::request::Request;
 use crate::read::unit::Unit;
 
@@ -26,10 +26,10 @@ pub(crate) fn scale(
     tree: &roxmltree::Document<'_>,
     request: &Request,
     shapes: &[Shape],
-) -> Result<(f64, Note), Diagnostics> {
+) -> Result<(f64, PatternNote), Diagnostics> {
     let root = tree.root_element();
     let taken = |metres: f64, reason: String| {
-        let note = Note::Taken {
+        let note = PatternNote::Taken {
             taken: format!("a unit of the drawing is {:.6} mm", 1e3 * metres),
             reason,
         };

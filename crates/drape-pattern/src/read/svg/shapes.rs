@@ -7,7 +7,7 @@ use roxmltree::Node;
 use super::geometry::{DEPTH, lines, transform};
 use super::style::Styles;
 use crate::edge::Edge;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::read::svg_path::Subpath;
 
 /// Meaning of a shape.
@@ -58,7 +58,7 @@ impl Shape {
 /// Shapes of a drawing, with notes on what is none.
 pub(crate) struct Collected {
     pub(crate) shapes: Vec<Shape>,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: Vec<PatternNote>,
 }
 
 /// Returns the shapes that a drawing shows.
@@ -92,15 +92,15 @@ pub(crate) fn collect(tree: &roxmltree::Document<'_>, styles: &Styles<'_>) -> Co
     }
     if clones > 0 {
         let reason = "clones are not followed: unlink them in the drawing".into();
-        found.notes.push(Note::LeftOut { part: format!("{clones} clones (<use>)"), reason });
+        found.notes.push(PatternNote::LeftOut { part: format!("{clones} clones (<use>)"), reason });
     }
     if hidden > 0 {
         let reason = "the drawing hides them: show their layer or style if they are meant".into();
-        found.notes.push(Note::LeftOut { part: format!("{hidden} hidden shapes"), reason });
+        found.notes.push(PatternNote::LeftOut { part: format!("{hidden} hidden shapes"), reason });
     }
     for part in unread {
         let reason = "its path cannot be read".into();
-        found.notes.push(Note::LeftOut { part, reason });
+        found.notes.push(PatternNote::LeftOut { part, reason });
     }
     found
 }

@@ -9,10 +9,10 @@ use super::keys::{EdgeKeys, FoldKeys, PanelKeys};
 use crate::edge::{Curve, Edge};
 use crate::length::Millimetres;
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::placement::Placement;
 use crate::panel::{Fold, Panel};
-use crate::read::seams::{Place, located};
+use crate::read::seams::{PatternTable, located};
 use crate::read::size::{Doubt, wrong_size};
 use crate::read::svg_path;
 use crate::sketch::Sketch;
@@ -28,7 +28,7 @@ pub(crate) struct Reader<'a> {
     pub(crate) faults: &'a Faults,
     pub(crate) sketch: &'a mut Sketch,
     pub(crate) mistakes: Vec<Diagnostic>,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: Vec<PatternNote>,
     /// Unit of lengths of the file, in m; NaN if it is not known.
     pub(crate) metres: f64,
 }
@@ -41,8 +41,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Place of the tables of the file.
-    pub(crate) fn place(&self) -> Place<'a> {
-        Place { document: self.document, prefix: "", unit: self.metres }
+    pub(crate) fn place(&self) -> PatternTable<'a> {
+        PatternTable { document: self.document, prefix: "", unit: self.metres }
     }
 
     /// Adds a mistake at a key. Of a value that could not be read nothing more is said.
@@ -148,7 +148,7 @@ impl<'a> Reader<'a> {
             self.mistakes.push(located);
         }
         if panel.was_clockwise() {
-            self.notes.push(Note::Reversed { panel: name.into() });
+            self.notes.push(PatternNote::Reversed { panel: name.into() });
         }
         self.changed(panel, keys)
     }
