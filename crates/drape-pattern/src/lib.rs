@@ -2,11 +2,12 @@
 //!
 //! # Tour
 //!
-//! [`Pattern::read`] makes a checked [`Pattern`] of a file: [`Panel`]s, whose outlines are chains
-//! of [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] makes a [`CutPattern`] of it: a
-//! [`Cut`] of each panel and the [`SeamNodes`] of each seam. [`Quality`] measures a cut, [`figure`]
-//! draws it. What is wrong is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the
-//! file; what only should be known is a [`PatternNote`].
+//! [`Pattern::read`] reads a file and returns a checked [`Pattern`]: [`Panel`]s, whose outlines are
+//! chains of [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] cuts a pattern into particles
+//! and returns a [`CutPattern`]: a [`Cut`] of each panel and the [`SeamNodes`] of each seam.
+//! [`Quality`] measures a cut, [`figure`] draws a cut pattern. A fault of a pattern is a
+//! [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the file. A remark that prevents
+//! nothing is a [`PatternNote`].
 //!
 //! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; the
 //! chapters `panel` and `pattern`, `sketch`; the chapters `read` and `cut`; `write`.
@@ -21,17 +22,17 @@ mod panel;
 mod pattern;
 mod sketch;
 
-// Answers.
+// Mistakes and notes.
 mod error;
 mod length;
 mod mistake;
 mod note;
 
-// Files to patterns, patterns to particles.
+// Files become patterns, patterns become particles.
 mod cut;
 mod read;
 
-// Patterns and cuts to files.
+// Patterns and cuts are written to files.
 mod write;
 
 pub use cut::{Cut, CutPattern, Cutter, NodeId, Quality, SeamNodes, Tie};

@@ -19,8 +19,8 @@ pub struct CutPattern {
 }
 
 impl CutPattern {
-    /// Returns the number of particles when all seams are closed: the nodes of a pair are one
-    /// particle, and tied nodes are none.
+    /// Returns the number of particles when all seams are closed. The two nodes of a pair are one
+    /// particle. Tied nodes are no particles.
     #[must_use]
     pub fn particle_count(&self) -> usize {
         let mut first = Vec::new();
@@ -29,12 +29,12 @@ impl CutPattern {
             first.push(count);
             count += cut.positions.len();
         }
-        let mut same = Partition::new(count);
+        let mut particles = Partition::new(count);
         for pair in self.seams.iter().flat_map(|seam| &seam.pairs) {
             let [a, b] = pair.map(|id| first[id.panel] + id.node as usize);
-            same.unite(a, b);
+            particles.unite(a, b);
         }
         let tied = self.seams.iter().map(|seam| seam.ties.len()).sum::<usize>();
-        same.sets() - tied
+        particles.set_count() - tied
     }
 }
