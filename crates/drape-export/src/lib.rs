@@ -2,12 +2,12 @@
 //!
 //! # Tour
 //!
-//! A [`Clip`] is what is written: frames of a recording with their times. Each format has a function
-//! that writes a clip, or a frame of it.
+//! A [`Clip`] has the frames of a recording that are written, with their times. Each format has a
+//! function that writes a clip, or a frame of it.
 //!
-//! Layers, lowest first: `error`, `name`, `colour`, `scale`; `normal`; `clip` chooses frames; `mesh` divides
-//! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
-//! them.
+//! Layers, lowest first: `error`, `name`, `colour`, `scale`; `normal`; `clip` chooses frames;
+//! `mesh` divides them into panels and bodies; `field` computes numbers at their vertices; `format`
+//! and `view` write them.
 
 mod error;
 

@@ -8,11 +8,11 @@ use serde_json::{Value, json};
 use super::bits::{Bounds, Differences, deflated, octet};
 use super::measures::rows;
 use super::named::Named;
-use super::samples::{Chosen, Samples, Shown};
+use super::samples::{Samples, ShownField, ShownSamples};
 use crate::{colour, scale};
 
-/// Least number of bytes of a vertex of the cloth in a frame of the page; waving cloth has 7. Frames
-/// that cannot fit by it are not read.
+/// Least number of bytes of a vertex of the cloth in a frame of the page. Waving cloth has 7.
+/// Frames that cannot fit into the page by this number are not read.
 const BYTES_OF_SAMPLE: usize = 4;
 
 /// Run as the elements of a page.
@@ -24,38 +24,39 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Returns the scene of a run with so few frames that its elements have at most `size` bytes, or
-    /// with two.
+    /// Returns the scene of `run` with the most frames whose elements have at most `size` bytes;
+    /// with two frames if none fits.
     pub(super) fn of_size(run: &Named<'_>, size: usize) -> Result<Scene, Error> {
         let samples = Samples::new(run.recording, size / BYTES_OF_SAMPLE)?;
         let last = samples.frames.len() - 1;
         let mut stride = 1;
         loop {
             let scene = Scene::new(run, &samples, stride)?;
-            let is = scene.elements(0).len();
-            if is <= size || stride >= last {
+            let length = scene.elements(0).len();
+            if length <= size || stride >= last {
                 return Ok(scene);
             }
-            stride = (stride * is.div_ceil(size.max(1))).clamp(stride + 1, last);
+            stride = (stride * length.div_ceil(size.max(1))).clamp(stride + 1, last);
         }
     }
 
-    /// Returns the scene of every so many of some frames, and of the last one.
+    /// Returns the scene of every `stride`-th of `samples`, with the last one.
     fn new(run: &Named<'_>, samples: &Samples, stride: usize) -> Result<Scene, Error> {
         let recording = run.recording;
         let last = samples.frames.len() - 1;
         let mut chosen: Vec<usize> = (0..last).step_by(stride.max(1)).collect();
         chosen.push(last);
-        let Chosen { frames, fields } = samples.chosen(&chosen);
+        let ShownSamples { frames, fields } = samples.shown(&chosen);
         let content = Content::new(recording, &frames, &fields);
-        let path = recording.folder().to_owned();
-        let unreadable = |reason: String| Error::Unreadable { path, reason };
-        let data = deflated(&content.bytes).map_err(|error| unreadable(error.to_string()))?;
+        let data = deflated(&content.bytes).map_err(|error| Error::Unreadable {
+            path: recording.folder().to_owned(),
+            reason: error.to_string(),
+        })?;
         let meta = meta(run, &frames, &fields, &content)?;
         Ok(Scene { frames: frames.iter().map(|frame| frame.number).collect(), meta, data })
     }
 
-    /// Returns the elements of the page that hold the scene, with its number among the runs.
+    /// Returns the elements of the page that hold the scene, which has `number` among the runs.
     pub(super) fn elements(&self, number: usize) -> String {
         // No text can end the element that holds it.
         let meta = self.meta.to_string().replace('<', "\\u003c");
@@ -77,23 +78,24 @@ struct Content {
 }
 
 impl Content {
-    fn new(recording: &Recording, frames: &[&Frame], fields: &[Shown<'_>]) -> Content {
+    /// Returns the numbers of `frames` and `fields` of `recording`.
+    fn new(recording: &Recording, frames: &[&Frame], fields: &[ShownField<'_>]) -> Content {
         let (topology, manifest) = (recording.topology(), recording.manifest());
         let mut bytes = Vec::new();
-        let numbers = |all: &mut dyn Iterator<Item = u32>, bytes: &mut Vec<u8>| {
-            bytes.extend(all.flat_map(u32::to_le_bytes));
-        };
-        numbers(&mut topology.cloth.iter().flatten().copied(), &mut bytes);
+        // The order is the order in which the page reads the numbers.
+        bytes.extend(topology.cloth.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
         let material = topology.material.iter().flatten();
         bytes.extend(material.flat_map(|length| (*length as f32).to_le_bytes()));
-        numbers(&mut topology.bodies.iter().flatten().copied(), &mut bytes);
-        numbers(&mut manifest.seam_pairs.iter().flatten().copied(), &mut bytes);
+        bytes.extend(topology.bodies.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
+        bytes.extend(manifest.seam_pairs.iter().flatten().flat_map(|vertex| vertex.to_le_bytes()));
+
         let bounds = frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.cloth));
         let mut clothes = Differences::<u16>::new();
         for frame in frames {
             let words = frame.cloth.iter().flat_map(|point| bounds.words(*point)).collect();
             clothes.add(words, &mut bytes);
         }
+
         let body_bounds = body_bounds(&manifest.bodies, frames);
         let body_states = body_states(frames);
         let mut bodies = Differences::<u16>::new();
@@ -102,30 +104,35 @@ impl Content {
                 bodies.add(body_words(&manifest.bodies, &body_bounds, frame), &mut bytes);
             }
         }
+
         for shown in fields {
             let mut octets = Differences::<u8>::new();
             for values in &shown.values {
-                let all =
-                    values.iter().map(|value| octet(f64::from(*value), shown.range)).collect();
-                octets.add(all, &mut bytes);
+                let all = values.iter().map(|value| octet(f64::from(*value), shown.range));
+                octets.add(all.collect(), &mut bytes);
             }
         }
         Content { bytes, bounds, body_bounds, body_states }
     }
 }
 
-/// Returns the box of each body over all frames.
+/// Returns the box of each of `bodies` over all `frames`.
 fn body_bounds(bodies: &[Part], frames: &[&Frame]) -> Vec<Bounds> {
     let mut first = 0;
-    let of = |body: &Part| {
-        let own = first..first + body.vertices;
-        first = own.end;
-        frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.bodies[own.clone()]))
-    };
-    bodies.iter().map(of).collect()
+    let mut bounds = Vec::new();
+    for body in bodies {
+        let vertices = first..first + body.vertices;
+        first = vertices.end;
+        let boxes = frames.iter();
+        bounds.push(
+            boxes.fold(Bounds::EMPTY, |all, frame| all.with(&frame.bodies[vertices.clone()])),
+        );
+    }
+    bounds
 }
 
-/// Returns the number of the state of the bodies in each frame: a new one where they have moved.
+/// Returns the number of the state of the bodies in each of `frames`. The number rises where they
+/// have moved.
 fn body_states(frames: &[&Frame]) -> Vec<usize> {
     let mut states: Vec<usize> = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
@@ -141,21 +148,22 @@ fn body_states(frames: &[&Frame]) -> Vec<usize> {
     states
 }
 
+/// Returns the positions of `bodies` in `frame` as fractions of their boxes `bounds`.
 fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
     let mut vertices = frame.bodies.iter();
     let mut words = Vec::new();
     for (body, bounds) in bodies.iter().zip(bounds) {
-        let own = vertices.by_ref().take(body.vertices);
-        words.extend(own.flat_map(|point| bounds.words(*point)));
+        let points = vertices.by_ref().take(body.vertices);
+        words.extend(points.flat_map(|point| bounds.words(*point)));
     }
     words
 }
 
-/// Returns what the page says of a run.
+/// Returns the facts that the page states of `run`.
 fn meta(
     run: &Named<'_>,
     frames: &[&Frame],
-    fields: &[Shown<'_>],
+    fields: &[ShownField<'_>],
     content: &Content,
 ) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
@@ -183,7 +191,7 @@ fn meta(
             "bodies": if manifest.bodies.is_empty() { -1 } else { content.body_states[k] as i64 },
         })
     };
-    let field = |shown: &Shown| {
+    let field = |shown: &ShownField| {
         json!({
             "key": shown.field.key(), "label": shown.field.label(), "unit": shown.field.unit(),
             "stops": scale::stops(shown.field.is_signed()), "low": shown.range[0], "high": shown.range[1], "signed": shown.field.is_signed(),
@@ -192,9 +200,10 @@ fn meta(
     };
     let last_state = content.body_states.last().copied();
     let body_states = if manifest.bodies.is_empty() { 0 } else { last_state.map_or(0, |s| s + 1) };
-    let energy = run.recording.energy()?.filter(|own| own.rows.last().is_some_and(Option::is_some));
+    let energy =
+        run.recording.energy()?.filter(|table| table.rows.last().is_some_and(Option::is_some));
     let energy = energy.map(|EnergyTable { names, rows }| {
-        json!({ "names": names, "rows": frames.iter().map(|own| &rows[own.number]).collect::<Vec<_>>() })
+        json!({ "names": names, "rows": frames.iter().map(|frame| &rows[frame.number]).collect::<Vec<_>>() })
     });
     let summary = run.recording.folder().join("summary.json");
     // A pipe in its place would wait for its writer.
@@ -216,7 +225,8 @@ fn meta(
     }))
 }
 
-/// Returns how many frames are shown, and how exactly.
+/// Returns how many `frames` of `recording` are shown, and how exactly. `bounds` is the box of the
+/// cloth.
 fn note(recording: &Recording, frames: &[&Frame], bounds: &Bounds) -> String {
     let size = (0..3).map(|axis| bounds.high[axis] - bounds.low[axis]).fold(0.0, f64::max);
     let all = recording.frames();
