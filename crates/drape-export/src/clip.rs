@@ -9,11 +9,11 @@ use crate::error::Error;
 /// Largest frame rate, in frames per second.
 const RATE_MAX: f64 = 1e5;
 
-/// Frame rate of a single frame, in frames per second: that of films.
+/// Frame rate of a single frame, in frames per second: the rate of films.
 const RATE_OF_ONE: f64 = 24.0;
 
-/// Fraction of the distance of two frames by which a frame may come early or late and still counts
-/// as on time: no eye sees it, and times that are multiples of a step need it.
+/// Fraction of the distance between two frames by which a frame may come early or late and still
+/// counts as on time. No eye sees it, and times that are multiples of a step need it.
 const JITTER: f64 = 0.25;
 
 /// Frames of a run that are written, in the order of their times.
@@ -26,11 +26,13 @@ pub struct Clip<'a> {
 }
 
 impl<'a> Clip<'a> {
-    /// Takes the frames of some numbers, with a frame rate in frames per second; without one, that
-    /// of their times. Of frames of the same time the last is taken.
+    /// Returns the clip of the frames of `recording` with `numbers`. `rate` is its frame rate in
+    /// frames per second. Without it the rate comes from the times of the frames. Of frames at one
+    /// time the last is taken.
     ///
     /// # Errors
-    /// There are no such frames, the frames say no times and no rate is given, or a rate is none.
+    /// The first of `numbers` is above the last, the frames have no times and no `rate` is given,
+    /// or `rate` is out of range.
     pub fn new(
         recording: &'a Recording,
         numbers: RangeInclusive<usize>,
@@ -43,6 +45,7 @@ impl<'a> Clip<'a> {
         if first > last {
             return Err(Error::NoFrames { first, last });
         }
+
         let (mut frames, mut times) = (Vec::new(), Vec::new());
         for number in numbers {
             let time = match (recording.read_time(number)?, rate) {
@@ -53,6 +56,7 @@ impl<'a> Clip<'a> {
                     return Err(Error::NoTimes { folder: recording.folder().to_owned() });
                 }
             };
+
             if times.last().is_some_and(|last| *last >= time) {
                 frames.pop();
                 times.pop();
@@ -64,7 +68,7 @@ impl<'a> Clip<'a> {
         Ok(Clip { recording, frames, times, rate })
     }
 
-    /// Returns the run.
+    /// Returns the run that the frames belong to.
     #[must_use]
     pub fn recording(&self) -> &'a Recording {
         self.recording
@@ -76,7 +80,7 @@ impl<'a> Clip<'a> {
         &self.frames
     }
 
-    /// Returns the times of the frames, in s, each later than the one before.
+    /// Returns the times of the frames, in s, each later than the time before.
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
@@ -90,11 +94,11 @@ impl<'a> Clip<'a> {
 
     /// Returns the number of frames, at least 1.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub fn frame_count(&self) -> usize {
         self.frames.len()
     }
 
-    /// Returns the times of the frames after the first, in s.
+    /// Returns the times of the frames since the first frame, in s.
     #[must_use]
     pub fn seconds(&self) -> Vec<f64> {
         self.times.iter().map(|time| time - self.times[0]).collect()
@@ -103,12 +107,12 @@ impl<'a> Clip<'a> {
     /// Returns whether the frames follow each other at the frame rate.
     #[must_use]
     pub fn is_even(&self) -> bool {
-        let late = |(index, seconds): (usize, f64)| (seconds * self.rate - index as f64).abs();
-        self.seconds().into_iter().enumerate().map(late).all(|late| late <= JITTER)
+        let mut seconds = self.seconds().into_iter().enumerate();
+        seconds.all(|(index, seconds)| (seconds * self.rate - index as f64).abs() <= JITTER)
     }
 
-    /// Returns the frames that are nearest to the instants of the frame rate, for formats that have
-    /// no times of their own; a frame may be there more than once.
+    /// Returns the frames that are nearest to the instants of the frame rate, for formats without
+    /// times. A frame may come more than once.
     #[must_use]
     pub fn resampled(&self) -> Clip<'a> {
         if self.is_even() {
@@ -116,41 +120,43 @@ impl<'a> Clip<'a> {
         }
         let seconds = self.seconds();
         let instants = (seconds[seconds.len() - 1] * self.rate).round() as usize;
-        let nearest = |instant: usize| {
+        let (mut frames, mut times) = (Vec::new(), Vec::new());
+        for instant in 0..=instants {
             let at = instant as f64 / self.rate;
             let after = seconds.partition_point(|time| *time < at).min(seconds.len() - 1);
             let before = after.saturating_sub(1);
-            if at - seconds[before] < seconds[after] - at { before } else { after }
-        };
-        let frames = (0..=instants).map(|instant| self.frames[nearest(instant)]).collect();
-        let time = |instant: usize| self.times[0] + instant as f64 / self.rate;
-        Clip { frames, times: (0..=instants).map(time).collect(), ..self.clone() }
+            let is_before_nearer = at - seconds[before] < seconds[after] - at;
+            frames.push(self.frames[if is_before_nearer { before } else { after }]);
+            times.push(self.times[0] + at);
+        }
+        Clip { frames, times, ..self.clone() }
     }
 
-    /// Returns so many of the frames at most, with the first and the last, evenly by number.
+    /// Returns at most `most` of the frames, with the first and the last, evenly by number.
     #[must_use]
     pub fn thinned(&self, most: usize) -> Clip<'a> {
-        let count = self.count();
+        let count = self.frame_count();
         if count <= most {
             return self.clone();
         }
         let steps = most.max(2) - 1;
-        let index = |step: usize| (step * (count - 1) + steps / 2) / steps;
-        let frames = (0..=steps).map(|step| self.frames[index(step)]).collect();
-        let times = (0..=steps).map(|step| self.times[index(step)]).collect();
+        let indices = (0..=steps).map(|step| (step * (count - 1) + steps / 2) / steps);
+        let frames = indices.clone().map(|index| self.frames[index]).collect();
+        let times = indices.map(|index| self.times[index]).collect();
         Clip { frames, times, ..self.clone() }
     }
 
-    /// Reads the frame of an index.
+    /// Reads the frame with the index `index` in the clip.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The frame cannot be read.
     pub(crate) fn read(&self, index: usize) -> Result<Frame, Error> {
         Ok(self.recording.frame(self.frames[index])?)
     }
 }
 
-/// Returns the frame rate of some times: a whole number if it is near, or if the times are irregular.
+/// Returns the frame rate of frames at `times`, in s: a whole number if it is near, or if the times
+/// are irregular.
 fn rate_of(times: &[f64]) -> f64 {
     let mut gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if gaps.is_empty() {
@@ -158,10 +164,10 @@ fn rate_of(times: &[f64]) -> f64 {
     }
     gaps.sort_by(f64::total_cmp);
     let median = gaps[gaps.len() / 2];
-    // Times that are multiples of a step jump about their mean; a run that ends early has one gap
+    // Times that are multiples of a step jump about their mean. A run that ends early has one gap
     // that differs.
-    let near = |gap: &&f64| (**gap - median).abs() <= JITTER * median;
-    let (sum, count) = gaps.iter().filter(near).fold((0.0, 0), |(sum, n), gap| (sum + gap, n + 1));
+    let near = gaps.iter().filter(|gap| (**gap - median).abs() <= JITTER * median);
+    let (sum, count) = near.fold((0.0, 0), |(sum, n), gap| (sum + gap, n + 1));
     let rate = f64::from(count) / sum;
     let (whole, irregular) = (rate.round(), (count as usize) + 1 < gaps.len());
     let is_near = (rate - whole).abs() <= 0.01 * rate;
@@ -205,7 +211,7 @@ mod tests {
     fn what_there_is_not_is_refused() {
         let folder = example::folder(&[0.0, 0.1]);
         let recording = Recording::open(folder.path()).unwrap();
-        let clip = |range, rate| Clip::new(&recording, range, rate).map(|clip| clip.count());
+        let clip = |range, rate| Clip::new(&recording, range, rate).map(|clip| clip.frame_count());
         assert!(matches!(clip(0..=2, None), Err(Error::Frames(_))));
         assert!(matches!(clip(0..=1, Some(0.0)), Err(Error::BadRate { .. })));
         assert!(matches!(clip(0..=1, Some(f64::NAN)), Err(Error::BadRate { .. })));

@@ -19,7 +19,7 @@ pub enum Error {
         /// Folder of the frames.
         folder: PathBuf,
     },
-    /// The rate is none.
+    /// The rate is out of range.
     #[error("{rate} is no number of frames per second; give one above 0 and up to {limit}")]
     BadRate {
         /// The rate, in frames per second.
@@ -27,7 +27,7 @@ pub enum Error {
         /// Largest rate, in frames per second.
         limit: f64,
     },
-    /// There are no frames from the first to the last.
+    /// The first frame comes after the last.
     #[error("there are no frames {first}..{last}; the first is at most the last")]
     NoFrames {
         /// Number of the first frame.
@@ -35,7 +35,7 @@ pub enum Error {
         /// Number of the last frame.
         last: usize,
     },
-    /// There is no such field.
+    /// The name is no name of a field.
     #[error("there is no field `{key}`; take one of {known}")]
     UnknownField {
         /// Name that was given.
@@ -43,14 +43,14 @@ pub enum Error {
         /// Names of the fields.
         known: String,
     },
-    /// The format has no room for so much.
+    /// The format cannot store as many items.
     #[error("{format} has room for {limit} {what}, and these are {found}; give fewer frames")]
     TooLarge {
         /// The format.
         format: &'static str,
-        /// What is counted, in words.
+        /// Items that are counted, in words.
         what: &'static str,
-        /// Their number.
+        /// Number of items.
         found: usize,
         /// Largest number that the format has room for.
         limit: usize,

@@ -1,4 +1,4 @@
-//! Example of a run, for the tests: two panels, one of an odd name, that fall beside a box.
+//! Example of a run, for the tests: two panels, one with an odd name, that fall beside a box.
 
 use std::fs;
 use std::path::Path;
@@ -9,22 +9,22 @@ use npyz::half::f16;
 use serde_json::json;
 use tempfile::TempDir;
 
-/// Name that is not what a format expects.
+/// Name with letters that formats do not expect.
 pub(crate) const HOSTILE: &str = "back \"</a>{}'\\ #1/袖;\u{e9}&amp;";
 
 /// Corners and triangles of a cube of a metre.
 pub(crate) fn cube() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
-    let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+    let corners = (0..8_u32).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(f64::from));
     let faces =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    ((0..8).map(corner).collect(), triangles.collect())
+    (corners.collect(), triangles.collect())
 }
 
-/// Panels of some names.
+/// Panels with `names`.
 pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::SurfacePart> {
-    let part = |name| drape_frames::SurfacePart {
-        name,
+    let parts = names.iter().map(|name| drape_frames::SurfacePart {
+        name: (*name).to_owned(),
         vertices: 0,
         triangles: 0,
         half_activation_distance: 0.0,
@@ -32,11 +32,11 @@ pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::SurfacePart> {
         fabric: String::new(),
         weft: [1.0, 0.0],
         fabric_colour: None,
-    };
-    names.iter().map(|name| part((*name).to_owned())).collect()
+    });
+    parts.collect()
 }
 
-/// Frame of some positions of the cloth.
+/// Frame with the cloth at positions, in m.
 pub(crate) fn frame(cloth: &[[f64; 3]]) -> Frame {
     let (cloth, bodies) = (cloth.to_vec(), Vec::new());
     Frame {
@@ -67,23 +67,21 @@ fn pressure(number: usize) -> f64 {
 /// Folder of a run of one frame with one panel, which lies flat.
 pub(crate) fn folder_of_panel(material: &[[f64; 2]], triangles: &[[u32; 3]]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
     let (vertices, count) = (material.len(), triangles.len());
     let panel = json!({ "name": "sheet", "vertices": vertices, "triangles": count });
     let manifest = json!({ "format": 2, "guarded": false, "panels": [panel], "bodies": [] });
-    fs::write(at("surfaces.json"), format!("{manifest}\n")).unwrap();
-    fs::write(at("frames.csv"), "number,time,growth,bodies\n0,0.0,1.0,\n").unwrap();
-    array(&at("triangles.npy"), triangles);
-    array(&at("material.npy"), material);
+    fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).unwrap();
+    fs::write(folder.path().join("frames.csv"), "number,time,growth,bodies\n0,0.0,1.0,\n").unwrap();
+    array(&folder.path().join("triangles.npy"), triangles);
+    array(&folder.path().join("material.npy"), material);
     let flat: Vec<[f64; 3]> = material.iter().map(|[x, z]| [*x, 0.0, *z]).collect();
-    array(&at("frame-00000.npy"), &flat);
+    array(&folder.path().join("frame-00000.npy"), &flat);
     folder
 }
 
-/// Folder of a run with frames of some times, in s.
+/// Folder of a run with a frame at each of `times`, in s.
 pub(crate) fn folder(times: &[f64]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
     let weft = [0.0, 1.0];
     let manifest = json!({
         "format": 2, "guarded": true, "twins": [[0, 4], [1, 6]],
@@ -93,34 +91,39 @@ pub(crate) fn folder(times: &[f64]) -> TempDir {
         ],
         "bodies": [{ "name": "box", "vertices": 8, "triangles": 12 }],
     });
-    fs::write(at("surfaces.json"), format!("{manifest}\n")).unwrap();
+    fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).unwrap();
+
     let (corners, faces) = cube();
-    array(&at("triangles.npy"), &[[0_u32, 2, 1], [1, 2, 3], [4, 6, 5]]);
-    array(&at("body-triangles.npy"), &faces);
+    array(&folder.path().join("triangles.npy"), &[[0_u32, 2, 1], [1, 2, 3], [4, 6, 5]]);
+    array(&folder.path().join("body-triangles.npy"), &faces);
     let front = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.2], [0.1, 0.2]];
-    array(&at("material.npy"), &[&front[..], &[[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]]].concat());
-    array(&at("bodies-00000.npy"), &corners);
+    array(
+        &folder.path().join("material.npy"),
+        &[&front[..], &[[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]]].concat(),
+    );
+    array(&folder.path().join("bodies-00000.npy"), &corners);
+
     let mut list = "number,time,growth,bodies,touched\n".to_owned();
     let mut energy = "number,time,kinetic,gravity\n".to_owned();
     for (number, time) in times.iter().enumerate() {
-        array(&at(&format!("frame-{number:05}.npy")), &cloth(*time));
+        array(&folder.path().join(&format!("frame-{number:05}.npy")), &cloth(*time));
         let touched = usize::from(number > 0);
         if touched > 0 {
             let mut pressures = [[f16::ZERO]; 7];
             pressures[2] = [f16::from_f64(pressure(number))];
-            array(&at(&format!("pressure-{number:05}.npy")), &pressures);
+            array(&folder.path().join(&format!("pressure-{number:05}.npy")), &pressures);
         }
         list += &format!("{number},{time:?},1.0,0,{touched}\n");
         energy +=
             &format!("{number},{time:?},{},{}\n", 0.25 * (1 + number) as f64, -pressure(number));
     }
-    fs::write(at("energy.csv"), energy).unwrap();
-    fs::write(at("frames.csv"), list).unwrap();
+    fs::write(folder.path().join("energy.csv"), energy).unwrap();
+    fs::write(folder.path().join("frames.csv"), list).unwrap();
     folder
 }
 
-/// Folder of a run with a frame every 0.1 s, in each of which the box has risen so far, in m; the frames of a
-/// box that rests share its file.
+/// Folder of a run with a frame every 0.1 s, in each of which the box has risen by one of `rises`,
+/// in m. The frames of a box that rests share its file.
 pub(crate) fn folder_of_rising_box(rises: &[f64]) -> TempDir {
     let times: Vec<f64> = (0..rises.len()).map(|k| 0.1 * k as f64).collect();
     let folder = folder(&times);
@@ -139,7 +142,7 @@ pub(crate) fn folder_of_rising_box(rises: &[f64]) -> TempDir {
     folder
 }
 
-/// Writes rows as an array.
+/// Writes `rows` as an array to the file `path`.
 pub(crate) fn array<T: npyz::AutoSerialize + Copy, const N: usize>(path: &Path, rows: &[[T; N]]) {
     let file = fs::File::create(path).unwrap();
     let shape = [rows.len() as u64, N as u64];

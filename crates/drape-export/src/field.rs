@@ -10,7 +10,7 @@ use drape_frames::vector::{difference, length};
 use drape_frames::{Frame, Recording, curvatures};
 use rayon::prelude::*;
 
-use self::strain::{RestTriangle, StrainOf};
+use self::strain::{RestTriangle, StrainComponent};
 use crate::error::Error;
 use crate::scale;
 
@@ -25,17 +25,17 @@ pub enum Field {
     Shear,
     /// Largest size of a principal curvature, in 1/m.
     Curvature,
-    /// Pressure of contact, in Pa; of older runs known at the last frame alone.
+    /// Pressure of contact, in Pa. Older runs have it in the last frame only.
     Pressure,
-    /// Distance from the nearest body, in mm; 50 where it is more.
+    /// Distance from the nearest body, in mm; 50 if it is larger.
     Distance,
-    /// Distance of the two sides of a seam, in mm; 0 elsewhere.
+    /// Distance between the two sides of a seam, in mm; 0 elsewhere.
     SeamGap,
     /// Mean speed since the frame before, in m/s; 0 in the first frame.
     Speed,
 }
 
-/// Largest distance from a body that is measured, in m.
+/// Largest distance from a body that is computed, in m.
 const DISTANCE_MAX: f64 = 0.05;
 
 impl Field {
@@ -51,7 +51,7 @@ impl Field {
         Field::Speed,
     ];
 
-    /// Returns the name in commands and files.
+    /// Returns the name of the field in commands and files.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -66,7 +66,7 @@ impl Field {
         }
     }
 
-    /// Returns the name as a person reads it.
+    /// Returns the name of the field as a person reads it.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -81,7 +81,7 @@ impl Field {
         }
     }
 
-    /// Returns the unit.
+    /// Returns the unit of the values.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -94,14 +94,14 @@ impl Field {
         }
     }
 
-    /// Returns whether its values may be negative.
+    /// Returns whether the values may be negative.
     #[must_use]
     pub fn is_signed(self) -> bool {
         matches!(self, Field::StrainWarp | Field::StrainWeft | Field::Shear)
     }
 
-    /// Returns the range of its values in some frames: that of nearly all of them, rounded up to 1, 2
-    /// or 5 times a power of ten; about zero for a signed field, from zero for another.
+    /// Returns the range of nearly all values in `frames`, rounded up to 1, 2 or 5 times a power of
+    /// ten. The range of a signed field is symmetric about zero, another range begins at zero.
     #[must_use]
     pub fn range(self, frames: &[Vec<f64>]) -> [f64; 2] {
         scale::range(frames.iter().flatten().copied(), self.is_signed())
@@ -126,17 +126,20 @@ pub struct Fields<'a> {
     triangles: Vec<RestTriangle>,
     /// Area of the triangles around each vertex at rest, in m².
     areas: Vec<f64>,
-    /// Bodies as they were last needed, with their file.
+    /// Surfaces of the bodies of the last frame, with the file of their positions.
     bodies: Option<(PathBuf, Vec<NearestSurface>)>,
 }
 
 impl<'a> Fields<'a> {
-    /// Prepares the fields of a recording.
+    /// Returns the fields of the frames of `recording`.
     #[must_use]
     pub fn new(recording: &'a Recording) -> Fields<'a> {
         let topology = recording.topology();
-        let rest = |corners: &[u32; 3]| RestTriangle::new(*corners, &topology.material);
-        let triangles: Vec<RestTriangle> = topology.cloth.iter().map(rest).collect();
+        let triangles: Vec<RestTriangle> = topology
+            .cloth
+            .iter()
+            .map(|corners| RestTriangle::new(*corners, &topology.material))
+            .collect();
         let mut areas = vec![0.0; topology.material.len()];
         for triangle in &triangles {
             triangle.corners.iter().for_each(|&corner| areas[corner as usize] += triangle.area);
@@ -144,7 +147,7 @@ impl<'a> Fields<'a> {
         Fields { recording, triangles, areas, bodies: None }
     }
 
-    /// Returns whether a recording has a field in some frame.
+    /// Returns whether the recording has `field` in some frame.
     #[must_use]
     pub fn has(&self, field: Field) -> bool {
         let manifest = self.recording.manifest();
@@ -157,9 +160,10 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Returns a field of a frame, a number for each vertex of the cloth, where it is known.
+    /// Returns `field` in `frame`, a number for each vertex of the cloth; `None` if it is not known
+    /// there.
     ///
-    /// `before` is an earlier frame, from which speeds are measured.
+    /// Speeds are measured from the earlier frame `before`.
     pub fn values(
         &mut self,
         field: Field,
@@ -167,9 +171,9 @@ impl<'a> Fields<'a> {
         before: Option<&Frame>,
     ) -> Option<Vec<f64>> {
         match field {
-            Field::StrainWarp => Some(self.strains(frame, StrainOf::Warp)),
-            Field::StrainWeft => Some(self.strains(frame, StrainOf::Weft)),
-            Field::Shear => Some(self.strains(frame, StrainOf::Shear)),
+            Field::StrainWarp => Some(self.strains(frame, StrainComponent::Warp)),
+            Field::StrainWeft => Some(self.strains(frame, StrainComponent::Weft)),
+            Field::Shear => Some(self.strains(frame, StrainComponent::Shear)),
             Field::Curvature => Some(self.curvature(frame)),
             Field::Pressure => frame.pressures.clone(),
             Field::Distance => self.distances(frame),
@@ -178,7 +182,8 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Returns the mean over the triangles around each vertex, weighted by their areas at rest.
+    /// Returns the mean of `values` over the triangles around each vertex, weighted by their areas
+    /// at rest.
     fn at_vertices(&self, values: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.areas.len()];
         for (triangle, value) in self.triangles.iter().zip(values) {
@@ -188,11 +193,15 @@ impl<'a> Fields<'a> {
         sums.iter().zip(&self.areas).map(|(sum, area)| sum / area.max(f64::MIN_POSITIVE)).collect()
     }
 
-    fn strains(&self, frame: &Frame, of: StrainOf) -> Vec<f64> {
-        let strain = |triangle: &RestTriangle| triangle.strain(&frame.cloth, of);
-        self.at_vertices(&self.triangles.iter().map(strain).collect::<Vec<f64>>())
+    /// Returns a component of the strain at each vertex.
+    fn strains(&self, frame: &Frame, component: StrainComponent) -> Vec<f64> {
+        let triangles = self.triangles.iter();
+        let strains: Vec<f64> =
+            triangles.map(|triangle| triangle.strain(&frame.cloth, component)).collect();
+        self.at_vertices(&strains)
     }
 
+    /// Returns the largest size of a principal curvature at each vertex, in 1/m.
     fn curvature(&self, frame: &Frame) -> Vec<f64> {
         let topology = self.recording.topology();
         self.at_vertices(&curvatures(&frame.cloth, &topology.cloth))
@@ -201,20 +210,20 @@ impl<'a> Fields<'a> {
     /// Returns the distances of the vertices from the nearest body, in mm.
     fn distances(&mut self, frame: &Frame) -> Option<Vec<f64>> {
         let file = frame.bodies_file.as_ref()?;
-        if self.bodies.as_ref().is_none_or(|(of, _)| of != file) {
+        if self.bodies.as_ref().is_none_or(|(known, _)| known != file) {
             self.bodies = Some((file.clone(), surfaces(self.recording, frame)));
         }
         let (_, surfaces) = self.bodies.as_ref()?;
-        let distance = |point: &[f64; 3]| {
-            let nearest = |limit: f64, surface: &NearestSurface| {
+        let distances = frame.cloth.par_iter().map(|point| {
+            let nearest = surfaces.iter().fold(DISTANCE_MAX, |limit, surface| {
                 surface.distance(*point, limit).unwrap_or(limit)
-            };
-            1e3 * surfaces.iter().fold(DISTANCE_MAX, nearest)
-        };
-        Some(frame.cloth.par_iter().map(distance).collect())
+            });
+            1e3 * nearest
+        });
+        Some(distances.collect())
     }
 
-    /// Returns the distances of vertices that are sewn together, in mm.
+    /// Returns the distances between vertices that are sewn together, in mm; 0 for other vertices.
     fn seam_gaps(&self, frame: &Frame) -> Vec<f64> {
         let mut gaps = vec![0.0_f64; frame.cloth.len()];
         for pair in &self.recording.manifest().seam_pairs {
@@ -226,28 +235,27 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Returns the surfaces of the bodies of a frame.
+/// Returns the surfaces of the bodies of `recording` in `frame`.
 fn surfaces(recording: &Recording, frame: &Frame) -> Vec<NearestSurface> {
     let mut triangles = recording.topology().bodies.iter();
     let (mut surfaces, mut first) = (Vec::new(), 0);
     for body in &recording.manifest().bodies {
-        let own = triangles.by_ref().take(body.triangles);
-        let own: Vec<[u32; 3]> = own.map(|t| t.map(|corner| corner - first as u32)).collect();
+        let corners = triangles.by_ref().take(body.triangles);
+        let body_triangles: Vec<[u32; 3]> =
+            corners.map(|t| t.map(|corner| corner - first as u32)).collect();
         let vertices = &frame.bodies[first..first + body.vertices];
         // A body without triangles has no distance.
-        surfaces.extend(NearestSurface::new(vertices, &own));
+        surfaces.extend(NearestSurface::new(vertices, &body_triangles));
         first += body.vertices;
     }
     surfaces
 }
 
-/// Returns the mean speeds since an earlier frame, in m/s.
+/// Returns the mean speeds of the vertices since the earlier frame `before`, in m/s.
 fn speeds(frame: &Frame, before: Option<&Frame>) -> Vec<f64> {
-    let still = || vec![0.0; frame.cloth.len()];
-    let Some(before) = before else { return still() };
-    let seconds = match [frame.time, before.time] {
-        [Some(now), Some(then)] if now > then => now - then,
-        _ => return still(),
+    let (before, seconds) = match (before, frame.time, before.and_then(|before| before.time)) {
+        (Some(before), Some(now), Some(then)) if now > then => (before, now - then),
+        _ => return vec![0.0; frame.cloth.len()],
     };
     let pairs = frame.cloth.iter().zip(&before.cloth);
     pairs.map(|(now, then)| length(difference(*now, *then)) / seconds).collect()

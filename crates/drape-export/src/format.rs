@@ -12,8 +12,8 @@ pub(crate) mod vtk;
 
 use crate::error::Error;
 
-/// Returns a count as a signed number of 32 bits.
-fn count(format: &'static str, what: &'static str, found: usize) -> Result<i32, Error> {
+/// Returns `count`, a number of `items` that `format` stores, as a signed number of 32 bits.
+fn signed_count(format: &'static str, items: &'static str, count: usize) -> Result<i32, Error> {
     let limit = i32::MAX as usize;
-    i32::try_from(found).map_err(|_| Error::TooLarge { format, what, found, limit })
+    i32::try_from(count).map_err(|_| Error::TooLarge { format, what: items, found: count, limit })
 }

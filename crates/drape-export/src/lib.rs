@@ -2,12 +2,12 @@
 //!
 //! # Tour
 //!
-//! A [`Clip`] is what is written: frames of a recording with their times. Each format has a function
-//! that writes a clip, or a frame of it.
+//! A [`Clip`] has the frames of a recording that are written, with their times. Each format has a
+//! function that writes a clip, or a frame of it.
 //!
-//! Layers, lowest first: `error`, `name`, `colour`, `palette`, `scale`; `normal`; `clip` chooses frames; `mesh` divides
-//! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
-//! them.
+//! Layers, lowest first: `error`, `name`, `colour`, `palette`, `scale`; `normal`; `clip` chooses frames;
+//! `mesh` divides them into panels and bodies; `field` computes numbers at their vertices; `format`
+//! and `view` write them.
 
 mod error;
 
@@ -38,7 +38,7 @@ pub use format::pc2::write_pc2;
 pub use format::svg::{PatternMap, write_svg};
 pub use format::table::write_csv;
 pub use format::usda::write_usda;
-pub use format::vtk::{Listed, PolyData, Surface, write_pvd, write_vtp};
+pub use format::vtk::{CollectionFile, PolyData, Surface, write_pvd, write_vtp};
 pub use palette::{FabricPalette, Rgb};
 pub use scale::rounded_up;
 pub use view::{Named, View};

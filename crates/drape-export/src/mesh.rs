@@ -1,4 +1,4 @@
-//! Meshes: panels and bodies one by one, with what the frames of a clip have of each.
+//! Meshes: panels and bodies one by one, with their positions in the frames of a clip.
 
 use std::ops::Range;
 
@@ -11,89 +11,105 @@ use crate::name;
 use crate::normal::{self, Creased, Normal};
 use crate::palette::{FabricPalette, light};
 
-/// Panel or body, with its own numbers of vertices.
+/// Panel or body, whose vertices have numbers from 0.
 #[derive(Debug, Clone)]
 pub(crate) struct Mesh<'a> {
     /// Panel or body of the run.
     pub(crate) part: &'a SurfacePart,
-    /// Its name, which no other has.
+    /// Name, which no other mesh has.
     pub(crate) name: String,
-    /// Its vertices, among those of the cloth or of the bodies.
+    /// Numbers of its vertices among the vertices of the cloth or of the bodies.
     pub(crate) vertices: Range<usize>,
-    /// Its triangles, with its own vertices from 0.
+    /// Triangles, by vertices of the mesh.
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) colour: Colour,
-    pub(crate) kind: Kind,
+    pub(crate) kind: MeshKind,
 }
 
-/// What only panels and only bodies have.
+/// Panel or body, with data that only meshes of this kind have.
 #[derive(Debug, Clone)]
-pub(crate) enum Kind {
-    /// Pattern coordinates of the vertices, in m.
+pub(crate) enum MeshKind {
+    /// Panel, with the pattern coordinates of its vertices, in m.
     Panel(Vec<[f64; 2]>),
-    /// Normals.
+    /// Body, with its creases.
     Body(Creased),
 }
 
-/// Returns the panels and the bodies of a run; the creases of bodies are those of a frame.
+/// Returns the panels and the bodies of `recording`. The creases of bodies are the creases in
+/// `frame`.
 pub(crate) fn meshes<'a>(recording: &'a Recording, frame: &Frame) -> Vec<Mesh<'a>> {
     let (manifest, topology) = (recording.manifest(), recording.topology());
     let mut names = name::unique(manifest.panels.iter().chain(&manifest.bodies)).into_iter();
-    let mut next = || names.next().expect("there is a name for each part");
     let mut meshes = Vec::new();
     let pattern = pattern(recording);
     let palette = FabricPalette::of_runs([recording]);
-    for (index, (part, vertices, triangles)) in
-        divided(&manifest.panels, &topology.cloth).into_iter().enumerate()
-    {
-        let kind = Kind::Panel(pattern[vertices.clone()].to_vec());
-        let colour = match palette.is_needed() {
-            true => light(palette.sides(&part.fabric)[0]),
-            false => colour::of_panel(index),
+    let panels = divided(&manifest.panels, &topology.cloth);
+    for (index, PartMesh { part, vertices, triangles }) in panels.into_iter().enumerate() {
+        let kind = MeshKind::Panel(pattern[vertices.clone()].to_vec());
+        let colour = if palette.is_needed() {
+            light(palette.sides(&part.fabric)[0])
+        } else {
+            colour::panel_colour(index)
         };
-        meshes.push(Mesh { part, name: next(), vertices, triangles, colour, kind });
+        meshes.push(Mesh { part, name: next_name(&mut names), vertices, triangles, colour, kind });
     }
-    for (part, vertices, triangles) in divided(&manifest.bodies, &topology.bodies) {
-        let kind = Kind::Body(Creased::new(&frame.bodies[vertices.clone()], &triangles));
-        meshes.push(Mesh { part, name: next(), vertices, triangles, colour: colour::BODY, kind });
+    for PartMesh { part, vertices, triangles } in divided(&manifest.bodies, &topology.bodies) {
+        let kind = MeshKind::Body(Creased::new(&frame.bodies[vertices.clone()], &triangles));
+        let (name, colour) = (next_name(&mut names), colour::BODY);
+        meshes.push(Mesh { part, name, vertices, triangles, colour, kind });
     }
     meshes
 }
 
-/// Returns the pattern coordinates of the vertices of the cloth, in m.
+/// Returns the next of `names`, of which there is one for each part.
+fn next_name(names: &mut impl Iterator<Item = String>) -> String {
+    names.next().expect("there is a name for each part")
+}
+
+/// Returns the pattern coordinates of the vertices of the cloth of `recording`, in m.
 pub(crate) fn pattern(recording: &Recording) -> Vec<[f64; 2]> {
     let mut material = recording.topology().material.iter();
-    let panels = recording.manifest().panels.iter();
-    let of_panel = |panel: &'_ SurfacePart| {
+    let mut pattern = Vec::new();
+    for panel in &recording.manifest().panels {
         let points = material.by_ref().take(panel.vertices);
-        points.map(|point| panel.pattern_point(*point)).collect::<Vec<_>>()
-    };
-    panels.flat_map(of_panel).collect()
+        pattern.extend(points.map(|point| panel.pattern_point(*point)));
+    }
+    pattern
 }
 
-/// Part, its vertices among those of all parts, its triangles with its own numbers of vertices.
-type Share<'a> = (&'a SurfacePart, Range<usize>, Vec<[u32; 3]>);
+/// SurfacePart with its vertices and triangles.
+struct PartMesh<'a> {
+    part: &'a SurfacePart,
+    /// Numbers of its vertices among the vertices of all parts.
+    vertices: Range<usize>,
+    /// Triangles, by vertices of the part from 0.
+    triangles: Vec<[u32; 3]>,
+}
 
-/// Divides vertices and triangles among their parts.
-fn divided<'a>(parts: &'a [SurfacePart], triangles: &[[u32; 3]]) -> Vec<Share<'a>> {
+/// Divides `triangles` and their vertices among `parts`.
+fn divided<'a>(parts: &'a [SurfacePart], triangles: &[[u32; 3]]) -> Vec<PartMesh<'a>> {
     let (mut vertex, mut triangle) = (0, 0);
-    let mut divide = |part: &'a SurfacePart| {
+    let mut meshes = Vec::new();
+    for part in parts {
         let vertices = vertex..vertex + part.vertices;
-        let own = triangles[triangle..triangle + part.triangles].iter();
-        let own = own.map(|corners| corners.map(|corner| corner - vertex as u32)).collect();
+        let triangles = triangles[triangle..triangle + part.triangles]
+            .iter()
+            .map(|corners| corners.map(|corner| corner - vertex as u32))
+            .collect();
         (vertex, triangle) = (vertices.end, triangle + part.triangles);
-        (part, vertices, own)
-    };
-    parts.iter().map(&mut divide).collect()
+        meshes.push(PartMesh { part, vertices, triangles });
+    }
+    meshes
 }
 
-/// What the frames of a clip have of a mesh: a sample for each frame, or one if nothing of it moves.
+/// Samples of a mesh in the frames of a clip: a sample for each frame, or one if the mesh does not
+/// move.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Track {
     pub(crate) samples: Vec<Sample>,
 }
 
-/// Positions of the vertices in m, and the normals: one for each vertex of a panel, those of
+/// Positions of the vertices, in m, and normals: one for each vertex of a panel, the normals of
 /// [`Creased`] for a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sample {
@@ -102,27 +118,30 @@ pub(crate) struct Sample {
 }
 
 impl Track {
-    /// Reads what the frames of a clip have of some meshes.
+    /// Reads the samples of `meshes` in the frames of `clip`.
     pub(crate) fn read(clip: &Clip, meshes: &[Mesh]) -> Result<Vec<Track>, Error> {
         let mut tracks = vec![Track::default(); meshes.len()];
-        let panels = meshes.iter().any(|mesh| matches!(mesh.kind, Kind::Panel(_)));
+        let has_panels = meshes.iter().any(|mesh| matches!(mesh.kind, MeshKind::Panel(_)));
         let mut bodies_file = None;
-        for index in 0..clip.count() {
+        for index in 0..clip.frame_count() {
             let frame = clip.read(index)?;
-            let moved = index == 0 || frame.bodies_file != bodies_file;
             let (manifest, topology) = (clip.recording().manifest(), clip.recording().topology());
-            let of_cloth = match panels {
-                true => normal::of_cloth(&frame, &topology.cloth, &manifest.seam_pairs),
-                false => Vec::new(),
+            let cloth_normals = if has_panels {
+                normal::cloth_normals(&frame, &topology.cloth, &manifest.seam_pairs)
+            } else {
+                Vec::new()
             };
+
+            // Bodies that have not moved keep their sample: their normals cost most of the time.
+            let bodies_moved = index == 0 || frame.bodies_file != bodies_file;
             for (mesh, track) in meshes.iter().zip(&mut tracks) {
                 let sample = match (&mesh.kind, track.samples.last()) {
-                    (Kind::Panel(_), _) => Sample {
+                    (MeshKind::Panel(_), _) => Sample {
                         positions: single(&frame.cloth[mesh.vertices.clone()]),
-                        normals: of_cloth[mesh.vertices.clone()].to_vec(),
+                        normals: cloth_normals[mesh.vertices.clone()].to_vec(),
                     },
-                    (Kind::Body(_), Some(last)) if !moved => last.clone(),
-                    (Kind::Body(creased), _) => {
+                    (MeshKind::Body(_), Some(last)) if !bodies_moved => last.clone(),
+                    (MeshKind::Body(creased), _) => {
                         let positions = &frame.bodies[mesh.vertices.clone()];
                         let normals = creased.normals(positions, &mesh.triangles);
                         Sample { positions: single(positions), normals }
@@ -132,6 +151,7 @@ impl Track {
             }
             bodies_file.clone_from(&frame.bodies_file);
         }
+
         for track in &mut tracks {
             if track.samples.windows(2).all(|pair| pair[0] == pair[1]) {
                 track.samples.truncate(1);
@@ -141,7 +161,7 @@ impl Track {
     }
 }
 
-/// Returns positions in single precision, which most formats have.
+/// Returns `positions` in single precision, which most formats have.
 pub(crate) fn single(positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
     positions.iter().map(|position| position.map(|part| part as f32)).collect()
 }
@@ -161,7 +181,7 @@ mod tests {
         let counts: Vec<_> =
             meshes.iter().zip(&tracks).map(|(m, t)| (&*m.name, t.samples.len())).collect();
         assert_eq!(counts, [("front", 3), (example::HOSTILE, 3), ("box", 1)]);
-        let Kind::Panel(pattern) = &meshes[1].kind else { panic!("a panel") };
+        let MeshKind::Panel(pattern) = &meshes[1].kind else { panic!("a panel") };
         // Its weft is along the height of the panel.
         assert_eq!(pattern[..], [[0.0, 0.0], [0.0, 0.5], [-0.25, 0.0]]);
         assert_eq!(

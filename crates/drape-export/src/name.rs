@@ -4,43 +4,46 @@ use std::collections::HashSet;
 
 use drape_frames::SurfacePart;
 
-/// Returns the names of parts, each once: a name that was there before gets a number.
+/// Returns the names of `parts`, each once. A repeated name gets a number.
 pub(crate) fn unique<'a>(parts: impl IntoIterator<Item = &'a SurfacePart>) -> Vec<String> {
-    let clean = |name: &str| name.replace(char::is_control, " ").trim().to_owned();
-    numbered(parts.into_iter().map(|part| clean(&part.name)), |name, n| format!("{name} ({n})"))
+    let names =
+        parts.into_iter().map(|part| part.name.replace(char::is_control, " ").trim().to_owned());
+    numbered(names, |name, n| format!("{name} ({n})"))
 }
 
-/// Returns identifiers for names, each once: letters, digits and underscores of ASCII.
+/// Returns identifiers for `names`, each once: letters, digits and underscores of ASCII.
 pub(crate) fn identifiers<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     numbered(names.into_iter().map(identifier), |name, n| format!("{name}_{n}"))
 }
 
-/// Gives a number to each name that was there before.
+/// Returns `names`, each once. `with_number` returns a repeated name with a number, from 2 on.
 fn numbered(
     names: impl Iterator<Item = String>,
     with_number: impl Fn(&str, usize) -> String,
 ) -> Vec<String> {
     let mut taken = HashSet::new();
-    let mut free = |name: String| {
+    let mut unique = Vec::new();
+    for name in names {
         let name = if name.is_empty() { "part".to_owned() } else { name };
         let mut candidates =
             std::iter::once(name.clone()).chain((2..).map(|n| with_number(&name, n)));
         let free = candidates.find(|candidate| taken.insert(candidate.clone()));
-        free.expect("some number is free")
-    };
-    names.map(&mut free).collect()
+        unique.push(free.expect("some number is free"));
+    }
+    unique
 }
 
+/// Returns `name` as an identifier.
 fn identifier(name: &str) -> String {
-    let kept = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-    let name: String = name.chars().map(kept).collect();
+    let letters = name.chars();
+    let name: String = letters.map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     match name.chars().next() {
         Some(first) if first.is_ascii_digit() => format!("_{name}"),
         _ => name,
     }
 }
 
-/// Returns text as XML has it, between tags or as the value of an attribute.
+/// Returns `text` as it stands in XML, between tags or as the value of an attribute.
 pub(crate) fn xml(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

@@ -1,61 +1,68 @@
 //! Normals: unit vectors across cloth and bodies at their vertices, for smooth shading.
 //!
 //! A normal is the sum of the area vectors of the triangles around a vertex, made a unit vector.
-//! Vertices that are sewn together share theirs once they are at one place, so that no seam shows
-//! as an edge. Bodies have creases, such as the edges of a cube: a vertex on a crease has a normal
-//! for each side of it.
+//! Vertices that are sewn together share a normal once they are at one position, so that no seam
+//! shows as an edge. Bodies have creases, such as the edges of a cube: a vertex on a crease has a
+//! normal for each side of it.
 
 use std::collections::HashMap;
 
 use drape_frames::Frame;
 use drape_frames::vector::{area_vector, difference, dot, length, sum};
 
-/// Cosine of the angle between two triangles of a body beyond which their edge is a crease: 40°,
-/// more than the facets of a round body differ by, and less than the edges of a box.
+/// Cosine of the angle between two triangles of a body beyond which their edge is a crease: 40°.
+/// Facets of a round body differ by less, the faces at an edge of a box by more.
 const CREASE: f64 = 0.766;
 
-/// Distance below which vertices that are sewn together are at one place, in m.
+/// Distance below which vertices that are sewn together are at one position, in m.
 const AT_ONE_PLACE: f64 = 1e-6;
 
-/// Unit vector; up where no triangle has an area, since some readers refuse vectors of no length.
+/// Unit vector. It points up where no triangle has an area, because some readers refuse vectors of
+/// no length.
 pub(crate) type Normal = [f32; 3];
 
-/// Returns the normals of the vertices of the cloth.
-pub(crate) fn of_cloth(
+/// Returns the normals of the vertices of the cloth in `frame`.
+pub(crate) fn cloth_normals(
     frame: &Frame,
     triangles: &[[u32; 3]],
     seam_pairs: &[[u32; 2]],
 ) -> Vec<Normal> {
-    let own = area_vectors(&frame.cloth, triangles, triangles, frame.cloth.len());
-    let mut shared = own.clone();
-    let mut root: Vec<u32> = (0..own.len() as u32).collect();
-    let find = |root: &[u32], mut vertex: u32| {
-        while root[vertex as usize] != vertex {
-            vertex = root[vertex as usize];
-        }
-        vertex
-    };
+    let vectors = area_vectors(&frame.cloth, triangles, triangles, frame.cloth.len());
+
+    // Vertices at one position are united; the root of their set has the sum of their vectors.
+    let mut shared = vectors.clone();
+    let mut parent: Vec<u32> = (0..vectors.len() as u32).collect();
     for &[a, b] in seam_pairs {
         let [at_a, at_b] = [a, b].map(|vertex| frame.cloth[vertex as usize]);
-        let (a, b) = (find(&root, a), find(&root, b));
+        let (a, b) = (root_of(&parent, a), root_of(&parent, b));
         if a != b && length(difference(at_a, at_b)) <= AT_ONE_PLACE {
-            let of_b = shared[b as usize];
-            shared[a as usize] = sum(shared[a as usize], of_b);
-            root[b as usize] = a;
+            let vector_b = shared[b as usize];
+            shared[a as usize] = sum(shared[a as usize], vector_b);
+            parent[b as usize] = a;
         }
     }
-    let normal = |vertex: u32| {
-        let (own, shared) = (own[vertex as usize], shared[find(&root, vertex) as usize]);
-        // Panels that are sewn with opposite sides, or pressed open, keep their own.
-        unit(if dot(own, shared) > 0.0 { shared } else { own })
-    };
-    (0..own.len() as u32).map(normal).collect()
+
+    let normals = (0..vectors.len() as u32).map(|vertex| {
+        let vector = vectors[vertex as usize];
+        let shared = shared[root_of(&parent, vertex) as usize];
+        // Panels that are sewn with opposite sides, or pressed open, keep their normals.
+        unit(if dot(vector, shared) > 0.0 { shared } else { vector })
+    });
+    normals.collect()
 }
 
-/// Normals of a body: which vertex each is of, and which each corner of a triangle has.
+/// Returns the root of the set of `vertex`. Each vertex has a `parent`, and a root is its parent.
+fn root_of(parent: &[u32], mut vertex: u32) -> u32 {
+    while parent[vertex as usize] != vertex {
+        vertex = parent[vertex as usize];
+    }
+    vertex
+}
+
+/// Normals of a body: the vertex of each normal, and the normal of each corner of a triangle.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Creased {
-    /// Vertex of each normal, in the order of the vertices; a vertex on a crease is there more than
+    /// Vertex of each normal, in the order of the vertices. A vertex on a crease comes more than
     /// once.
     pub(crate) vertices: Vec<u32>,
     /// Numbers of the normals of the corners of each triangle.
@@ -63,7 +70,7 @@ pub(crate) struct Creased {
 }
 
 impl Creased {
-    /// Finds the creases of a body.
+    /// Returns the creases of the body with `triangles` at `positions`.
     pub(crate) fn new(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Creased {
         let normals: Vec<[f64; 3]> = triangles
             .iter()
@@ -73,8 +80,7 @@ impl Creased {
                 if size > 0.0 { area.map(|part| part / size) } else { area }
             })
             .collect();
-        // Corners of triangles that share a smooth edge are joined.
-        let mut root: Vec<usize> = (0..3 * triangles.len()).collect();
+        // Triangles beside each edge.
         let mut edges: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
         for (triangle, corners) in triangles.iter().enumerate() {
             for side in 0..3 {
@@ -82,32 +88,30 @@ impl Creased {
                 edges.entry([a.min(b), a.max(b)]).or_default().push(triangle);
             }
         }
-        let corner = |triangle: usize, vertex: u32| {
-            let place = triangles[triangle].iter().position(|corner| *corner == vertex);
-            3 * triangle + place.expect("the edge is of the triangle")
-        };
+
+        // Corners of triangles that share a smooth edge are joined.
+        let mut parent: Vec<usize> = (0..3 * triangles.len()).collect();
         for ([a, b], beside) in &edges {
-            if let &[one, other] = &beside[..]
-                && dot(normals[one], normals[other]) >= CREASE
+            if let &[first, second] = &beside[..]
+                && dot(normals[first], normals[second]) >= CREASE
             {
                 for vertex in [*a, *b] {
-                    let (one, other) = (
-                        find(&mut root, corner(one, vertex)),
-                        find(&mut root, corner(other, vertex)),
-                    );
+                    let [first, second] = [first, second]
+                        .map(|triangle| find(&mut parent, corner_of(triangles, triangle, vertex)));
                     // The smaller is the root, in whatever order the edges come.
-                    root[one.max(other)] = one.min(other);
+                    parent[first.max(second)] = first.min(second);
                 }
             }
         }
-        let roots: Vec<usize> = (0..root.len()).map(|corner| find(&mut root, corner)).collect();
-        let vertex = |corner: usize| triangles[corner / 3][corner % 3];
+
+        // Each set of joined corners has a normal.
+        let roots: Vec<usize> = (0..parent.len()).map(|corner| find(&mut parent, corner)).collect();
         let mut first: Vec<usize> = roots.clone();
-        first.sort_unstable_by_key(|root| (vertex(*root), *root));
+        first.sort_unstable_by_key(|root| (vertex_of(triangles, *root), *root));
         first.dedup();
         let number: HashMap<usize, u32> = first.iter().copied().zip(0..).collect();
         Creased {
-            vertices: first.into_iter().map(vertex).collect(),
+            vertices: first.into_iter().map(|corner| vertex_of(triangles, corner)).collect(),
             corners: roots
                 .as_chunks()
                 .0
@@ -117,22 +121,35 @@ impl Creased {
         }
     }
 
-    /// Returns the normals of the body at some positions.
+    /// Returns the normals of the body with `triangles` at `positions`.
     pub(crate) fn normals(&self, positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Normal> {
         let sums = area_vectors(positions, triangles, &self.corners, self.vertices.len());
         sums.into_iter().map(unit).collect()
     }
 }
 
-fn find(root: &mut [usize], mut corner: usize) -> usize {
-    while root[corner] != corner {
-        root[corner] = root[root[corner]];
-        corner = root[corner];
+/// Returns the number of the corner of `triangle` at `vertex`, which it has.
+fn corner_of(triangles: &[[u32; 3]], triangle: usize, vertex: u32) -> usize {
+    let corner = triangles[triangle].iter().position(|corner| *corner == vertex);
+    3 * triangle + corner.expect("the edge is of the triangle")
+}
+
+/// Returns the vertex of the corner with the number `corner`.
+fn vertex_of(triangles: &[[u32; 3]], corner: usize) -> u32 {
+    triangles[corner / 3][corner % 3]
+}
+
+/// Returns the root of the set of `corner`, and shortens the way to it.
+fn find(parent: &mut [usize], mut corner: usize) -> usize {
+    while parent[corner] != corner {
+        parent[corner] = parent[parent[corner]];
+        corner = parent[corner];
     }
     corner
 }
 
-/// Returns the sums of the area vectors of the triangles, over the targets of their corners.
+/// Returns the sums of the area vectors of `triangles` at `positions`. The vector of a triangle is
+/// added to its three `targets`, which are below `count`.
 fn area_vectors(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -149,6 +166,7 @@ fn area_vectors(
     sums
 }
 
+/// Returns the unit vector in the direction of `a`.
 fn unit(a: [f64; 3]) -> Normal {
     let size = length(a);
     if size > 0.0 { a.map(|part| (part / size) as f32) } else { [0.0, 1.0, 0.0] }
@@ -169,17 +187,20 @@ mod tests {
             )
         };
         let triangles = [[0, 2, 1], [3, 4, 5]];
-        let apart = of_cloth(&frame(0.1), &triangles, &[[0, 3], [4, 1]]);
+        let apart = cloth_normals(&frame(0.1), &triangles, &[[0, 3], [4, 1]]);
         assert_eq!((apart[0], apart[3]), ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]));
-        let together = of_cloth(&frame(0.0), &triangles, &[[0, 3], [4, 1]]);
+        let together = cloth_normals(&frame(0.0), &triangles, &[[0, 3], [4, 1]]);
         let diagonal = 0.5_f32.sqrt();
         assert_eq!(together[0], [0.0, diagonal, diagonal]);
         assert_eq!([together[3], together[1], together[4]], [together[0]; 3]);
         assert_eq!((together[2], together[5]), (apart[2], apart[5]));
         // Sewn with opposite sides, each keeps its own.
         let lower = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-        let turned =
-            of_cloth(&example::frame(&[lower, lower].concat()), &[[0, 2, 1], [3, 4, 5]], &[[0, 3]]);
+        let turned = cloth_normals(
+            &example::frame(&[lower, lower].concat()),
+            &[[0, 2, 1], [3, 4, 5]],
+            &[[0, 3]],
+        );
         assert_eq!((turned[0], turned[3]), ([0.0, 1.0, 0.0], [0.0, -1.0, 0.0]));
     }
 

@@ -1,27 +1,26 @@
 //! Scale: the range of the values that a map shows, and its colours.
 
-/// Fraction of the values that the range leaves out: those at single vertices, such as corners that
-/// are sewn, would make the rest pale.
+/// Fraction of the values that the range leaves out. Large values at single vertices, such as sewn
+/// corners, would make the other colours pale.
 const BEYOND: f64 = 0.005;
 
 /// Smallest range, so that rounding errors of cloth at rest are not shown as values.
 const RANGE_MIN: f64 = 1e-6;
 
-/// Returns the range of some values: that of nearly all of them, rounded up to 1, 2 or 5 times a power
-/// of ten; about zero for signed ones, from zero for others.
+/// Returns the range of nearly all `values`, rounded up to 1, 2 or 5 times a power of ten. It is
+/// symmetric about zero if `is_signed`, and begins at zero otherwise.
 pub(crate) fn range(values: impl Iterator<Item = f64>, is_signed: bool) -> [f64; 2] {
     let mut sizes: Vec<f64> = values.map(f64::abs).collect();
     let place = ((1.0 - BEYOND) * sizes.len() as f64) as usize;
     let place = place.min(sizes.len().saturating_sub(1));
-    let size = match sizes.is_empty() {
-        true => 0.0,
-        false => *sizes.select_nth_unstable_by(place, f64::total_cmp).1,
-    };
+    let size =
+        if sizes.is_empty() { 0.0 } else { *sizes.select_nth_unstable_by(place, f64::total_cmp).1 };
     let high = rounded_up(size.max(RANGE_MIN));
     [if is_signed { -high } else { 0.0 }, high]
 }
 
-/// Returns the least of 1, 2 and 5 times a power of ten that is not below a positive number.
+/// Returns the least of 1, 2 and 5 times a power of ten that is not below `size`, a positive
+/// number.
 ///
 /// ```
 /// assert_eq!(drape_export::rounded_up(0.3), 0.5);
@@ -33,19 +32,19 @@ pub fn rounded_up(size: f64) -> f64 {
     steps.into_iter().find(|step| *step >= size).unwrap_or(size)
 }
 
-/// Colours of a scale from zero upwards, evenly apart.
+/// Colours of a scale from zero upwards, at equal distances.
 const SEQUENTIAL: &[[u8; 3]] =
     &[[37, 35, 92], [32, 99, 141], [33, 153, 134], [122, 199, 82], [250, 228, 66]];
 
-/// Colours of a scale about zero, evenly apart.
+/// Colours of a scale about zero, at equal distances.
 const DIVERGING: &[[u8; 3]] = &[[33, 92, 172], [246, 246, 244], [186, 38, 48]];
 
-/// Returns the colours of a scale, evenly apart, between which a colour is linear.
+/// Returns the colours at equal distances on a scale. Between them the colour is linear.
 pub(crate) fn stops(is_signed: bool) -> &'static [[u8; 3]] {
     if is_signed { DIVERGING } else { SEQUENTIAL }
 }
 
-/// Returns the colour at a fraction of a scale as six digits.
+/// Returns the colour at `fraction` of a scale, as six digits.
 pub(crate) fn colour(fraction: f64, is_signed: bool) -> String {
     let stops = stops(is_signed);
     let place = fraction.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
@@ -58,7 +57,7 @@ pub(crate) fn colour(fraction: f64, is_signed: bool) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Returns a number with three digits.
+/// Returns `value` with three digits.
 pub(crate) fn digits(value: f64) -> String {
     let size = value.abs();
     let places = match size {

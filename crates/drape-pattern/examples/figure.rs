@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         assert!(quality.area_error.abs() < 5e-3, "{}: {quality:?}", panel.name());
     }
     std::fs::write(drawing, figure(&pattern, &cut))?;
-    let (panels, particles) = (cut.panels.len(), cut.particles());
+    let (panels, particles) = (cut.panels.len(), cut.particle_count());
     println!("{panels} panels, {particles} particles when sewn: {}", drawing.display());
     Ok(())
 }

@@ -7,7 +7,7 @@ use kurbo::{
 /// Relative accuracy of lengths along an edge.
 const ACCURACY: f64 = 1e-9;
 
-/// Curve of an edge from its start to its end. Points are in the panel's frame, in m.
+/// Curve of an edge from its start to its end. Points are in the frame of the panel, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Curve {
     /// Straight line.
@@ -43,15 +43,15 @@ pub struct Edge {
     pub start: [f64; 2],
     /// End point, in m.
     pub end: [f64; 2],
-    /// Curve between them.
+    /// Curve from `start` to `end`.
     pub curve: Curve,
     /// Width of the hem along the edge, in m; 0 without a hem.
     pub hem: f64,
-    /// Distances of its notches from its start, along the edge, in m.
+    /// Distances of notches from `start`, along the edge, in m.
     pub notches: Vec<f64>,
 }
 
-/// Circle of an arc.
+/// Circle that an arc is part of.
 struct Circle {
     center: [f64; 2],
     /// Vector from the centre to the start of the edge, in m.
@@ -59,30 +59,30 @@ struct Circle {
 }
 
 impl Edge {
-    /// Returns a straight edge.
+    /// Returns a straight edge `name` from `start` to `end`, in m.
     #[must_use]
     pub fn line(name: impl Into<String>, start: [f64; 2], end: [f64; 2]) -> Self {
         Self { name: name.into(), start, end, curve: Curve::Line, hem: 0.0, notches: Vec::new() }
     }
 
-    /// Returns the edge with another curve.
+    /// Returns the edge with `curve` in place of its curve.
     #[must_use]
     pub fn curved(mut self, curve: Curve) -> Self {
         self.curve = curve;
         self
     }
 
-    /// Returns the edge with a hem of a width in m.
+    /// Returns the edge with a hem of `width`, in m.
     #[must_use]
     pub fn hemmed(mut self, width: f64) -> Self {
         self.hem = width;
         self
     }
 
-    /// Returns the angle of the arc of a radius, in m, between the ends of the edge, in rad.
+    /// Returns the angle, in rad, of an arc with `radius`, in m, between the ends of the edge.
     ///
-    /// `large` chooses the longer arc, `left` the one that runs anticlockwise. A radius under half
-    /// the distance of the ends is taken as half of it, as in SVG.
+    /// `large` chooses the longer arc, `left` the arc that runs anticlockwise. A radius under half
+    /// the distance of the ends counts as half that distance, as in SVG.
     #[must_use]
     pub fn arc_sweep(&self, radius: f64, large: bool, left: bool) -> f64 {
         let half = (0.5 * distance(self.start, self.end) / radius.abs()).min(1.0).asin();
@@ -90,19 +90,19 @@ impl Edge {
         if left { angle } else { -angle }
     }
 
-    /// Returns whether all numbers are finite, and the angle of an arc less than a full turn.
+    /// Returns whether all numbers are finite and the angle of an [`Curve::Arc`] is less than a
+    /// full turn.
     pub(crate) fn is_finite(&self) -> bool {
-        let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
-        let curve = match &self.curve {
+        let is_curve_finite = match &self.curve {
             Curve::Line => true,
-            Curve::Quadratic(control) => finite(control),
-            Curve::Cubic(controls) => controls.iter().all(finite),
+            Curve::Quadratic(control) => is_finite(control),
+            Curve::Cubic(controls) => controls.iter().all(is_finite),
             Curve::Arc { sweep } => sweep.abs() < std::f64::consts::TAU,
         };
-        finite(&self.start) && finite(&self.end) && curve
+        is_finite(&self.start) && is_finite(&self.end) && is_curve_finite
     }
 
-    /// Returns the coordinates of its ends and control points.
+    /// Returns the coordinates of both ends and of the control points, each x before its y.
     pub(crate) fn coordinates(&self) -> impl Iterator<Item = f64> {
         let controls = match self.curve {
             Curve::Quadratic(control) => [control, control],
@@ -112,7 +112,7 @@ impl Edge {
         [self.start, self.end, controls[0], controls[1]].into_iter().flatten()
     }
 
-    /// Returns the edge in the opposite direction.
+    /// Returns the edge in the opposite direction: from `end` to `start`.
     pub(crate) fn reversed(&self) -> Self {
         let curve = match self.curve {
             Curve::Cubic([first, second]) => Curve::Cubic([second, first]),
@@ -125,7 +125,7 @@ impl Edge {
         Self { name: self.name.clone(), start, end, curve, hem: self.hem, notches }
     }
 
-    /// Returns the edge with its points mapped by an isometry, which is a reflection if `reflects`.
+    /// Returns the edge with its points mapped by the isometry `map`, a reflection if `reflects`.
     pub(crate) fn mapped(&self, reflects: bool, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         let curve = match self.curve {
             Curve::Line => Curve::Line,
@@ -138,53 +138,66 @@ impl Edge {
         Self { name, start, end, curve, hem: self.hem, notches }
     }
 
-    /// Returns the parts of the edge between distances from its start, in m, each numbered after
-    /// its name.
+    /// Returns the parts of the edge between `distances` from its start, in m. The name of a part
+    /// is the name of the edge with a number.
     ///
-    /// Distances must lie within the edge, in ascending order.
+    /// `distances` must lie within the edge, in ascending order.
     pub(crate) fn split(&self, distances: &[f64]) -> Vec<Self> {
         let length = self.length();
-        let accuracy = ACCURACY * self.size();
-        let parameter = |distance: f64| match self.curve {
-            Curve::Line | Curve::Arc { .. } => distance / length,
-            _ => self.segment().inv_arclen(distance, accuracy),
-        };
-        let ends: Vec<f64> =
-            [0.0].into_iter().chain(distances.iter().copied()).chain([length]).collect();
-        let part = |(number, pair): (usize, &[f64])| {
-            let (from, to) =
-                (parameter(pair[0]), if pair[1] < length { parameter(pair[1]) } else { 1.0 });
-            let pair_of = |p: Point| [p.x, p.y];
-            let curve = match self.segment().subsegment(from..to) {
-                _ if matches!(self.curve, Curve::Arc { .. }) => match self.curve {
-                    Curve::Arc { sweep } => Curve::Arc { sweep: (to - from) * sweep },
-                    curve => curve,
-                },
-                PathSeg::Line(_) => Curve::Line,
-                PathSeg::Quad(quad) => Curve::Quadratic(pair_of(quad.p1)),
-                PathSeg::Cubic(cubic) => Curve::Cubic([pair_of(cubic.p1), pair_of(cubic.p2)]),
-            };
-            let within = self.notches.iter().filter(|at| pair[0] < **at && **at <= pair[1]);
-            Self {
-                name: format!("{} {}", self.name, number + 1),
-                start: self.at_parameter(from),
-                end: self.at_parameter(to),
-                curve,
-                hem: self.hem,
-                notches: within.map(|at| at - pair[0]).collect(),
-            }
-        };
-        ends.windows(2).enumerate().map(part).collect()
+        let mut ends = vec![0.0];
+        ends.extend(distances);
+        ends.push(length);
+        ends.windows(2)
+            .enumerate()
+            .map(|(number, pair)| {
+                let name = format!("{} {}", self.name, number + 1);
+                self.part(name, [pair[0], pair[1]], length)
+            })
+            .collect()
     }
 
-    /// Returns the distance along the edge of its point nearest to another, and the distance
-    /// between them, in m, as exact as chords of a thousandth of the edge are.
+    /// Returns the part `name` of the edge between two distances from its start, in m. `length` is
+    /// the length of the edge, in m.
+    fn part(&self, name: String, [from, to]: [f64; 2], length: f64) -> Self {
+        let begin = self.parameter_at(from, length);
+        let end = if to < length { self.parameter_at(to, length) } else { 1.0 };
+        let curve = match (self.curve, self.segment().subsegment(begin..end)) {
+            (Curve::Arc { sweep }, _) => Curve::Arc { sweep: (end - begin) * sweep },
+            (_, PathSeg::Line(_)) => Curve::Line,
+            (_, PathSeg::Quad(quad)) => Curve::Quadratic([quad.p1.x, quad.p1.y]),
+            (_, PathSeg::Cubic(cubic)) => {
+                Curve::Cubic([cubic.p1, cubic.p2].map(|control| [control.x, control.y]))
+            }
+        };
+
+        let notches = self.notches.iter().filter(|at| from < **at && **at <= to);
+        Self {
+            name,
+            start: self.at_parameter(begin),
+            end: self.at_parameter(end),
+            curve,
+            hem: self.hem,
+            notches: notches.map(|at| at - from).collect(),
+        }
+    }
+
+    /// Returns the parameter of the curve at `distance` from the start, in m. `length` is the
+    /// length of the edge, in m.
+    fn parameter_at(&self, distance: f64, length: f64) -> f64 {
+        match self.curve {
+            Curve::Line | Curve::Arc { .. } => distance / length,
+            _ => self.segment().inv_arclen(distance, ACCURACY * self.size()),
+        }
+    }
+
+    /// Returns the nearest point of the edge to `point`, as its distance along the edge, and its
+    /// distance from `point`, in m. The result is as exact as chords of a thousandth of the edge.
     pub(crate) fn nearest(&self, point: [f64; 2]) -> [f64; 2] {
+        const CHORDS: u32 = 1000;
         let length = self.length();
-        let count = 1000;
-        let at = |k: usize| k as f64 / f64::from(count);
         let points: Vec<[f64; 2]> =
-            (0..=count as usize).map(|k| self.at_parameter(at(k))).collect();
+            (0..=CHORDS).map(|k| self.at_parameter(f64::from(k) / f64::from(CHORDS))).collect();
+
         let (mut along, mut best) = (0.0, [0.0, f64::INFINITY]);
         for pair in points.windows(2) {
             let chord = difference(pair[1], pair[0]);
@@ -192,15 +205,16 @@ impl Edge {
             let arm = difference(point, pair[0]);
             let t = ((arm[0] * chord[0] + arm[1] * chord[1]) / (size * size)).clamp(0.0, 1.0);
             let foot = [pair[0][0] + t * chord[0], pair[0][1] + t * chord[1]];
-            let off = distance(foot, point);
-            if off < best[1] {
-                best = [along + t * size, off];
+            let gap = distance(foot, point);
+            if gap < best[1] {
+                best = [along + t * size, gap];
             }
             along += size;
         }
         [best[0].min(length), best[1]]
     }
 
+    /// Returns the circle of an arc with the angle `sweep`, in rad, between the ends of the edge.
     fn circle(&self, sweep: f64) -> Circle {
         // The centre lies on the perpendicular bisector, to the left of an edge that turns left.
         let chord = difference(self.end, self.start);
@@ -212,14 +226,17 @@ impl Edge {
         Circle { center, arm: difference(self.start, center) }
     }
 
+    /// Returns the edge as a segment of kurbo. An arc becomes its chord.
     fn segment(&self) -> PathSeg {
-        let point = |p: [f64; 2]| Point::new(p[0], p[1]);
-        let (start, end) = (point(self.start), point(self.end));
+        let [start, end] = [self.start, self.end].map(kurbo_point);
         match self.curve {
             Curve::Line | Curve::Arc { .. } => PathSeg::Line(Line::new(start, end)),
-            Curve::Quadratic(control) => PathSeg::Quad(QuadBez::new(start, point(control), end)),
-            Curve::Cubic([first, second]) => {
-                PathSeg::Cubic(CubicBez::new(start, point(first), point(second), end))
+            Curve::Quadratic(control) => {
+                PathSeg::Quad(QuadBez::new(start, kurbo_point(control), end))
+            }
+            Curve::Cubic(controls) => {
+                let [first, second] = controls.map(kurbo_point);
+                PathSeg::Cubic(CubicBez::new(start, first, second, end))
             }
         }
     }
@@ -238,7 +255,7 @@ impl Edge {
         }
     }
 
-    /// Returns the point at a fraction of the length, from 0 at the start to 1 at the end, in m.
+    /// Returns the point at `fraction` of the length, from 0 at the start to 1 at the end, in m.
     #[must_use]
     pub fn at(&self, fraction: f64) -> [f64; 2] {
         match (fraction, self.curve) {
@@ -254,6 +271,7 @@ impl Edge {
         }
     }
 
+    /// Returns the point at parameter `t` of the curve, from 0 at the start to 1 at the end, in m.
     fn at_parameter(&self, t: f64) -> [f64; 2] {
         match self.curve {
             Curve::Arc { sweep } if sweep != 0.0 => {
@@ -282,7 +300,7 @@ impl Edge {
         (0..chords).map(|k| self.at_parameter(f64::from(k) / f64::from(chords))).collect()
     }
 
-    /// Returns tangent vectors at the start and at the end, of any length.
+    /// Returns tangent vectors at the start and at the end. Their lengths have no meaning.
     pub(crate) fn tangents(&self) -> [[f64; 2]; 2] {
         if let Curve::Arc { sweep } = self.curve
             && sweep != 0.0
@@ -301,12 +319,8 @@ impl Edge {
             Curve::Line | Curve::Arc { .. } => [self.end, self.start],
         };
         let near = 1e-9 * self.size();
-        let towards = |from: [f64; 2], points: [[f64; 2]; 3]| {
-            let point = points.into_iter().find(|&p| distance(p, from) > near);
-            difference(point.unwrap_or(points[2]), from)
-        };
-        let start = towards(self.start, [controls[0], controls[1], self.end]);
-        let end = towards(self.end, [controls[1], controls[0], self.start]);
+        let start = direction(self.start, [controls[0], controls[1], self.end], near);
+        let end = direction(self.end, [controls[1], controls[0], self.start], near);
         [start, end.map(|x| -x)]
     }
 
@@ -325,11 +339,68 @@ impl Edge {
 
     /// Returns the largest distance of a coordinate from the start, in m: a scale for tolerances.
     fn size(&self) -> f64 {
-        let all = self.coordinates();
         let (x, y) = (self.start[0], self.start[1]);
-        let far = all.enumerate().map(|(k, c)| (c - if k % 2 == 0 { x } else { y }).abs());
-        far.fold(f64::MIN_POSITIVE, f64::max)
+        let offsets =
+            self.coordinates().enumerate().map(|(k, c)| (c - if k % 2 == 0 { x } else { y }).abs());
+        offsets.fold(f64::MIN_POSITIVE, f64::max)
     }
+}
+
+/// Returns whether both coordinates of `point` are finite.
+fn is_finite(point: &[f64; 2]) -> bool {
+    point[0].is_finite() && point[1].is_finite()
+}
+
+/// Returns the vector from `from` to the first of `points` that is farther away than `near`, in m;
+/// to the last one if all are near.
+fn direction(from: [f64; 2], points: [[f64; 2]; 3], near: f64) -> [f64; 2] {
+    let target = points.into_iter().find(|&p| distance(p, from) > near);
+    difference(target.unwrap_or(points[2]), from)
+}
+
+/// Returns the cross product of the vectors `a` and `b`.
+pub(crate) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// Returns the dot product of the vectors `a` and `b`.
+pub(crate) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// Returns the angle by which the direction `from` must be turned to become the direction `to`, in
+/// rad, positive if anticlockwise.
+pub(crate) fn turning_angle(from: [f64; 2], to: [f64; 2]) -> f64 {
+    cross(from, to).atan2(dot(from, to))
+}
+
+/// Returns the low and the high corner of the bounding box of the ends and control points of
+/// `edges`.
+pub(crate) fn control_box<'e>(edges: impl IntoIterator<Item = &'e Edge>) -> [[f64; 2]; 2] {
+    let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+    for edge in edges {
+        for (k, coordinate) in edge.coordinates().enumerate() {
+            low[k % 2] = low[k % 2].min(coordinate);
+            high[k % 2] = high[k % 2].max(coordinate);
+        }
+    }
+    [low, high]
+}
+
+/// Returns the larger side of the bounding box of the ends and control points of `edges`; 0 if
+/// there are no edges.
+pub(crate) fn control_extent<'e>(edges: impl IntoIterator<Item = &'e Edge>) -> f64 {
+    let mut edges = edges.into_iter().peekable();
+    if edges.peek().is_none() {
+        return 0.0;
+    }
+    let [low, high] = control_box(edges);
+    (high[0] - low[0]).max(high[1] - low[1])
+}
+
+/// Returns a point as kurbo represents it.
+fn kurbo_point([x, y]: [f64; 2]) -> Point {
+    Point::new(x, y)
 }
 
 /// Returns the vector `a - b`.
@@ -337,7 +408,7 @@ pub(crate) fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// Returns the distance of two points.
+/// Returns the distance between `a` and `b`.
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }

@@ -16,6 +16,7 @@ pub enum Error {
     Pattern(Vec<Mistake>),
 }
 
+/// Returns `mistakes` as text, each with its remedy.
 fn list(mistakes: &[Mistake]) -> String {
     let lines: Vec<String> =
         mistakes.iter().map(|mistake| format!("{mistake}\n  help: {}", mistake.help())).collect();

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Length that is shown in mm, with as many digits as can be read.
+/// Length that is shown in mm, with the digits that a person can use.
 pub(crate) struct Millimetres(pub f64);
 
 impl fmt::Display for Millimetres {
@@ -16,7 +16,7 @@ impl fmt::Display for Millimetres {
     }
 }
 
-/// Width and height that are shown in mm, or in m where both are long.
+/// Width and height that are shown in mm, or in m if both are long.
 pub(crate) struct Extents(pub [f64; 2]);
 
 impl fmt::Display for Extents {

@@ -2,11 +2,12 @@
 //!
 //! # Tour
 //!
-//! [`Pattern::read`] makes a checked [`Pattern`] of a file: [`Panel`]s, whose outlines are chains
-//! of [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] makes a [`CutPattern`] of it: a
-//! [`Cut`] of each panel and the [`SeamNodes`] of each seam. [`Quality`] measures a cut, [`figure`]
-//! draws it. What is wrong is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the
-//! file; what only should be known is a [`Note`].
+//! [`Pattern::read`] reads a file and returns a checked [`Pattern`]: [`Panel`]s, whose outlines are
+//! chains of [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] cuts a pattern into particles
+//! and returns a [`CutPattern`]: a [`Cut`] of each panel and the [`SeamNodes`] of each seam.
+//! [`Quality`] measures a cut, [`figure`] draws a cut pattern. A fault of a pattern is a
+//! [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the file. A remark that prevents
+//! nothing is a [`PatternNote`].
 //!
 //! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; the
 //! chapters `panel` and `pattern`, `sketch`; the chapters `read` and `cut`; `write`.
@@ -21,17 +22,17 @@ mod panel;
 mod pattern;
 mod sketch;
 
-// Answers.
+// Mistakes and notes.
 mod error;
 mod length;
 mod mistake;
 mod note;
 
-// Files to patterns, patterns to particles.
+// Files become patterns, patterns become particles.
 mod cut;
 mod read;
 
-// Patterns and cuts to files.
+// Patterns and cuts are written to files.
 mod write;
 
 pub use cut::{Cut, CutPattern, Cutter, NodeId, Quality, SeamNodes, Tie};
@@ -39,7 +40,7 @@ pub use ease::{DEFAULT_EASE, MAX_EASE};
 pub use edge::{Curve, Edge};
 pub use error::Error;
 pub use mistake::Mistake;
-pub use note::Note;
+pub use note::PatternNote;
 pub use panel::dart::{Dart, OpenDart};
 pub use panel::placement::Placement;
 pub use panel::{Fold, Panel};
@@ -47,6 +48,6 @@ pub use pattern::Pattern;
 pub use pattern::seam::{EdgeId, Seam};
 #[cfg(feature = "schema")]
 pub use read::pattern_schema;
-pub use read::{Place, Request, SeamKeys, Unit};
-pub use sketch::{Sketch, Wrong};
+pub use read::{PatternTable, Request, SeamKeys, Unit};
+pub use sketch::{Sketch, SketchFault};
 pub use write::{Page, Paper, figure, seam_colour};

@@ -7,8 +7,8 @@ use drape_input::{Diagnostic, Subject};
 use crate::ease::MAX_EASE;
 use crate::length::{Extents, Millimetres};
 
-/// Largest spacing for an edge, over its length. Half a spacing would do; a little less leaves room
-/// for rounding.
+/// Largest spacing for an edge, over its length. Half a spacing would do. A slightly smaller value
+/// leaves room for rounding.
 const MOST_SPACING: f64 = 1.99;
 
 /// Mistake of a pattern, or of cutting it at a spacing. Lengths are in m.
@@ -43,7 +43,7 @@ pub enum Mistake {
         /// Number of its edges.
         edges: usize,
     },
-    /// Two edges of a panel have one name: give each its own.
+    /// Two edges of a panel have the same name: give each another name.
     #[error("panel {panel} has two edges named {edge}")]
     SameEdge {
         /// The panel.
@@ -131,7 +131,7 @@ pub enum Mistake {
         /// Length of the edge, in m.
         length: f64,
     },
-    /// An outline encloses nothing: give the panel area.
+    /// An outline encloses nothing: let it enclose cloth.
     #[error("panel {panel} has an area of {area:.3e} m²")]
     NoArea {
         /// The panel.
@@ -147,7 +147,7 @@ pub enum Mistake {
         /// Its width and its height, in m.
         size: [f64; 2],
     },
-    /// Two panels have one name: give each its own.
+    /// Two panels have the same name: give each another name.
     #[error("there are two panels named {panel}")]
     SamePanel {
         /// The panel.
@@ -310,9 +310,10 @@ pub enum Mistake {
 }
 
 impl Mistake {
-    /// Returns the remedy.
+    /// Returns the remedy, in words.
     #[must_use]
     pub fn help(&self) -> String {
+        // Grouped as the variants are: edges and outlines, darts, seams, cutting.
         match self {
             Self::NotFinite { .. } | Self::Placed { .. } => {
                 "write finite numbers; an arc turns through less than 360 degrees".into()
@@ -376,9 +377,10 @@ impl Mistake {
         }
     }
 
-    /// Returns the part that the mistake is about; `None` of the spacing.
+    /// Returns the panel, edge or seam that the mistake is about; `None` for [`Mistake::Spacing`].
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
+        // A seam with two wrong edges is shown as a whole.
         Some(match self {
             Self::NotFinite { panel, edge }
             | Self::Far { panel, edge, .. }
@@ -413,7 +415,7 @@ impl Mistake {
         })
     }
 
-    /// Returns the place of the mistake in the frame of its panel, in m, where it has one.
+    /// Returns the point of the mistake in the frame of its panel, in m, if it has one.
     #[must_use]
     pub fn place(&self) -> Option<[f64; 2]> {
         match self {
@@ -424,14 +426,14 @@ impl Mistake {
         }
     }
 
-    /// Returns the mistake of a file without a better place.
+    /// Returns the mistake as a diagnostic of `file`, without a line.
     #[must_use]
     pub fn diagnostic(&self, file: &Path) -> Diagnostic {
         let diagnostic = Diagnostic::new(file, self.to_string()).help(self.help());
         Diagnostic { subject: self.subject(), ..diagnostic }
     }
 
-    /// Returns the largest spacing at which the mistake goes away, in m, where it is known.
+    /// Returns the largest spacing at which a [`Mistake::ShortEdge`] goes away, in m.
     #[must_use]
     pub fn most_spacing(&self) -> Option<f64> {
         match self {
@@ -440,7 +442,8 @@ impl Mistake {
         }
     }
 
-    /// Returns the ratio of the sides of a seam that is enough for its fullness, if it can be cut.
+    /// Returns the `max_ease` that is enough for the fullness of a [`Mistake::Ease`], if the seam
+    /// can be cut.
     pub(crate) fn enough_ease(&self) -> Option<f64> {
         match self {
             // Two digits, rounded up.

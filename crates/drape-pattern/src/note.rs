@@ -2,11 +2,11 @@
 
 use crate::length::{Extents, Millimetres};
 
-/// Note on a pattern or its cut that its user should know, and that prevents nothing. Lengths are
-/// in m.
+/// Note on a pattern or its cut: a fact that its user should know, and that prevents nothing.
+/// Lengths are in m.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Note {
+pub enum PatternNote {
     /// The outline was given clockwise.
     #[error("panel {panel}: its outline ran clockwise and was reversed")]
     Reversed {
@@ -45,21 +45,21 @@ pub enum Note {
         /// Why it is no panel.
         reason: String,
     },
-    /// Seams of the file name edges that the pattern has no more.
+    /// Seams of the file name edges that the pattern no longer has.
     #[error("seams of edges that are left out or split are left out too: {}", seams.join(", "))]
     SeamsLeftOut {
         /// The seams.
         seams: Vec<String>,
     },
-    /// Something was taken that the file does not say outright, and why.
+    /// A reader has chosen a value that the file does not state.
     #[error("{taken}: {reason}")]
     Taken {
-        /// What was taken.
+        /// The choice.
         taken: String,
-        /// Why.
+        /// Reason of the choice.
         reason: String,
     },
-    /// A panel is half of a symmetric one, and the file says so.
+    /// A panel is half of a symmetric panel, and the file says so.
     #[error("panel {panel} is cut on the fold: it was unfolded along edge {edge}")]
     Unfolded {
         /// The panel.
@@ -67,7 +67,8 @@ pub enum Note {
         /// The edge on the fold.
         edge: String,
     },
-    /// A panel is half of a symmetric one, by a text of the file, and no edge is known to be the fold.
+    /// A text of the file says that a panel is half of a symmetric panel, and no edge is known to
+    /// be the fold.
     #[error(
         "panel {panel} is one half, as its text \"{text}\" says, and is taken as it is: no edge is marked as the fold; \
          mirror it in the program that wrote it"
@@ -95,7 +96,7 @@ pub enum Note {
         /// The spacing, in m.
         spacing: f64,
     },
-    /// The ends of a short edge are one node, and with them those of the edge that it is sewn to.
+    /// The ends of a short edge are one node, and so are the ends of the edge that it is sewn to.
     #[error(
         "panel {panel}: edge {edge} is {}, under half the spacing ({}); its ends are one particle",
         Millimetres(*length), Millimetres(*spacing)
@@ -110,7 +111,7 @@ pub enum Note {
         /// The spacing, in m.
         spacing: f64,
     },
-    /// Ends of short edges in smooth runs, of which digitised outlines consist, are no nodes.
+    /// Ends of short edges in smooth runs, as in digitised outlines, are no nodes.
     #[error(
         "panel {panel}: {ends} ends of edges in smooth runs of edges under half the spacing ({}) are no nodes",
         Millimetres(*spacing)
@@ -149,7 +150,7 @@ pub enum Note {
         panel: String,
         /// Its width and its height, in m.
         size: [f64; 2],
-        /// Unit by which the size would be usual.
+        /// Unit in which the size would be usual.
         likely: &'static str,
         /// Width and height in that unit, in m.
         meant: [f64; 2],

@@ -18,7 +18,7 @@ use ring::{Meeting, Ring};
 pub(crate) const FARTHEST: f64 = 1000.0;
 
 /// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
-const GAP: f64 = 1e-5;
+pub(crate) const GAP: f64 = 1e-5;
 
 /// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in
 /// m.
@@ -49,7 +49,8 @@ pub struct Panel {
     clockwise: bool,
     folds: Vec<Fold>,
     darts: Vec<Dart>,
-    /// Names of edges that open darts divide: their parts have a number behind the name.
+    /// Names of edges that open darts divide. The name of a part is the name of the edge with a
+    /// number.
     divided: BTreeSet<String>,
     fabric: Option<String>,
 }
@@ -64,22 +65,25 @@ pub struct Fold {
 }
 
 impl Panel {
-    /// Returns a panel with the edges of its outline, each beginning where the one before it ends.
+    /// Returns the panel `name` with the edges `outline`, each of which begins where the edge
+    /// before it ends.
     ///
     /// An outline that runs clockwise is reversed.
     ///
     /// # Errors
-    /// All mistakes of the outline, together.
+    /// All mistakes of `outline`.
     pub fn new(name: impl Into<String>, outline: Vec<Edge>) -> Result<Self, Vec<Mistake>> {
         let name = name.into();
         let mut outline = outline;
-        let mut mistakes = coordinates(&name, &outline);
+        let mut mistakes = edge_mistakes(&name, &outline);
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
-        mistakes.extend(close(&name, &mut outline));
+
+        // Crossings and the area have a meaning only for a closed outline.
+        mistakes.extend(close_gaps(&name, &mut outline));
         if mistakes.is_empty() {
-            mistakes.extend(cross(&name, &outline));
+            mistakes.extend(crossing_mistake(&name, &outline));
         }
         let area: f64 = outline.iter().map(Edge::area).sum();
         if mistakes.is_empty() && !(area.abs() >= SHORTEST * SHORTEST) {
@@ -88,6 +92,7 @@ impl Panel {
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
+
         let clockwise = area < 0.0;
         if clockwise {
             outline = outline.iter().rev().map(Edge::reversed).collect();
@@ -105,10 +110,10 @@ impl Panel {
         })
     }
 
-    /// Returns the panel with its warp at an angle to its y axis, anticlockwise, in rad.
+    /// Returns the panel with its warp at `angle` to its y axis, anticlockwise, in rad.
     ///
     /// # Errors
-    /// The angle is not finite.
+    /// `angle` is not finite.
     pub fn with_grain(mut self, angle: f64) -> Result<Self, Mistake> {
         if !angle.is_finite() {
             return Err(Mistake::Placed { panel: self.name, value: "grain" });
@@ -117,30 +122,30 @@ impl Panel {
         Ok(self)
     }
 
-    /// Returns the panel of a fabric that the scene gives a name.
+    /// Returns the panel with `fabric`, the name that the scene gives its fabric.
     #[must_use]
     pub fn with_fabric(mut self, fabric: impl Into<String>) -> Self {
         self.fabric = Some(fabric.into());
         self
     }
 
-    /// Returns the panel with folds.
+    /// Returns the panel with `folds` in place of its folds.
     ///
     /// # Errors
     /// A number of a fold is not finite, or a fold has no length.
     pub fn with_folds(mut self, folds: Vec<Fold>) -> Result<Self, Mistake> {
-        let bad = |fold: &Fold| {
+        let is_wrong = folds.iter().any(|fold| {
             let [from, to] = fold.ends;
             !(distance(from, to) > SHORTEST && distance(from, to) + fold.angle.abs() < FARTHEST)
-        };
-        if folds.iter().any(bad) {
+        });
+        if is_wrong {
             return Err(Mistake::Placed { panel: self.name, value: "fold" });
         }
         self.folds = folds;
         Ok(self)
     }
 
-    /// Returns the panel with closed darts, beside those that it has.
+    /// Returns the panel with the closed darts `darts` added.
     ///
     /// # Errors
     /// A dart meets itself, the outline or another dart, is outside of the outline, or has no area;
@@ -149,11 +154,11 @@ impl Panel {
         let mut mistakes = Vec::new();
         for dart in darts {
             let hole = dart.hole();
-            let own: Vec<Edge> = self.edges().chain(hole).cloned().collect();
+            let edges: Vec<Edge> = self.edges().chain(hole).cloned().collect();
             let before = mistakes.len();
-            mistakes.extend(coordinates(&self.name, &own));
+            mistakes.extend(edge_mistakes(&self.name, &edges));
             if mistakes.len() == before {
-                mistakes.extend(cross(&self.name, hole));
+                mistakes.extend(crossing_mistake(&self.name, hole));
                 mistakes.extend(self.dart_mistake(&dart));
             }
             self.darts.push(dart);
@@ -161,7 +166,7 @@ impl Panel {
         if mistakes.is_empty() { Ok(self) } else { Err(mistakes) }
     }
 
-    /// Returns the mistake of the place of a dart among the lines of the panel.
+    /// Returns the mistake of `dart`, a closed dart, if it does not lie free in the cloth.
     fn dart_mistake(&self, dart: &Dart) -> Option<Mistake> {
         let (panel, name) = (self.name.clone(), dart.name.clone());
         let area: f64 = dart.hole().iter().map(Edge::area).sum();
@@ -170,87 +175,91 @@ impl Panel {
         }
         let ring = Ring::new(dart.hole());
         for edges in self.loops() {
-            let other = Ring::new(edges);
-            if let Some(Meeting { edges: [_, edge], at }) = ring.meeting(&other) {
+            let line = Ring::new(edges);
+            if let Some(Meeting { edges: [_, edge], at }) = ring.meeting(&line) {
                 let edge = edges[edge].name.clone();
                 return Some(Mistake::DartMeets { panel, dart: name, edge, at });
             }
             let is_outline = std::ptr::eq(edges, self.outline.as_slice());
-            if other.contains(&ring) != is_outline || !is_outline && ring.contains(&other) {
+            if line.contains(&ring) != is_outline || !is_outline && ring.contains(&line) {
                 return Some(Mistake::DartOutside { panel, dart: name });
             }
         }
         None
     }
 
-    /// Returns the panel with open darts cut into one edge of the panel, in the order of the mouths of the
-    /// darts. The darts part the edge; each part has the name of the edge and a number.
+    /// Returns the panel with the open darts `darts` cut into its edge `edge`, in the order of the
+    /// mouths of the darts. The darts divide the edge. The name of a part is the name of the edge
+    /// with a number.
     ///
     /// # Errors
-    /// The edge has no such name, mouths overlap or lie beyond its ends, or the outline then meets
+    /// The panel has no such edge, mouths overlap or lie beyond its ends, or the outline then meets
     /// itself.
     pub fn with_open_darts(self, edge: &str, darts: &[OpenDart]) -> Result<Self, Vec<Mistake>> {
-        let fail = |dart: &OpenDart, length: f64| Mistake::Mouth {
-            panel: self.name.clone(),
-            dart: dart.name.clone(),
-            edge: edge.to_owned(),
-            mouth: dart.mouth,
-            length,
+        let Some(number) = self.outline.iter().position(|candidate| candidate.name == edge) else {
+            let mistakes = darts.iter().map(|dart| dart.mouth_mistake(&self.name, edge, 0.0));
+            return Err(mistakes.collect());
         };
-        let Some(own) = self.outline.iter().position(|own| own.name == edge) else {
-            return Err(darts.iter().map(|dart| fail(dart, 0.0)).collect());
-        };
-        // Ascending places on the edge, at which it is split.
-        let length = self.outline[own].length();
-        let places: Vec<f64> = darts.iter().flat_map(|dart| dart.mouth).collect();
-        let wrong = |dart: &&OpenDart| {
-            let [from, to] = dart.mouth;
-            !(SHORTEST < from && from + SHORTEST < to && to < length - SHORTEST)
-        };
-        let mut mistakes: Vec<Mistake> =
-            darts.iter().filter(wrong).map(|dart| fail(dart, length)).collect();
-        if mistakes.is_empty() {
-            let overlaps =
-                darts.windows(2).filter(|two| two[0].mouth[1] + SHORTEST > two[1].mouth[0]);
-            mistakes.extend(overlaps.map(|two| fail(&two[1], length)));
-        }
+        let mistakes = self.mouth_mistakes(number, darts);
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
-        // Every second part lies over a mouth: the legs take its place.
+
+        // The mouths split the edge. Every second part lies over a mouth: the legs take its place.
+        let ends: Vec<f64> = darts.iter().flat_map(|dart| dart.mouth).collect();
         let mut parts = Vec::new();
-        let mut sewn = Vec::new();
-        for (number, part) in self.outline[own].split(&places).into_iter().enumerate() {
-            if number % 2 == 0 {
-                parts.push(Edge { name: format!("{edge} {}", number / 2 + 1), ..part });
+        let mut open = Vec::new();
+        for (index, part) in self.outline[number].split(&ends).into_iter().enumerate() {
+            if index % 2 == 0 {
+                parts.push(Edge { name: format!("{edge} {}", index / 2 + 1), ..part });
                 continue;
             }
-            let dart = &darts[number / 2];
+            let dart = &darts[index / 2];
             let legs = dart.legs([part.start, part.end]);
-            sewn.push(Dart::open(dart.name.clone(), legs.each_ref().map(|leg| leg.name.clone())));
+            open.push(Dart::open(dart.name.clone(), legs.each_ref().map(|leg| leg.name.clone())));
             parts.extend(legs);
         }
         let mut panel = self;
-        panel.outline.splice(own..=own, parts);
+        panel.outline.splice(number..=number, parts);
         panel.divided.insert(edge.to_owned());
-        mistakes.extend(coordinates(&panel.name, &panel.outline));
+
+        // The new outline is checked as an outline of a file is, and the closed darts against it.
+        let mut mistakes = edge_mistakes(&panel.name, &panel.outline);
         if mistakes.is_empty() {
-            mistakes.extend(cross(&panel.name, &panel.outline));
+            mistakes.extend(crossing_mistake(&panel.name, &panel.outline));
         }
         let closed: Vec<Dart> =
             panel.darts.iter().filter(|dart| !dart.hole().is_empty()).cloned().collect();
-        panel.darts.extend(sewn);
+        panel.darts.extend(open);
         if mistakes.is_empty() {
-            let others = Self { darts: Vec::new(), ..panel.clone() };
-            mistakes.extend(closed.iter().filter_map(|dart| others.dart_mistake(dart)));
+            let without_darts = Self { darts: Vec::new(), ..panel.clone() };
+            mistakes.extend(closed.iter().filter_map(|dart| without_darts.dart_mistake(dart)));
         }
         if mistakes.is_empty() { Ok(panel) } else { Err(mistakes) }
     }
 
-    /// Returns the panel at a place in space.
+    /// Returns the mistakes of the mouths of `darts` on the edge of the outline with the number
+    /// `edge`: mouths that are not on the edge, else mouths that overlap.
+    fn mouth_mistakes(&self, edge: usize, darts: &[OpenDart]) -> Vec<Mistake> {
+        let edge = &self.outline[edge];
+        let length = edge.length();
+        let outside = darts.iter().filter(|dart| {
+            let [from, to] = dart.mouth;
+            !(SHORTEST < from && from + SHORTEST < to && to < length - SHORTEST)
+        });
+        let mut wrong: Vec<&OpenDart> = outside.collect();
+        if wrong.is_empty() {
+            let pairs = darts.windows(2);
+            let overlapping = pairs.filter(|pair| pair[0].mouth[1] + SHORTEST > pair[1].mouth[0]);
+            wrong.extend(overlapping.map(|pair| &pair[1]));
+        }
+        wrong.iter().map(|dart| dart.mouth_mistake(&self.name, &edge.name, length)).collect()
+    }
+
+    /// Returns the panel at `placement` in space.
     ///
     /// # Errors
-    /// The place is not finite, or the panel would meet itself when it is bent to the cylinder.
+    /// `placement` is not finite, or the panel would meet itself when it is bent to the cylinder.
     pub fn with_placement(mut self, placement: Placement) -> Result<Self, Mistake> {
         if !placement.is_finite() {
             return Err(Mistake::Placed { panel: self.name, value: "place" });
@@ -268,55 +277,56 @@ impl Panel {
     /// Returns the panel turned over, at the same position: reflected in its y axis, with its edges
     /// in the order that they had before a clockwise outline was reversed.
     #[must_use]
-    pub(crate) fn turned_over(mut self) -> Self {
-        let mirror = |edge: &Edge| edge.reversed().mapped(true, |[x, y]| [-x, y]);
-        self.outline = self.outline.iter().rev().map(mirror).collect();
+    pub(crate) fn turned_over(self) -> Self {
+        let mut panel = self.reflected();
+        panel.placement = panel.placement.map(Placement::turned_over);
+        panel.folds.iter_mut().for_each(|fold| fold.angle = -fold.angle);
+        panel
+    }
+
+    /// Returns the panel with its outline, darts, folds and grain reflected in its y axis.
+    fn reflected(mut self) -> Self {
+        self.outline =
+            self.outline.iter().rev().map(|edge| edge.reversed().mapped(true, reflect)).collect();
         self.grain = 0.0 - self.grain;
-        self.placement = self.placement.map(Placement::turned_over);
-        self.darts.iter_mut().for_each(|dart| *dart = dart.mapped(true, |[x, y]| [-x, y]));
-        for Fold { ends, angle } in &mut self.folds {
-            *ends = ends.map(|[x, y]| [-x, y]);
-            *angle = -*angle;
-        }
+        self.darts.iter_mut().for_each(|dart| *dart = dart.mapped(true, reflect));
+        self.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(reflect));
         self
     }
 
-    /// Returns the panel under another name.
+    /// Returns the panel under the name `name`.
     #[must_use]
     pub(crate) fn renamed(mut self, name: &str) -> Self {
         self.name = name.into();
         self
     }
 
-    /// Returns the mirror image of the panel, as the left one of a right one: reflected in its y
-    /// axis, at the place that is reflected in the plane x = 0 of space. Its right side stays its
-    /// right side.
+    /// Returns the mirror image of the panel, as the left sleeve of a right one: reflected in its y
+    /// axis, at the placement reflected in the plane x = 0 of space. Its right side stays its right
+    /// side.
     #[must_use]
-    pub(crate) fn mirrored(mut self) -> Self {
-        let mirror = |[x, y]: [f64; 2]| [-x, y];
-        self.outline =
-            self.outline.iter().rev().map(|edge| edge.reversed().mapped(true, mirror)).collect();
-        self.grain = 0.0 - self.grain;
-        self.placement = self.placement.map(Placement::mirrored);
-        self.darts.iter_mut().for_each(|dart| *dart = dart.mapped(true, mirror));
-        self.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(mirror));
-        self
+    pub(crate) fn mirrored(self) -> Self {
+        let mut panel = self.reflected();
+        panel.placement = panel.placement.map(Placement::mirrored);
+        panel
     }
 
-    /// Returns the panel with its outline and folds shifted in its frame, in m; `None` if that is
-    /// too far.
+    /// Returns the panel with its outline, darts and folds shifted by the vector `by` in its frame,
+    /// in m; `None` if an edge would begin farther away than [`FARTHEST`].
     #[must_use]
     pub(crate) fn shifted(&self, by: [f64; 2]) -> Option<Self> {
-        let near = |p: [f64; 2]| p.iter().all(|x| x.abs() <= FARTHEST);
-        let moved = |p: [f64; 2]| [p[0] + by[0], p[1] + by[1]];
         let mut panel = self.clone();
-        panel.outline = self.outline.iter().map(|edge| edge.mapped(false, moved)).collect();
-        panel.darts = self.darts.iter().map(|dart| dart.mapped(false, moved)).collect();
-        panel.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(moved));
-        panel.outline.iter().all(|edge| near(edge.start)).then_some(panel)
+        panel.outline =
+            self.outline.iter().map(|edge| edge.mapped(false, |p| translate(p, by))).collect();
+        panel.darts =
+            self.darts.iter().map(|dart| dart.mapped(false, |p| translate(p, by))).collect();
+        panel.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(|p| translate(p, by)));
+        let mut coordinates = panel.outline.iter().flat_map(|edge| edge.start);
+        coordinates.all(|x| x.abs() <= FARTHEST).then_some(panel)
     }
 
-    /// Returns the panel with its edges changed by a function that keeps the outline where it is.
+    /// Returns the panel with each edge replaced by the edges that `change` returns for it. The
+    /// outline must stay where it is.
     #[must_use]
     pub(crate) fn with_edges(mut self, change: impl Fn(&Edge) -> Vec<Edge>) -> Self {
         self.outline = self.outline.iter().flat_map(change).collect();
@@ -341,20 +351,21 @@ impl Panel {
         &self.darts
     }
 
-    /// All edges: those of the outline, then those of the holes of closed darts. Numbers of edges
-    /// count them.
+    /// All edges: edges of the outline, then edges of the holes of closed darts. Numbers of edges
+    /// count them in this order.
     pub fn edges(&self) -> impl Iterator<Item = &Edge> {
         self.outline.iter().chain(self.darts.iter().flat_map(Dart::hole))
     }
 
-    /// Returns the closed lines of the panel, whose edges are in a row with the cloth on their left:
-    /// its outline, then the holes of closed darts.
+    /// Returns the closed lines of the panel: its outline, then the holes of closed darts. The
+    /// edges of a line are in a row, with the cloth on their left.
     pub fn loops(&self) -> impl Iterator<Item = &[Edge]> {
         let holes = self.darts.iter().map(Dart::hole).filter(|hole| !hole.is_empty());
         std::iter::once(self.outline.as_slice()).chain(holes)
     }
 
-    /// Returns the number of the edge that follows an edge of a number in its closed line.
+    /// Returns the number of the edge that follows the edge with the number `edge` in its closed
+    /// line.
     pub(crate) fn next_edge(&self, edge: usize) -> usize {
         let mut first = 0;
         for edges in self.loops() {
@@ -366,18 +377,22 @@ impl Panel {
         edge
     }
 
-    /// Returns the numbers of the edges of a name: of one that open darts divide, those of its parts
-    /// along the outline.
+    /// Returns the numbers of the edges with the name `name`. If open darts divide that edge, these
+    /// are its parts, along the outline.
     #[must_use]
     pub fn edges_named(&self, name: &str) -> Vec<usize> {
-        let numbers = |name: &str| self.edges().position(|edge| edge.name == name);
-        match numbers(name) {
+        match self.edge_number(name) {
             Some(number) => vec![number],
             None if self.divided.contains(name) => {
-                (1..).map_while(|part| numbers(&format!("{name} {part}"))).collect()
+                (1..).map_while(|part| self.edge_number(&format!("{name} {part}"))).collect()
             }
             None => Vec::new(),
         }
+    }
+
+    /// Returns the number of the edge with the name `name`, if there is one.
+    pub(crate) fn edge_number(&self, name: &str) -> Option<usize> {
+        self.edges().position(|edge| edge.name == name)
     }
 
     /// Angle from the y axis to the warp, anticlockwise, in rad.
@@ -392,14 +407,13 @@ impl Panel {
         &self.folds
     }
 
-    /// Fabric that the panel is cut from, by the name that the scene gives it; `None` for the
-    /// garment's.
+    /// Name that the scene gives the fabric of the panel; `None` for the fabric of the garment.
     #[must_use]
     pub fn fabric(&self) -> Option<&str> {
         self.fabric.as_deref()
     }
 
-    /// Place in space, if the pattern gives one.
+    /// Placement in space, if the pattern gives one.
     #[must_use]
     pub fn placement(&self) -> Option<&Placement> {
         self.placement.as_ref()
@@ -424,7 +438,7 @@ impl Panel {
         [self.extent(0), self.extent(1)]
     }
 
-    /// Extent of the outline along x (0) or y (1), in m.
+    /// Extent of the outline along `axis`, x (0) or y (1), in m.
     fn extent(&self, axis: usize) -> f64 {
         let points = self.outline.iter().flat_map(Edge::polyline);
         let [low, high] = points
@@ -433,12 +447,24 @@ impl Panel {
     }
 }
 
-/// Returns the mistakes of the numbers and names of an outline.
-fn coordinates(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
+/// Returns the point reflected in the y axis.
+fn reflect([x, y]: [f64; 2]) -> [f64; 2] {
+    [-x, y]
+}
+
+/// Returns `point` shifted by the vector `by`.
+fn translate(point: [f64; 2], by: [f64; 2]) -> [f64; 2] {
+    [point[0] + by[0], point[1] + by[1]]
+}
+
+/// Returns the mistakes of single edges of `outline`, and of their names and number. `panel` is the
+/// name of the panel.
+fn edge_mistakes(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
     let mut mistakes = Vec::new();
     if outline.len() < 2 {
         mistakes.push(Mistake::FewEdges { panel: panel.into(), edges: outline.len() });
     }
+
     let mut names = BTreeSet::new();
     for edge in outline {
         let (panel, name) = (panel.to_owned(), edge.name.clone());
@@ -457,8 +483,9 @@ fn coordinates(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
     mistakes
 }
 
-/// Moves the start of each edge to the end of the one before it; larger gaps are mistakes.
-fn close(panel: &str, outline: &mut [Edge]) -> Vec<Mistake> {
+/// Moves the start of each edge of `outline` to the end of the edge before it. Returns the gaps
+/// that are wider than [`GAP`] as mistakes of the panel with the name `panel`.
+fn close_gaps(panel: &str, outline: &mut [Edge]) -> Vec<Mistake> {
     let mut mistakes = Vec::new();
     for index in 0..outline.len() {
         let before = &outline[(index + outline.len() - 1) % outline.len()];
@@ -474,8 +501,8 @@ fn close(panel: &str, outline: &mut [Edge]) -> Vec<Mistake> {
     mistakes
 }
 
-/// Returns the mistake of an outline that intersects itself.
-fn cross(panel: &str, outline: &[Edge]) -> Option<Mistake> {
+/// Returns the mistake of `outline` if it intersects itself. `panel` is the name of the panel.
+fn crossing_mistake(panel: &str, outline: &[Edge]) -> Option<Mistake> {
     let Meeting { edges: [first, second], at } = Ring::new(outline).crossing()?;
     Some(Mistake::Crossing {
         panel: panel.into(),

@@ -7,9 +7,8 @@ pub(crate) mod seam;
 use crate::ease::MAX_EASE;
 use crate::edge::{Edge, distance};
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
-use crate::panel::dart::Dart;
 use chain::turn_listings;
 use seam::{EdgeId, Seam};
 
@@ -31,18 +30,20 @@ use seam::{EdgeId, Seam};
 pub struct Pattern {
     panels: Vec<Panel>,
     seams: Vec<Seam>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
 }
 
 impl Pattern {
-    /// Returns a pattern of panels and seams.
+    /// Returns a pattern of `panels` and `seams`, with a seam for each dart whose legs no seam
+    /// names.
     ///
     /// # Errors
-    /// All mistakes of the seams, and panels of the same name, together.
+    /// All mistakes of `seams`, and all names that two of `panels` have.
     pub fn new(panels: Vec<Panel>, seams: Vec<Seam>) -> Result<Self, Vec<Mistake>> {
         let mut pattern = Self { panels, seams, notes: Vec::new() };
         pattern.sew_darts();
         let mut mistakes = Vec::new();
+
         for (index, panel) in pattern.panels.iter().enumerate() {
             if pattern.panels[..index].iter().any(|p| p.name() == panel.name()) {
                 mistakes.push(Mistake::SamePanel { panel: panel.name().into() });
@@ -54,37 +55,41 @@ impl Pattern {
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
+
         turn_listings(&pattern.panels, &mut pattern.seams);
         Ok(pattern)
     }
 
-    /// Returns the notes of its reader.
-    pub(crate) fn reader_notes(&self) -> Vec<Note> {
-        let of_reader = |note: &&Note| !matches!(note, Note::Twisted { .. });
-        self.notes.iter().filter(of_reader).cloned().collect()
+    /// Returns the notes that came with the file, which are all but [`PatternNote::Twisted`].
+    pub(crate) fn file_notes(&self) -> Vec<PatternNote> {
+        let all = self.notes.iter();
+        all.filter(|note| !matches!(note, PatternNote::Twisted { .. })).cloned().collect()
     }
 
-    /// Returns the pattern with the grain of a panel, by its number, in rad.
+    /// Returns the pattern with the angle `grain`, in rad, for the panel with the number `panel`.
     ///
     /// # Errors
-    /// The angle is not finite.
+    /// `grain` is not finite.
     pub fn with_grain(mut self, panel: usize, grain: f64) -> Result<Self, Mistake> {
         let name = self.panels[panel].name().to_owned();
         self.panels[panel] = self.panels[panel].clone().with_grain(grain)?;
         for note in &mut self.notes {
-            if let Note::NoGrain { panels } = note {
-                panels.retain(|other| *other != name);
+            if let PatternNote::NoGrain { panels } = note {
+                panels.retain(|panel| *panel != name);
             }
         }
-        self.notes.retain(|note| !matches!(note, Note::NoGrain { panels } if panels.is_empty()));
+        self.notes
+            .retain(|note| !matches!(note, PatternNote::NoGrain { panels } if panels.is_empty()));
         Ok(self)
     }
 
-    /// Returns the pattern with the notes of its reader, and notes on seams that seem twisted.
-    pub(crate) fn with_notes(mut self, notes: Vec<Note>) -> Self {
+    /// Returns the pattern with `notes` of its file, and notes on seams that seem twisted.
+    pub(crate) fn with_notes(mut self, notes: Vec<PatternNote>) -> Self {
         let twisted = (0..self.seams.len()).filter_map(|k| self.twisted(k));
-        let sewn = !self.seams.is_empty();
-        let notes = notes.into_iter().filter(|n| !(sewn && matches!(n, Note::NoSeams { .. })));
+        let has_seams = !self.seams.is_empty();
+        let notes = notes
+            .into_iter()
+            .filter(|note| !(has_seams && matches!(note, PatternNote::NoSeams { .. })));
         self.notes = notes.chain(twisted).collect();
         self
     }
@@ -101,59 +106,68 @@ impl Pattern {
         &self.seams
     }
 
-    /// Notes on the pattern for its user.
+    /// Notes on the pattern, to be shown to its user.
     #[must_use]
-    pub fn notes(&self) -> &[Note] {
+    pub fn notes(&self) -> &[PatternNote] {
         &self.notes
     }
 
-    /// Returns the edge with a number that exists.
+    /// Returns the edge with the number `id`, which exists.
     pub(crate) fn edge(&self, id: EdgeId) -> &Edge {
         self.panels[id.panel].edges().nth(id.edge).expect("its seam has been checked")
     }
 
-    /// Returns the length of a side of a seam, in m.
+    /// Returns the edge `id` as a file names it: `panel.edge`.
+    pub(crate) fn edge_word(&self, id: EdgeId) -> String {
+        format!("{}.{}", self.panels[id.panel].name(), self.edge(id).name)
+    }
+
+    /// Returns whether `id` is the edge `edge` of `panel`, by the names of both.
+    pub(crate) fn is_edge_of(&self, id: EdgeId, panel: &Panel, edge: &Edge) -> bool {
+        self.panels[id.panel].name() == panel.name() && self.edge(id).name == edge.name
+    }
+
+    /// Returns the length of `side`, a side of a seam, in m.
     pub(crate) fn side_length(&self, side: &[EdgeId]) -> f64 {
         side.iter().map(|&id| self.edge(id).length()).sum()
     }
 
-    /// Adds the seams of darts whose legs no seam names.
+    /// Adds a seam for each dart whose legs no seam names.
     fn sew_darts(&mut self) {
         for (number, panel) in self.panels.iter().enumerate() {
             for dart in panel.darts() {
-                let ids = |leg: &Vec<String>| -> Option<Vec<EdgeId>> {
-                    let edge = |name: &String| panel.edges().position(|edge| edge.name == *name);
-                    leg.iter()
-                        .map(|name| Some(EdgeId { panel: number, edge: edge(name)? }))
-                        .collect()
+                let [Some(left), Some(right)] =
+                    dart.legs.each_ref().map(|leg| leg_ids(panel, number, leg))
+                else {
+                    continue;
                 };
-                let [Some(left), Some(right)] = dart.legs.each_ref().map(ids) else { continue };
-                let all = self.seams.iter().flat_map(|seam| seam.sides.iter().flatten());
-                if all.clone().any(|id| left.contains(id) || right.contains(id)) {
+                let mut sewn = self.seams.iter().flat_map(|seam| seam.sides.iter().flatten());
+                if sewn.any(|id| left.contains(id) || right.contains(id)) {
                     continue;
                 }
                 let name = format!("{}.{}", panel.name(), dart.name);
-                self.seams.push(Seam::of_dart(name, [left, right]));
+                self.seams.push(Seam::for_dart(name, [left, right]));
             }
         }
     }
 
-    /// Returns whether a seam is that of a closed dart, which the dart says itself.
+    /// Returns whether `seam` sews a closed dart. A file states such a seam with the dart.
     pub(crate) fn is_dart(&self, seam: &Seam) -> bool {
         let mut ids = seam.sides.iter().flatten();
         let Some(panel) = ids.next().and_then(|id| self.panels.get(id.panel)) else { return false };
-        let names = |dart: &Dart| {
-            !dart.hole().is_empty() && format!("{}.{}", panel.name(), dart.name) == seam.name
-        };
-        *seam == Seam::of_dart(seam.name.clone(), seam.sides.clone())
-            && panel.darts().iter().any(names)
+        *seam == Seam::for_dart(seam.name.clone(), seam.sides.clone())
+            && panel.darts().iter().any(|dart| {
+                !dart.hole().is_empty() && format!("{}.{}", panel.name(), dart.name) == seam.name
+            })
     }
 
-    /// Returns the mistakes of a seam.
+    /// Returns the mistakes of the seam with the number `index`.
     fn mistakes(&self, index: usize) -> Vec<Mistake> {
         let seam = &self.seams[index];
         let name = || seam.name.clone();
         let mut mistakes = Vec::new();
+
+        // The checks below need edges that exist.
         if !(1.0..=MAX_EASE).contains(&seam.max_ease) {
             mistakes.push(Mistake::MaxEase { seam: name(), max_ease: seam.max_ease });
         }
@@ -169,12 +183,14 @@ impl Pattern {
         if !mistakes.is_empty() {
             return mistakes;
         }
-        let mut before: Vec<(EdgeId, &str)> = Vec::new();
-        for other in &self.seams[..index] {
-            before.extend(other.sides.iter().flatten().map(|&id| (id, other.name.as_str())));
+
+        // An edge takes part in one seam, once.
+        let mut sewn: Vec<(EdgeId, &str)> = Vec::new();
+        for earlier in &self.seams[..index] {
+            sewn.extend(earlier.sides.iter().flatten().map(|&id| (id, earlier.name.as_str())));
         }
         for &id in seam.sides.iter().flatten() {
-            if let Some((_, first)) = before.iter().find(|(other, _)| *other == id) {
+            if let Some((_, first)) = sewn.iter().find(|(earlier, _)| *earlier == id) {
                 mistakes.push(Mistake::SewnTwice {
                     panel: self.panels[id.panel].name().into(),
                     edge: self.edge(id).name.clone(),
@@ -189,54 +205,73 @@ impl Pattern {
                     seam: name(),
                 });
             }
-            before.push((id, &seam.name));
+            sewn.push((id, &seam.name));
         }
-        mistakes.extend(self.too_full(seam));
+
+        mistakes.extend(self.ease_mistake(seam));
         mistakes
     }
 
-    /// Returns the mistake of a seam whose sides differ too much in length.
-    fn too_full(&self, seam: &Seam) -> Option<Mistake> {
+    /// Returns the mistake of `seam` if its sides differ too much in length.
+    fn ease_mistake(&self, seam: &Seam) -> Option<Mistake> {
         let [a, b] = &seam.sides;
         let (length_a, length_b) = (self.side_length(a), self.side_length(b));
         let (long, short) = if length_a >= length_b { (a, b) } else { (b, a) };
         let lengths = [length_a.max(length_b), length_a.min(length_b)];
         let ratio = lengths[0] / lengths[1];
         let limit = seam.max_ease.min(MAX_EASE);
-        let words = |side: &[EdgeId]| {
-            let name =
-                |id: &EdgeId| format!("{}.{}", self.panels[id.panel].name(), self.edge(*id).name);
-            side.iter().map(name).collect::<Vec<_>>().join(" + ")
-        };
+
+        let [long, short] = [long, short]
+            .map(|side| side.iter().map(|&id| self.edge_word(id)).collect::<Vec<_>>().join(" + "));
         // The rounding of the digits of a file is no ease.
         (ratio > limit * (1.0 + 1e-6)).then(|| Mistake::Ease {
             seam: seam.name.clone(),
-            long: words(long),
-            short: words(short),
+            long,
+            short,
             lengths,
             ratio,
             max_ease: limit,
         })
     }
 
-    /// Returns a note if the ends of a seam lie much closer to each other in space when it is
-    /// reversed.
-    fn twisted(&self, index: usize) -> Option<Note> {
+    /// Returns a note if the ends of the seam with the number `index` would lie much closer to each
+    /// other in space if the seam were reversed.
+    fn twisted(&self, index: usize) -> Option<PatternNote> {
         let seam = &self.seams[index];
         let [first, second] = &seam.sides;
-        let end = |id: EdgeId, at_end: bool| {
-            let edge = self.edge(id);
-            let placement = self.panels[id.panel].placement()?;
-            Some(placement.point(if at_end { edge.end } else { edge.start }))
-        };
         let along = seam.reversed;
-        let (a, b) = (end(*first.first()?, false)?, end(*first.last()?, true)?);
-        let (c, d) = (end(*second.first()?, !along)?, end(*second.last()?, along)?);
-        let apart =
-            |p: [f64; 3], q: [f64; 3]| distance([p[0], p[1]], [q[0], q[1]]).hypot(p[2] - q[2]);
-        let given = apart(a, c).max(apart(b, d));
-        let reversed = apart(a, d).max(apart(b, c));
+        let a = self.end_in_space(*first.first()?, false)?;
+        let b = self.end_in_space(*first.last()?, true)?;
+        let c = self.end_in_space(*second.first()?, !along)?;
+        let d = self.end_in_space(*second.last()?, along)?;
+
+        let given = distance_in_space(a, c).max(distance_in_space(b, d));
+        let reversed = distance_in_space(a, d).max(distance_in_space(b, c));
         let name = seam.name.clone();
-        (given > 2.0 * reversed).then_some(Note::Twisted { seam: name, given, reversed })
+        (given > 2.0 * reversed).then_some(PatternNote::Twisted { seam: name, given, reversed })
     }
+
+    /// Returns the end of the edge `id` in space if `at_end`, else its start, in m; `None` if the
+    /// panel has no placement.
+    fn end_in_space(&self, id: EdgeId, at_end: bool) -> Option<[f64; 3]> {
+        let edge = self.edge(id);
+        let placement = self.panels[id.panel].placement()?;
+        Some(placement.point(if at_end { edge.end } else { edge.start }))
+    }
+}
+
+/// Returns the edges of `panel`, the panel with the number `number`, whose names are `leg`; `None`
+/// if one does not exist.
+fn leg_ids(panel: &Panel, number: usize, leg: &[String]) -> Option<Vec<EdgeId>> {
+    leg.iter()
+        .map(|name| {
+            let edge = panel.edges().position(|edge| edge.name == *name)?;
+            Some(EdgeId { panel: number, edge })
+        })
+        .collect()
+}
+
+/// Returns the distance between the points `p` and `q` of space, in m.
+fn distance_in_space(p: [f64; 3], q: [f64; 3]) -> f64 {
+    distance([p[0], p[1]], [q[0], q[1]]).hypot(p[2] - q[2])
 }

@@ -4,87 +4,104 @@
 
 use robust::{Coord, orient2d};
 
-/// Returns a number with the sign of the area of the triangle `a b c`, exactly.
+/// Returns a number whose sign is exactly the sign of the area of the triangle `a b c`.
 pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
-    orient2d(coord(a), coord(b), coord(c))
+    let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
+    orient2d(a, b, c)
 }
 
-/// Returns whether a point on the line through two points lies between them.
+/// Returns the smallest and the largest of `values`.
+pub(crate) fn range(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
+    [values.clone().fold(f64::MAX, f64::min), values.fold(f64::MIN, f64::max)]
+}
+
+/// Returns whether `p`, a point on the line through `a` and `b`, lies between them.
 fn within(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> bool {
     (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]))
 }
 
-/// Returns whether two segments have a point in common.
+/// Returns whether the segments `a` and `b` have a point in common.
 fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> bool {
     let (a0, a1) = (orientation(b[0], b[1], a[0]), orientation(b[0], b[1], a[1]));
     let (b0, b1) = (orientation(a[0], a[1], b[0]), orientation(a[0], a[1], b[1]));
-    let apart = |u: f64, v: f64| (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0);
-    (apart(a0, a1) && apart(b0, b1))
+    (opposite_signs(a0, a1) && opposite_signs(b0, b1))
         || (a0 == 0.0 && within(b[0], b[1], a[0]))
         || (a1 == 0.0 && within(b[0], b[1], a[1]))
         || (b0 == 0.0 && within(a[0], a[1], b[0]))
         || (b1 == 0.0 && within(a[0], a[1], b[1]))
 }
 
-/// Returns a side of one closed polygon and a side of another that have a point in common, by the
-/// numbers of their first corners; `None` if the polygons are apart.
-pub(crate) fn meeting(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[usize; 2]> {
-    let side = |polygon: &[[f64; 2]], k: usize| [polygon[k], polygon[(k + 1) % polygon.len()]];
-    let all = (0..other.len()).flat_map(|b| (0..one.len()).map(move |a| [a, b]));
-    let mut all = all.filter(|&[a, b]| {
-        let (p, q) = (side(one, a), side(other, b));
-        (0..2).all(|k| {
-            p[0][k].min(p[1][k]) <= q[0][k].max(q[1][k])
-                && q[0][k].min(q[1][k]) <= p[0][k].max(p[1][k])
-        })
-    });
-    all.find(|&[a, b]| meet(side(one, a), side(other, b)))
+/// Returns whether one of `u` and `v` is positive and the other negative.
+fn opposite_signs(u: f64, v: f64) -> bool {
+    (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0)
 }
 
-/// Returns the approximate point where two segments meet.
-pub(crate) fn meeting_point(one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> [f64; 2] {
-    let direction = |[from, to]: [[f64; 2]; 2]| [to[0] - from[0], to[1] - from[1]];
-    let (u, v, w) = (direction(one), direction(other), direction([one[0], other[0]]));
+/// Returns the side of the closed polygon `polygon` that begins at corner `k`.
+fn side(polygon: &[[f64; 2]], k: usize) -> [[f64; 2]; 2] {
+    [polygon[k], polygon[(k + 1) % polygon.len()]]
+}
+
+/// Returns a side of the closed polygon `a` and a side of the closed polygon `b` that have a point
+/// in common, by the numbers of their first corners; `None` if the polygons are apart.
+pub(crate) fn meeting(a: &[[f64; 2]], b: &[[f64; 2]]) -> Option<[usize; 2]> {
+    let mut pairs = (0..b.len()).flat_map(|l| (0..a.len()).map(move |k| [k, l]));
+    pairs.find(|&[k, l]| {
+        let (p, q) = (side(a, k), side(b, l));
+        // The exact test is costly, the test of the bounding boxes is not.
+        let boxes_overlap = (0..2).all(|axis| {
+            p[0][axis].min(p[1][axis]) <= q[0][axis].max(q[1][axis])
+                && q[0][axis].min(q[1][axis]) <= p[0][axis].max(p[1][axis])
+        });
+        boxes_overlap && meet(p, q)
+    })
+}
+
+/// Returns the approximate point where the segments `a` and `b` meet.
+pub(crate) fn meeting_point(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [f64; 2] {
+    let [u, v, w] = [a, b, [a[0], b[0]]].map(|[from, to]| [to[0] - from[0], to[1] - from[1]]);
     let t = (w[0] * v[1] - w[1] * v[0]) / (u[0] * v[1] - u[1] * v[0]);
-    if (0.0..=1.0).contains(&t) { [0, 1].map(|k| one[0][k] + t * u[k]) } else { other[0] }
+    if (0.0..=1.0).contains(&t) { [0, 1].map(|k| a[0][k] + t * u[k]) } else { b[0] }
 }
 
-/// Returns whether a point lies in a closed polygon.
+/// Returns whether the point `p` lies in the closed polygon `polygon`.
 pub(crate) fn contains(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
     let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    let crosses = |(a, b): &(&[f64; 2], &[f64; 2])| {
+    // A ray from the point to the right crosses the border an odd number of times.
+    let crossings = sides.filter(|(a, b)| {
         (a[1] > p[1]) != (b[1] > p[1])
             && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-    };
-    sides.filter(crosses).count() % 2 == 1
+    });
+    crossings.count() % 2 == 1
 }
 
-/// Returns two sides of a closed polygon that intersect, by the numbers of their first corners;
-/// `None` if the polygon is simple.
+/// Returns two sides of the closed polygon `polygon` that intersect, by the numbers of their first
+/// corners; `None` if the polygon is simple.
 ///
 /// Two sides intersect if they meet elsewhere than at a common corner, or if one runs back over the
-/// side before it. The test is exact; all coordinates must be finite.
+/// side before it. The test is exact. All coordinates must be finite.
 pub(crate) fn self_intersection(polygon: &[[f64; 2]]) -> Option<[usize; 2]> {
     let n = polygon.len();
-    let side = |k: usize| [polygon[k], polygon[(k + 1) % n]];
-    let low = |k: usize| side(k)[0][0].min(side(k)[1][0]);
-    let high = |k: usize| side(k)[0][0].max(side(k)[1][0]);
+    let spans: Vec<[f64; 2]> = (0..n)
+        .map(|k| side(polygon, k).map(|[x, _]| x))
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| low(a).total_cmp(&low(b)).then(a.cmp(&b)));
+    order.sort_by(|&a, &b| spans[a][0].total_cmp(&spans[b][0]).then(a.cmp(&b)));
+
+    // A sweep line moves from left to right. Only sides that it meets together can intersect.
     // Sides that a sweep line from left to right still meets.
     let mut open: Vec<usize> = Vec::new();
     for &k in &order {
-        open.retain(|&other| high(other) >= low(k));
-        for &other in &open {
-            let (first, second) = (k.min(other), k.max(other));
-            let next = second == first + 1 || (first == 0 && second == n - 1);
-            let met = if next {
+        open.retain(|&candidate| spans[candidate][1] >= spans[k][0]);
+        for &candidate in &open {
+            let (first, second) = (k.min(candidate), k.max(candidate));
+            let is_next = second == first + 1 || (first == 0 && second == n - 1);
+            let intersect = if is_next {
                 folds_back(polygon, if second == first + 1 { first } else { second })
             } else {
-                meet(side(first), side(second))
+                meet(side(polygon, first), side(polygon, second))
             };
-            if met {
+            if intersect {
                 return Some([first, second]);
             }
         }
@@ -93,7 +110,7 @@ pub(crate) fn self_intersection(polygon: &[[f64; 2]]) -> Option<[usize; 2]> {
     None
 }
 
-/// Returns whether the side after side `k` runs back over it.
+/// Returns whether the side of `polygon` after side `k` runs back over side `k`.
 fn folds_back(polygon: &[[f64; 2]], k: usize) -> bool {
     let n = polygon.len();
     let (a, b, c) = (polygon[k], polygon[(k + 1) % n], polygon[(k + 2) % n]);

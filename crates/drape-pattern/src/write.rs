@@ -1,7 +1,7 @@
-//! Writing of patterns: the project's own TOML (`toml_text`), and drawings in SVG at true scale for
-//! a plotter (`svg`) or on pages of paper (`pages`); drawings of cuts (`figure`) and of sketches with
-//! their mistakes (`sketch_figure`). `marks` says what is drawn on a panel, `number` how numbers are
-//! written.
+//! Writing of patterns: the project's TOML (`toml_text`), and drawings in SVG at true scale for a
+//! plotter (`svg`) or on pages of paper (`pages`). Drawings of cuts (`figure`), and of sketches
+//! with their mistakes (`sketch_figure`). `marks` draws grain, notches and names on a panel,
+//! `number` formats numbers.
 
 mod figure;
 mod layout;

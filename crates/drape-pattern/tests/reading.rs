@@ -1,7 +1,7 @@
 //! Mistakes in pattern files are named with their place, value and remedy, all of a file together.
 
 use drape_input::Document;
-use drape_pattern::{Curve, Cutter, Note, Panel, Pattern};
+use drape_pattern::{Curve, Cutter, Panel, Pattern, PatternNote};
 use proptest::prelude::*;
 
 /// The mistakes of a text, as they are shown.
@@ -61,7 +61,7 @@ fn the_own_format_is_read() {
     assert_eq!((seam.name.as_str(), seam.reversed, seam.max_ease), ("side", false, 1.1));
     let cut = Cutter::default().cut(&pattern).expect("it can be cut");
     assert_eq!(cut.seams[0].pairs.len(), 31);
-    assert_eq!(cut.particles(), 2 * 31 * 31 - 31);
+    assert_eq!(cut.particle_count(), 2 * 31 * 31 - 31);
 
     let text = squares(&[
         (
@@ -348,9 +348,9 @@ fn oddities_that_prevent_nothing_are_noted() {
         ("to = [30, 0] }", "to = [0, 30] }"),
         ("\"waist\", to = [0, 30]", "\"waist\", to = [30, 0]"),
     ];
-    assert_eq!(notes(&clockwise), [Note::Reversed { panel: "front".into() }]);
+    assert_eq!(notes(&clockwise), [PatternNote::Reversed { panel: "front".into() }]);
     let grainless = [("[panel.back]\ngrain = 0", "[panel.back]")];
-    assert_eq!(notes(&grainless), [Note::NoGrain { panels: vec!["back".into()] }]);
+    assert_eq!(notes(&grainless), [PatternNote::NoGrain { panels: vec!["back".into()] }]);
     // Side by side the panels' edges face each other; turned round the seam is twisted.
     let places = [
         ("rectangle = [30, 30]", "rectangle = [30, 30]\norigin = [40, 0, 0]"),
@@ -507,7 +507,9 @@ fn freesewing_drafts_are_unfolded_and_named_by_their_points() {
     assert!((mirrored.start[0] + 0.29677).abs() < 1e-12, "{mirrored:?}");
     assert!(mirrored.end[0].abs() < 1e-12 && (mirrored.end[1] + 0.644).abs() < 1e-12);
     assert!(pattern.panels().iter().all(|p| p.grain().abs() < 1e-12 && !p.was_clockwise()));
-    assert!(matches!(&pattern.notes()[0], Note::Unfolded { edge, .. } if edge == "cbNeck-cbHem"));
+    assert!(
+        matches!(&pattern.notes()[0], PatternNote::Unfolded { edge, .. } if edge == "cbNeck-cbHem")
+    );
 
     let other = shipped("teagan.json").replacen("\"seam\":", "\"contour\":", 1);
     let pattern = Pattern::parse(&Document::new("t.json", other)).expect("a closed path is enough");

@@ -1,7 +1,7 @@
 //! The drawing of a pattern that is refused: what is wrong is red, the rest is not.
 
 use drape_input::Document;
-use drape_pattern::{Cutter, Error, Pattern, Sketch, Wrong};
+use drape_pattern::{Cutter, Error, Pattern, Sketch, SketchFault};
 
 /// Colour of what is wrong.
 const RED: &str = "#d11a1a";
@@ -37,7 +37,8 @@ impl Red {
         let document = Document::new("a.toml", text);
         let mistakes = Pattern::parse(&document).expect_err("it is wrong");
         let wrong = mistakes.0.iter().filter_map(|one| one.subject.clone());
-        let wrong: Vec<Wrong> = wrong.map(|subject| Wrong { subject, at: None }).collect();
+        let wrong: Vec<SketchFault> =
+            wrong.map(|subject| SketchFault { subject, at: None }).collect();
         assert!(!wrong.is_empty(), "{mistakes}");
         let svg = Sketch::parse(&document).figure(&wrong, &mistakes.0);
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{mistakes}");
@@ -110,8 +111,8 @@ fn a_place_that_is_too_narrow_is_red_in_the_pattern_that_is_sound() {
                 [panel.b]\ngrain = 0\nrectangle = [30, 30]\n";
     let pattern = Pattern::parse(&Document::new("a.toml", text)).expect("it is sound");
     let Err(Error::Pattern(all)) = Cutter::new(0.1).cut(&pattern) else { panic!("it is narrow") };
-    let wrong: Vec<Wrong> = all.iter().filter_map(Wrong::of).collect();
-    let red = Red::of(&Sketch::of(&pattern).figure(&wrong, &[]));
+    let wrong: Vec<SketchFault> = all.iter().filter_map(SketchFault::from_mistake).collect();
+    let red = Red::of(&Sketch::from_pattern(&pattern).figure(&wrong, &[]));
     assert_eq!(red.places, 1, "{all:?}");
     let others = ["left", "right", "top", "bottom"];
     assert!(red.names.iter().all(|name| !others.contains(&name.as_str())), "{red:?}");
@@ -125,7 +126,7 @@ fn drawings_of_other_programs_are_drawn_too() {
     let document = Document::new("bow.svg", svg);
     let mistakes = Pattern::parse(&document).expect_err("it crosses itself");
     let wrong = mistakes.0.iter().filter_map(|one| one.subject.clone());
-    let wrong: Vec<Wrong> = wrong.map(|subject| Wrong { subject, at: None }).collect();
+    let wrong: Vec<SketchFault> = wrong.map(|subject| SketchFault { subject, at: None }).collect();
     let red = Red::of(&Sketch::parse(&document).figure(&wrong, &mistakes.0));
     assert_eq!((red.names.len(), red.places), (2, 1), "{red:?}");
 }

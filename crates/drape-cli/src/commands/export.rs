@@ -49,8 +49,8 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         return Err(Failure::Usage(reason.to_owned()));
     }
     let clip = Clip::new(&recording, numbers, arguments.fps)?;
-    if clip.count() < asked {
-        let left_out = asked - clip.count();
+    if clip.frame_count() < asked {
+        let left_out = asked - clip.frame_count();
         note(format_args!("frames left out, since a later one has the same time: {left_out}"));
     }
     let one = asked == 1;
@@ -62,14 +62,14 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
             let resampled = clip.resampled();
             note(format_args!(
                 "the frames do not follow each other at {rate} frames per second; those nearest in time are taken, {}",
-                resampled.count()
+                resampled.frame_count()
             ));
             resampled
         }
-        Format::Glb if clip.count() > GLB_FRAMES_MAX => {
+        Format::Glb if clip.frame_count() > GLB_FRAMES_MAX => {
             note(format_args!(
                 "viewers of glTF hold {GLB_FRAMES_MAX} frames; so many of {} are taken, evenly",
-                clip.count()
+                clip.frame_count()
             ));
             clip.thinned(GLB_FRAMES_MAX)
         }
@@ -97,7 +97,7 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
             files.pattern_map(&clip, arguments.look.map().unwrap_or(Field::StrainWarp))?
         }
     }
-    let (count, output) = (clip.count(), arguments.output.display());
+    let (count, output) = (clip.frame_count(), arguments.output.display());
     match count {
         1 => say_written(format_args!("frame {} in {output}", clip.frames()[0])),
         _ => say_written(format_args!("{count} frames, {rate} per second, in {output}")),

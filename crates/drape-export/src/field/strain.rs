@@ -1,15 +1,15 @@
-//! Strain of a triangle along warp and weft, and its shear.
+//! Strain of a triangle along warp and weft, and shear.
 
 use drape_frames::vector::{dot, length};
 
-/// Component of a strain.
+/// Component of the strain of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum StrainOf {
-    /// Along the warp, in %.
+pub(super) enum StrainComponent {
+    /// Strain along the warp, in %.
     Warp,
-    /// Along the weft, in %.
+    /// Strain along the weft, in %.
     Weft,
-    /// Angle by which warp and weft are off a right one, in °.
+    /// Difference of the angle between warp and weft from a right angle, in °.
     Shear,
 }
 
@@ -17,36 +17,40 @@ pub(super) enum StrainOf {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RestTriangle {
     pub(super) corners: [u32; 3],
-    /// Edges from the first corner to the two others, in m: weft and warp.
+    /// Edges from the first corner to the other two, in m, as weft and warp coordinates.
     edges: [[f64; 2]; 2],
     /// Area, in m².
     pub(super) area: f64,
 }
 
 impl RestTriangle {
-    /// Returns a triangle from the material coordinates of all vertices.
+    /// Returns the triangle with `corners`. `material` has the material coordinates of all
+    /// vertices.
     pub(super) fn new(corners: [u32; 3], material: &[[f64; 2]]) -> RestTriangle {
-        let [start, one, other] = corners.map(|corner| material[corner as usize]);
-        let edges = [one, other].map(|end| [end[0] - start[0], end[1] - start[1]]);
+        let [start, second, third] = corners.map(|corner| material[corner as usize]);
+        let edges = [second, third].map(|end| [end[0] - start[0], end[1] - start[1]]);
         let [[u1, v1], [u2, v2]] = edges;
         RestTriangle { corners, edges, area: 0.5 * (u1 * v2 - u2 * v1).abs() }
     }
 
-    /// Returns a component of the strain at the positions of all vertices: of the derivatives of the
-    /// position along warp and weft, their lengths less one, and the angle between them; 0 for a
-    /// triangle without area.
-    pub(super) fn strain(&self, positions: &[[f64; 3]], of: StrainOf) -> f64 {
+    /// Returns a component of the strain at `positions`, which are the positions of all vertices,
+    /// in m; 0 for a triangle without area.
+    ///
+    /// The strains are the lengths of the derivatives of the position along warp and weft, less
+    /// one. The shear is the sine of the angle between these derivatives, as an angle.
+    pub(super) fn strain(&self, positions: &[[f64; 3]], component: StrainComponent) -> f64 {
         let [[u1, v1], [u2, v2]] = self.edges;
         let twice = u1 * v2 - u2 * v1;
-        let [start, one, other] = self.corners.map(|corner| positions[corner as usize]);
-        let along = |a: f64, b: f64| -> [f64; 3] {
-            std::array::from_fn(|k| (a * (one[k] - start[k]) + b * (other[k] - start[k])) / twice)
-        };
-        let (weft, warp) = (along(v2, -v1), along(-u2, u1));
-        let value = match of {
-            StrainOf::Warp => 100.0 * (length(warp) - 1.0),
-            StrainOf::Weft => 100.0 * (length(weft) - 1.0),
-            StrainOf::Shear => {
+        let [start, second, third] = self.corners.map(|corner| positions[corner as usize]);
+        let [weft, warp]: [[f64; 3]; 2] = [(v2, -v1), (-u2, u1)].map(|(a, b)| {
+            std::array::from_fn(|k| {
+                (a * (second[k] - start[k]) + b * (third[k] - start[k])) / twice
+            })
+        });
+        let value = match component {
+            StrainComponent::Warp => 100.0 * (length(warp) - 1.0),
+            StrainComponent::Weft => 100.0 * (length(weft) - 1.0),
+            StrainComponent::Shear => {
                 let sine = dot(weft, warp) / (length(weft) * length(warp));
                 sine.clamp(-1.0, 1.0).asin().to_degrees()
             }
@@ -69,14 +73,16 @@ mod tests {
         let positions = material.map(place);
         for corners in [[0, 1, 2], [0, 2, 1], [2, 3, 1], [3, 0, 2]] {
             let triangle = RestTriangle::new(corners, &material);
-            for (of, expected) in
-                [(StrainOf::Weft, 10.0), (StrainOf::Warp, -5.0), (StrainOf::Shear, 6.0)]
-            {
+            for (of, expected) in [
+                (StrainComponent::Weft, 10.0),
+                (StrainComponent::Warp, -5.0),
+                (StrainComponent::Shear, 6.0),
+            ] {
                 let strain = triangle.strain(&positions, of);
                 assert!((strain - expected).abs() < 1e-9, "{corners:?} {of:?}: {strain}");
             }
         }
         let flat = RestTriangle::new([0, 1, 1], &material);
-        assert_eq!((flat.area, flat.strain(&positions, StrainOf::Shear)), (0.0, 0.0));
+        assert_eq!((flat.area, flat.strain(&positions, StrainComponent::Shear)), (0.0, 0.0));
     }
 }

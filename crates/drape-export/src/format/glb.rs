@@ -1,4 +1,5 @@
-//! GLB, binary glTF 2.0: the last frame of a clip, and the others as morph targets of an animation.
+//! GLB, binary glTF 2.0: the last frame of a clip, and the frames before as morph targets of an
+//! animation.
 
 use std::io::Write;
 
@@ -6,36 +7,44 @@ use serde_json::{Value, json};
 
 use crate::clip::Clip;
 use crate::error::Error;
-use crate::mesh::{self, Kind, Mesh, Sample, Track};
+use crate::mesh::{self, Mesh, MeshKind, Sample, Track};
 
-/// Largest number of frames of an animation: viewers hold every frame on the graphics card, in a
-/// texture of which many have no more than 256 layers.
+/// Largest number of frames of an animation. Viewers hold every frame on the graphics card, in a
+/// texture. On many cards a texture has no more than 256 layers.
 pub const GLB_FRAMES_MAX: usize = 120;
 
-/// Largest number of bytes of a file, whose lengths have 32 bits.
+/// Largest number of bytes of a file, because lengths in it have 32 bits.
 const BYTES_MAX: usize = u32::MAX as usize - 64;
 
-/// Constants of the format.
+/// `componentType` of single precision.
 const FLOAT: u32 = 5126;
+
+/// `componentType` of indices.
 const UNSIGNED_INT: u32 = 5125;
+
+/// `target` of a view with attributes of vertices.
 const VERTICES: u32 = 34962;
+
+/// `target` of a view with indices.
 const INDICES: u32 = 34963;
 
-/// Writes a clip as GLB: a node, a mesh and a material for each panel and body, in m, y up.
+/// Writes `clip` to `to` as GLB: a node, a mesh and a material for each panel and body, in m, y up.
 ///
-/// The mesh shows the last frame; the frames before are morph targets, which an animation shows at
-/// their times. Of more than [`GLB_FRAMES_MAX`] frames so many are taken; the numbers are in the names
-/// of the targets. Texture coordinates are pattern coordinates in m as the format counts them, from
-/// the top: the second is 1 less the height. Where a run has several fabrics, the materials of panels have
-/// the colours of their fabrics ([`crate::FabricPalette`]).
+/// The mesh shows the last frame. The frames before are morph targets, which an animation shows at
+/// their times. Of more than [`GLB_FRAMES_MAX`] frames, this number is written, evenly chosen.
+/// Their numbers are in the names of the targets. Texture coordinates are pattern coordinates in m,
+/// counted from the top as the format demands: the second is 1 less the height.
+/// Where a run has several fabrics, the materials of panels have the colours of their fabrics
+/// ([`crate::FabricPalette`]).
 ///
 /// # Errors
-/// Frames cannot be read, the file would be larger than the format allows, or those of the writer.
+/// Frames cannot be read, the file would be larger than the format allows, or `to` fails.
 pub fn write_glb(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.thinned(GLB_FRAMES_MAX);
-    let last = clip.read(clip.count() - 1)?;
+    let last = clip.read(clip.frame_count() - 1)?;
     let meshes = mesh::meshes(clip.recording(), &last);
     let tracks = Track::read(&clip, &meshes)?;
+
     let mut file = Document::default();
     let mut animated = Vec::new();
     for (index, (mesh, track)) in meshes.iter().zip(&tracks).enumerate() {
@@ -46,6 +55,8 @@ pub fn write_glb(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     }
     file.animate(&animated, &clip);
     let document = file.json(&clip);
+
+    // Both chunks have a header of 8 bytes and begin at multiples of 4.
     let mut text = serde_json::to_vec(&document).expect("a document has no keys but strings");
     text.resize(text.len().next_multiple_of(4), b' ');
     let total = 12 + 8 + text.len() + 8 + file.binary.len();
@@ -53,6 +64,7 @@ pub fn write_glb(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
         let (format, what, limit) = ("GLB", "bytes", BYTES_MAX);
         return Err(Error::TooLarge { format, what, found: total, limit });
     }
+
     to.write_all(b"glTF")?;
     for word in [2, total as u32, text.len() as u32] {
         to.write_all(&word.to_le_bytes())?;
@@ -78,26 +90,27 @@ struct Document {
 }
 
 impl Document {
-    /// Begins a view of the bytes that follow.
+    /// Begins a view of the bytes that follow. `stride` is the number of bytes of an element.
     fn begin(&mut self, target: Option<u32>, stride: Option<usize>) -> View {
         View { start: self.binary.len(), index: self.views.len(), target, stride }
     }
 
+    /// Ends `view` behind the bytes that were added since it began.
     fn end(&mut self, view: View) {
         let View { start, target, stride, .. } = view;
         let length = self.binary.len() - start;
         let mut value = json!({ "buffer": 0, "byteOffset": start, "byteLength": length });
-        let mut set = |key: &str, number: Option<Value>| {
-            if let Some(number) = number {
-                value[key] = number;
-            }
-        };
-        set("target", target.map(Value::from));
-        set("byteStride", stride.map(Value::from));
+        if let Some(target) = target {
+            value["target"] = target.into();
+        }
+        if let Some(stride) = stride {
+            value["byteStride"] = stride.into();
+        }
         self.views.push(value);
     }
 
-    /// Adds an accessor to the numbers that are written, and returns its number.
+    /// Adds `rows` to the bytes and an accessor to them in `view`, and returns its number. The
+    /// accessor has the smallest and the largest row if `bounds`.
     fn floats<const N: usize>(&mut self, view: &View, rows: &[[f32; N]], bounds: bool) -> usize {
         let kind = match N {
             1 => "SCALAR",
@@ -110,45 +123,44 @@ impl Document {
             "count": rows.len(), "type": kind,
         });
         if bounds {
-            let bound = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
-                let first = rows.first().copied().unwrap_or([0.0; N]);
-                rows.iter()
-                    .fold(first, |bound, row| std::array::from_fn(|k| pick(bound[k], row[k])))
-                    .to_vec()
-            };
-            (accessor["min"], accessor["max"]) = (json!(bound(f32::min)), json!(bound(f32::max)));
+            (accessor["min"], accessor["max"]) =
+                (json!(bound(rows, f32::min)), json!(bound(rows, f32::max)));
         }
         self.binary.extend(rows.iter().flatten().flat_map(|number| number.to_le_bytes()));
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }
 
-    /// Adds a panel or a body.
+    /// Adds the panel or the body `mesh` with the samples of `track`.
     fn add(&mut self, mesh: &Mesh, track: &Track, clip: &Clip) {
         let index = self.meshes.len();
-        let vertices = self.begin(Some(VERTICES), Some(12));
-        let (base, others) = track.samples.split_last().expect("a clip has a frame");
+        let (base, earlier) = track.samples.split_last().expect("a clip has a frame");
         let base = spread(mesh, base);
+
+        // Positions and normals of the last frame, then differences of the frames before.
+        let vertices = self.begin(Some(VERTICES), Some(12));
         let mut attributes = json!({
             "POSITION": self.floats(&vertices, &base.positions, true),
             "NORMAL": self.floats(&vertices, &base.normals, false),
         });
-        let targets: Vec<Value> = others
+        let targets: Vec<Value> = earlier
             .iter()
             .map(|sample| {
                 let sample = spread(mesh, sample);
-                let position =
-                    self.floats(&vertices, &less(&sample.positions, &base.positions), true);
-                let normal = self.floats(&vertices, &less(&sample.normals, &base.normals), false);
+                let positions = differences(&sample.positions, &base.positions);
+                let normals = differences(&sample.normals, &base.normals);
+                let position = self.floats(&vertices, &positions, true);
+                let normal = self.floats(&vertices, &normals, false);
                 json!({ "POSITION": position, "NORMAL": normal })
             })
             .collect();
         self.end(vertices);
+
         let corners = match &mesh.kind {
-            Kind::Body(creased) => &creased.corners,
-            Kind::Panel(pattern) => {
+            MeshKind::Body(creased) => &creased.corners,
+            MeshKind::Panel(pattern) => {
                 let view = self.begin(Some(VERTICES), Some(8));
-                // Counted from the top.
+                // The format counts the second coordinate from the top.
                 let uv: Vec<[f32; 2]> =
                     pattern.iter().map(|[x, y]| [*x as f32, (1.0 - y) as f32]).collect();
                 attributes["TEXCOORD_0"] = self.floats(&view, &uv, false).into();
@@ -163,14 +175,15 @@ impl Document {
         }));
         self.binary.extend(corners.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
         self.end(view);
+
         let mut primitive = json!({
             "attributes": attributes, "indices": self.accessors.len() - 1, "material": index, "mode": 4,
         });
         let mut value = json!({ "name": mesh.name });
         if !targets.is_empty() {
             value["weights"] = vec![0.0; targets.len()].into();
-            let named = |number: &usize| format!("frame {number}");
-            let names: Vec<String> = clip.frames()[..targets.len()].iter().map(named).collect();
+            let numbers = clip.frames()[..targets.len()].iter();
+            let names: Vec<String> = numbers.map(|number| format!("frame {number}")).collect();
             value["extras"] = json!({ "targetNames": names });
             primitive["targets"] = targets.into();
         }
@@ -180,8 +193,8 @@ impl Document {
         self.nodes.push(node(mesh, index));
     }
 
-    /// Adds the animation: at the time of a frame its target has the weight 1, at that of the last
-    /// none has any.
+    /// Adds the animation of the nodes `animated`. At the time of a frame its target has the weight
+    /// 1 and other targets have none. At the time of the last frame no target has a weight.
     fn animate(&mut self, animated: &[usize], clip: &Clip) {
         if animated.is_empty() {
             return;
@@ -189,17 +202,21 @@ impl Document {
         let view = self.begin(None, None);
         let times: Vec<[f32; 1]> = clip.seconds().iter().map(|seconds| [*seconds as f32]).collect();
         let input = self.floats(&view, &times, true);
-        let (frames, targets) = (clip.count(), clip.count() - 1);
-        let weight = |at: usize| [f32::from(u8::from(at / targets == at % targets))];
-        let weights: Vec<[f32; 1]> = (0..frames * targets).map(weight).collect();
+        let (frames, targets) = (clip.frame_count(), clip.frame_count() - 1);
+        let weights: Vec<[f32; 1]> = (0..frames * targets)
+            .map(|at| [f32::from(u8::from(at / targets == at % targets))])
+            .collect();
         let output = self.floats(&view, &weights, false);
         self.end(view);
-        let channel = |node| json!({ "sampler": 0, "target": { "node": node, "path": "weights" } });
-        let channels: Vec<Value> = animated.iter().map(channel).collect();
+        let channels: Vec<Value> = animated
+            .iter()
+            .map(|node| json!({ "sampler": 0, "target": { "node": node, "path": "weights" } }))
+            .collect();
         let sampler = json!({ "input": input, "output": output, "interpolation": "LINEAR" });
         self.animations.push(json!({ "name": "run", "channels": channels, "samplers": [sampler] }));
     }
 
+    /// Returns the document as JSON.
     fn json(&self, clip: &Clip) -> Value {
         let all: Vec<usize> = (0..self.nodes.len()).collect();
         let mut document = json!({
@@ -224,27 +241,29 @@ impl Document {
     }
 }
 
+/// Returns the material of `mesh`.
 fn material(mesh: &Mesh) -> Value {
     let [red, green, blue] = mesh.colour;
     json!({
-        "name": mesh.name, "doubleSided": matches!(mesh.kind, Kind::Panel(_)),
+        "name": mesh.name, "doubleSided": matches!(mesh.kind, MeshKind::Panel(_)),
         "pbrMetallicRoughness": {
             "baseColorFactor": [red, green, blue, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9,
         },
     })
 }
 
+/// Returns the node of `mesh`, the mesh with the number `index`.
 fn node(mesh: &Mesh, index: usize) -> Value {
     let extras = match mesh.kind {
-        Kind::Panel(_) => {
+        MeshKind::Panel(_) => {
             json!({ "name": mesh.part.name, "kind": "panel", "fabric": mesh.part.fabric })
         }
-        Kind::Body(_) => json!({ "name": mesh.part.name, "kind": "body" }),
+        MeshKind::Body(_) => json!({ "name": mesh.part.name, "kind": "body" }),
     };
     json!({ "name": mesh.name, "mesh": index, "extras": extras })
 }
 
-/// View of bytes that is being written.
+/// View of bytes that are being written.
 struct View {
     start: usize,
     index: usize,
@@ -252,20 +271,26 @@ struct View {
     stride: Option<usize>,
 }
 
-/// Returns a sample with a position for each normal: vertices on creases more than once.
+/// Returns `sample` with a position for each normal. A vertex on a crease has several normals.
 fn spread(mesh: &Mesh, sample: &Sample) -> Sample {
     match &mesh.kind {
-        Kind::Panel(_) => sample.clone(),
-        Kind::Body(creased) => {
-            let position = |vertex: &u32| sample.positions[*vertex as usize];
-            let positions = creased.vertices.iter().map(position).collect();
+        MeshKind::Panel(_) => sample.clone(),
+        MeshKind::Body(creased) => {
+            let vertices = creased.vertices.iter();
+            let positions = vertices.map(|vertex| sample.positions[*vertex as usize]).collect();
             Sample { positions, normals: sample.normals.clone() }
         }
     }
 }
 
-/// Returns by how much rows differ.
-fn less(rows: &[[f32; 3]], base: &[[f32; 3]]) -> Vec<[f32; 3]> {
+/// Returns the bound of `rows` in each column: the smallest numbers if `pick` is `f32::min`.
+fn bound<const N: usize>(rows: &[[f32; N]], pick: fn(f32, f32) -> f32) -> Vec<f32> {
+    let first = rows.first().copied().unwrap_or([0.0; N]);
+    rows.iter().fold(first, |bound, row| std::array::from_fn(|k| pick(bound[k], row[k]))).to_vec()
+}
+
+/// Returns the differences of `rows` from `base`.
+fn differences(rows: &[[f32; 3]], base: &[[f32; 3]]) -> Vec<[f32; 3]> {
     rows.iter().zip(base).map(|(row, base)| std::array::from_fn(|k| row[k] - base[k])).collect()
 }
 
@@ -310,7 +335,8 @@ mod tests {
             usize::try_from(value.as_u64().unwrap_or(0)).unwrap()
         }
 
-        /// Reads the numbers of an accessor, as 32 bits each, and checks that they are in their view.
+        /// Reads the numbers of an accessor, as 32 bits each, and checks that they are in their
+        /// view.
         fn words(&self, accessor: &Value) -> Vec<[u8; 4]> {
             let accessor = &self.document["accessors"][Read::number(accessor)];
             let view = &self.document["bufferViews"][Read::number(&accessor["bufferView"])];

@@ -1,30 +1,30 @@
-//! MDD, point cache of LightWave: the positions of the cloth with their times, for an object that has
-//! its vertices.
+//! MDD, point cache of LightWave: positions of the cloth with their times. They move an object with
+//! the vertices of the cloth.
 
 use std::io::Write;
 
-use super::count;
+use super::signed_count;
 use crate::clip::Clip;
 use crate::error::Error;
 
-/// Writes a clip as MDD: times in s, positions of the vertices of the cloth in m, y up, in single
-/// precision.
+/// Writes `clip` to `to` as MDD: times in s, positions of the vertices of the cloth in m, y up, in
+/// single precision.
 ///
-/// Programs play it one sample a frame whatever its times, so that frames are
-/// [resampled](Clip::resampled). The object that it moves is that of
-/// [`write_rest_obj`](crate::write_rest_obj).
+/// Programs play one sample in each frame whatever its time. Frames are therefore
+/// [resampled](Clip::resampled). [`write_rest_obj`](crate::write_rest_obj) writes the object that
+/// the cache moves.
 ///
 /// # Errors
-/// A frame cannot be read, there are too many frames for the format, or the writer fails.
+/// A frame cannot be read, there are too many frames for the format, or `to` fails.
 pub fn write_mdd(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.resampled();
     let points = clip.recording().topology().material.len();
-    to.write_all(&count("MDD", "frames", clip.count())?.to_be_bytes())?;
-    to.write_all(&count("MDD", "points", points)?.to_be_bytes())?;
+    to.write_all(&signed_count("MDD", "frames", clip.frame_count())?.to_be_bytes())?;
+    to.write_all(&signed_count("MDD", "points", points)?.to_be_bytes())?;
     for seconds in clip.seconds() {
         to.write_all(&(seconds as f32).to_be_bytes())?;
     }
-    for index in 0..clip.count() {
+    for index in 0..clip.frame_count() {
         let frame = clip.read(index)?;
         let numbers = frame.cloth.iter().flatten();
         let bytes: Vec<u8> = numbers.flat_map(|part| (*part as f32).to_be_bytes()).collect();

@@ -1,4 +1,4 @@
-//! NPZ: arrays of NumPy with everything that a clip has, in one file.
+//! NPZ: arrays of NumPy with all numbers of a clip, in one file.
 
 use std::io::{Seek, Write};
 
@@ -11,21 +11,23 @@ use crate::clip::Clip;
 use crate::error::Error;
 use crate::mesh;
 
-/// Writes a clip as NPZ, which `numpy.load` opens: positions of cloth and bodies with every bit, times,
-/// triangles, pattern coordinates, the panel of each vertex with the names of the panels, and, where
-/// the run has them, pressures of contact and the balance of the energy with the names of its entries.
+/// Writes `clip` to `to` as NPZ, which `numpy.load` opens. The arrays are positions of cloth and
+/// bodies with every bit, times, triangles, pattern coordinates, and the panel of each vertex with
+/// the names of the panels. If the run has them, pressures of contact and the balance of the energy
+/// with the names of its entries are written too.
 ///
-/// Lengths are in m, times in s, pressures in Pa, energies in J, y is up. Bodies that do not move have
-/// one frame. Pressures and energies that were not stored are not a number.
+/// Lengths are in m, times in s, pressures in Pa, energies in J, y is up. Bodies that do not move
+/// have one frame. Pressures and energies that were not stored are not a number.
 ///
 /// # Errors
-/// Frames cannot be read, or those of the writer.
+/// Frames cannot be read, or `to` fails.
 pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
     let (manifest, topology) = (clip.recording().manifest(), clip.recording().topology());
     let mut archive = Archive { zip: zip::ZipWriter::new(to) };
-    let frames = clip.count();
-    let shape = [frames, topology.material.len(), 3];
-    archive.array("positions", &shape, |clip_index| {
+
+    // The cloth.
+    let (frames, vertices) = (clip.frame_count(), topology.material.len());
+    archive.array("positions", &[frames, vertices, 3], |clip_index| {
         Ok(clip.read(clip_index)?.cloth.into_flattened())
     })?;
     archive.table("times", &[frames], clip.times().to_vec())?;
@@ -35,52 +37,48 @@ pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
     archive.rows("triangles", &topology.cloth)?;
     archive.rows("uv", &mesh::pattern(clip.recording()))?;
     archive.rows("seam_pairs", &manifest.seam_pairs)?;
-    archive.table("panel", &[topology.material.len()], owners(&manifest.panels))?;
+    archive.table("panel", &[vertices], owners(&manifest.panels))?;
     archive.strings("panels", manifest.panels.iter().map(|panel| &*panel.name))?;
     archive.strings("fabrics", manifest.panels.iter().map(|panel| &*panel.fabric))?;
     archive.strings("units", ["m", "s"])?;
     archive.strings("up", ["y"])?;
+
+    // Quantities that only some runs have.
     if clip.recording().has_pressures() {
-        let vertices = topology.material.len();
         archive.array("pressure", &[frames, vertices], |clip_index| {
-            let unknown = || vec![f32::NAN; vertices];
-            let single = |all: Vec<f64>| all.into_iter().map(|pressure| pressure as f32).collect();
-            Ok(clip.read(clip_index)?.pressures.map_or_else(unknown, single))
+            Ok(match clip.read(clip_index)?.pressures {
+                Some(pressures) => pressures.into_iter().map(|pressure| pressure as f32).collect(),
+                None => vec![f32::NAN; vertices],
+            })
         })?;
     }
     if let Some(EnergyTable { names, rows }) = clip.recording().energy()? {
-        let unknown = || vec![f64::NAN; names.len()];
-        let row = |number: &usize| rows[*number].clone().unwrap_or_else(unknown);
-        let own = clip.frames().iter().flat_map(row).collect();
-        archive.table("energy", &[frames, names.len()], own)?;
+        let mut values = Vec::new();
+        for number in clip.frames() {
+            match &rows[*number] {
+                Some(row) => values.extend(row),
+                None => values.resize(values.len() + names.len(), f64::NAN),
+            }
+        }
+        archive.table("energy", &[frames, names.len()], values)?;
         archive.strings("energies", names.iter().map(|name| &**name))?;
     }
-    if manifest.bodies.is_empty() {
-        archive.zip.finish().map_err(std::io::Error::from)?;
-        return Ok(());
+    if !manifest.bodies.is_empty() {
+        archive.bodies(clip)?;
     }
-    let owners = owners(&manifest.bodies);
-    let moving = if bodies_move(clip)? { frames } else { 1 };
-    let shape = [moving, owners.len(), 3];
-    archive.array("body_positions", &shape, |clip_index| {
-        Ok(clip.read(clip_index)?.bodies.into_flattened())
-    })?;
-    archive.rows("body_triangles", &topology.bodies)?;
-    archive.table("body", &[owners.len()], owners)?;
-    archive.strings("bodies", manifest.bodies.iter().map(|body| &*body.name))?;
     archive.zip.finish().map_err(std::io::Error::from)?;
     Ok(())
 }
 
-/// Returns the number of the part of each vertex.
+/// Returns for each vertex of `parts` the number of its part.
 fn owners(parts: &[SurfacePart]) -> Vec<u32> {
     (0..).zip(parts).flat_map(|(index, part)| std::iter::repeat_n(index, part.vertices)).collect()
 }
 
-/// Returns whether bodies move between frames of a clip.
+/// Returns whether bodies move between frames of `clip`.
 fn bodies_move(clip: &Clip) -> Result<bool, Error> {
     let first = clip.read(0)?;
-    for index in 1..clip.count() {
+    for index in 1..clip.frame_count() {
         let Frame { bodies_file, bodies, .. } = clip.read(index)?;
         if bodies_file != first.bodies_file && bodies != first.bodies {
             return Ok(true);
@@ -95,7 +93,21 @@ struct Archive<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> Archive<W> {
-    /// Begins an array; it is stored as it is, since the digits of positions hardly shrink.
+    /// Writes the bodies of `clip`, with one frame if they do not move.
+    fn bodies(&mut self, clip: &Clip) -> Result<(), Error> {
+        let (manifest, topology) = (clip.recording().manifest(), clip.recording().topology());
+        let owners = owners(&manifest.bodies);
+        let frames = if bodies_move(clip)? { clip.frame_count() } else { 1 };
+        self.array("body_positions", &[frames, owners.len(), 3], |clip_index| {
+            Ok(clip.read(clip_index)?.bodies.into_flattened())
+        })?;
+        self.rows("body_triangles", &topology.bodies)?;
+        self.table("body", &[owners.len()], owners)?;
+        self.strings("bodies", manifest.bodies.iter().map(|body| &*body.name))
+    }
+
+    /// Begins the array `name`. It is not compressed, because the digits of positions hardly
+    /// shrink.
     fn begin(&mut self, name: &str) -> Result<(), Error> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
@@ -104,7 +116,7 @@ impl<W: Write + Seek> Archive<W> {
         Ok(self.zip.start_file(name, options).map_err(std::io::Error::from)?)
     }
 
-    /// Writes an array of numbers, frame by frame.
+    /// Writes an array of `shape` whose frames `read` returns by their index.
     fn array<T: AutoSerialize>(
         &mut self,
         name: &str,
@@ -121,7 +133,7 @@ impl<W: Write + Seek> Archive<W> {
         Ok(writer.finish()?)
     }
 
-    /// Writes an array of some shape.
+    /// Writes an array of `shape` with `values`.
     fn table<T: AutoSerialize>(
         &mut self,
         name: &str,
@@ -131,7 +143,7 @@ impl<W: Write + Seek> Archive<W> {
         self.typed(name, T::default_dtype(), shape, values)
     }
 
-    /// Writes an array of rows.
+    /// Writes an array with `rows`.
     fn rows<T: AutoSerialize + Copy, const N: usize>(
         &mut self,
         name: &str,
@@ -140,7 +152,7 @@ impl<W: Write + Seek> Archive<W> {
         self.table(name, &[rows.len(), N], rows.iter().flatten().copied().collect())
     }
 
-    /// Writes a list of words.
+    /// Writes an array of `words`.
     fn strings<'a>(
         &mut self,
         name: &str,
@@ -153,6 +165,7 @@ impl<W: Write + Seek> Archive<W> {
         self.typed(name, DType::Plain(kind), &[words.len()], words)
     }
 
+    /// Writes an array of `shape` with `values` of the type `kind`.
     fn typed<T: Serialize>(
         &mut self,
         name: &str,

@@ -1,5 +1,5 @@
-//! Wavefront OBJ: one frame, an object for each panel and each body; or the cloth as one object, for
-//! the caches of its points.
+//! Wavefront OBJ: one frame, an object for each panel and each body; or the cloth as one object,
+//! which point caches move.
 
 use std::io::{self, Write};
 
@@ -8,30 +8,33 @@ use drape_frames::{Frame, Recording};
 use crate::mesh;
 use crate::name;
 
-/// Writes a frame as Wavefront OBJ: in metres, y up, an object for each panel and each body.
+/// Writes `frame` to `to` as Wavefront OBJ: in metres, y up, an object for each panel and each
+/// body.
 ///
-/// Texture coordinates are the coordinates of the panel's own frame, in m. Every number has as many
-/// digits as tell it from its neighbours. A name that is there twice gets a number.
+/// Texture coordinates are the coordinates in the panel's frame, in m. Every number has the fewest
+/// digits that distinguish it from its neighbours. A repeated name gets a number.
 ///
 /// # Errors
-/// Those of the writer.
+/// `to` fails.
 pub fn write_obj(recording: &Recording, frame: &Frame, mut to: impl Write) -> io::Result<()> {
     let (manifest, topology) = (recording.manifest(), recording.topology());
     head(frame, &mut to)?;
     vertices(frame.cloth.iter().chain(&frame.bodies), &mut to)?;
     pattern(recording, &mut to)?;
+
     let names = name::unique(manifest.panels.iter().chain(&manifest.bodies));
-    let (of_panels, of_bodies) = names.split_at(manifest.panels.len());
+    let (panel_names, body_names) = names.split_at(manifest.panels.len());
     let mut triangles = topology.cloth.iter();
-    for (panel, name) in manifest.panels.iter().zip(of_panels) {
+    for (panel, name) in manifest.panels.iter().zip(panel_names) {
         writeln!(to, "o {}", word(name))?;
         for corners in triangles.by_ref().take(panel.triangles) {
             face_with_pattern(corners, &mut to)?;
         }
     }
+
     let first = frame.cloth.len() as u32 + 1;
     let mut triangles = topology.bodies.iter();
-    for (body, name) in manifest.bodies.iter().zip(of_bodies) {
+    for (body, name) in manifest.bodies.iter().zip(body_names) {
         writeln!(to, "o {}", word(name))?;
         for triangle in triangles.by_ref().take(body.triangles) {
             let [a, b, c] = triangle.map(|corner| corner + first);
@@ -41,12 +44,12 @@ pub fn write_obj(recording: &Recording, frame: &Frame, mut to: impl Write) -> io
     Ok(())
 }
 
-/// Writes the cloth of a frame as Wavefront OBJ: one object with the vertices in the order of the
-/// run, which [`write_pc2`](crate::write_pc2) and [`write_mdd`](crate::write_mdd) move; a group and a
-/// material for each panel.
+/// Writes the cloth of `frame` to `to` as Wavefront OBJ: one object with a group and a material for
+/// each panel. The vertices are in the order of the run, so that [`write_pc2`](crate::write_pc2)
+/// and [`write_mdd`](crate::write_mdd) write caches that move the object.
 ///
 /// # Errors
-/// Those of the writer.
+/// `to` fails.
 pub fn write_rest_obj(recording: &Recording, frame: &Frame, mut to: impl Write) -> io::Result<()> {
     let (manifest, topology) = (recording.manifest(), recording.topology());
     head(frame, &mut to)?;
@@ -65,6 +68,7 @@ pub fn write_rest_obj(recording: &Recording, frame: &Frame, mut to: impl Write) 
     Ok(())
 }
 
+/// Writes the unit and the time of `frame` as a comment.
 fn head(frame: &Frame, to: &mut impl Write) -> io::Result<()> {
     match frame.time {
         Some(time) => writeln!(to, "# metres, y up; t = {time} s"),
@@ -72,6 +76,7 @@ fn head(frame: &Frame, to: &mut impl Write) -> io::Result<()> {
     }
 }
 
+/// Writes `positions` as vertices.
 fn vertices<'a>(
     positions: impl IntoIterator<Item = &'a [f64; 3]>,
     to: &mut impl Write,
@@ -82,6 +87,7 @@ fn vertices<'a>(
     Ok(())
 }
 
+/// Writes the pattern coordinates of `recording` as texture coordinates.
 fn pattern(recording: &Recording, to: &mut impl Write) -> io::Result<()> {
     for [x, y] in mesh::pattern(recording) {
         writeln!(to, "vt {x:?} {y:?}")?;
@@ -89,12 +95,14 @@ fn pattern(recording: &Recording, to: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
+/// Writes a triangle by its `corners`, which have texture coordinates with the same numbers.
 fn face_with_pattern(corners: &[u32; 3], to: &mut impl Write) -> io::Result<()> {
     let [a, b, c] = corners.map(|corner| corner + 1);
     writeln!(to, "f {a}/{a} {b}/{b} {c}/{c}")
 }
 
-/// Returns a name that stays on its line: a backslash at the end would go on with the next.
+/// Returns `name` as a name that ends with its line. A backslash at its end would join the next
+/// line.
 fn word(name: &str) -> String {
     name.replace('\\', "/")
 }

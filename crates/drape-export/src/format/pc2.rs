@@ -1,30 +1,32 @@
-//! PC2, point cache of 3ds Max: the positions of the cloth, for an object that has its vertices.
+//! PC2, point cache of 3ds Max: positions of the cloth. They move an object with the vertices of
+//! the cloth.
 
 use std::io::Write;
 
-use super::count;
+use super::signed_count;
 use crate::clip::Clip;
 use crate::error::Error;
 
-/// Writes a clip as PC2: positions of the vertices of the cloth in m, y up, in single precision.
+/// Writes `clip` to `to` as PC2: positions of the vertices of the cloth in m, y up, in single
+/// precision.
 ///
-/// The format has one distance between samples, so that frames are
-/// [resampled](Clip::resampled); a sample is a frame, and the file does not say how many frames a
-/// second has. The object that it moves is that of [`write_rest_obj`](crate::write_rest_obj).
+/// The format has one distance between samples. Frames are therefore [resampled](Clip::resampled).
+/// A sample is a frame, and the file does not say how many frames a second has.
+/// [`write_rest_obj`](crate::write_rest_obj) writes the object that the cache moves.
 ///
 /// # Errors
-/// A frame cannot be read, there are too many frames for the format, or the writer fails.
+/// A frame cannot be read, there are too many frames for the format, or `to` fails.
 pub fn write_pc2(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.resampled();
     let points = clip.recording().topology().material.len();
     to.write_all(b"POINTCACHE2\0")?;
     to.write_all(&1_i32.to_le_bytes())?;
-    to.write_all(&count("PC2", "points", points)?.to_le_bytes())?;
+    to.write_all(&signed_count("PC2", "points", points)?.to_le_bytes())?;
     let (first, frames_per_sample) = (0.0_f32, 1.0_f32);
     to.write_all(&first.to_le_bytes())?;
     to.write_all(&frames_per_sample.to_le_bytes())?;
-    to.write_all(&count("PC2", "frames", clip.count())?.to_le_bytes())?;
-    for index in 0..clip.count() {
+    to.write_all(&signed_count("PC2", "frames", clip.frame_count())?.to_le_bytes())?;
+    for index in 0..clip.frame_count() {
         let frame = clip.read(index)?;
         let numbers = frame.cloth.iter().flatten();
         let bytes: Vec<u8> = numbers.flat_map(|part| (*part as f32).to_le_bytes()).collect();

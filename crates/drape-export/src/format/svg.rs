@@ -1,32 +1,33 @@
 //! SVG: the panels of a garment, flat on the pattern, with a field in colours.
 //!
-//! Colours come in bands, between whose bounds the field is linear in each triangle. A band is one
-//! path, of all places that are not below its lower bound, and lies on the band below: no light shows
-//! between two, and the file has outlines in place of triangles.
+//! Colours come in bands. The field is linear in each triangle, and so are the bounds of a band. A
+//! band is one path round all points that are not below its lower bound, and lies on the band
+//! below. No light shows between two bands, and the file has outlines in place of triangles.
 
+mod panel_layout;
 mod region;
-mod sheet;
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use drape_frames::{Frame, Recording, SurfacePart};
 
-use self::region::{Flat, Node};
-use self::sheet::{Extent, Sheet};
+use self::panel_layout::{Extent, PanelLayout};
+use self::region::{FlatField, Node};
 use crate::field::Field;
 use crate::mesh;
 use crate::name::{self, xml};
 use crate::scale;
 
-/// Number of bands of colour: more than an eye tells apart beside each other, and odd, so that what is
-/// nearly zero has one colour.
+/// Number of bands of colour. An eye cannot distinguish more of them beside each other. The number
+/// is odd, so that values near zero have one colour.
 const BANDS: usize = 25;
 
-/// Least length of the longer side of the sheet, in units of the paths; finer units make a longer file.
+/// Least length of the longer side of the drawing, in units of the paths. Finer units make a longer
+/// file.
 const UNITS_MIN: f64 = 5000.0;
 
-/// Largest number of letters of a panel's name.
+/// Largest number of letters of a panel's name that are written.
 const LETTERS_MAX: usize = 40;
 
 /// Width of a letter over the height of the text, on average.
@@ -45,27 +46,33 @@ pub struct PatternMap<'a> {
     pub values: &'a [f64],
 }
 
-/// Writes the panels of a garment as SVG, flat on the pattern, with a field in colours.
+/// Writes the panels of the garment of `map` to `to` as SVG, flat on the pattern, with a field in
+/// colours.
 ///
-/// Lengths are in mm, and a scale bar shows one. A legend has the range of the colours with its unit;
-/// values beyond it have the colour of its end. An arrow beside the name of a panel points along the
-/// warp.
+/// Lengths are in mm, and a scale bar shows a length. A legend has the range of the colours with
+/// its unit. Values beyond the range have the colour of its end. An arrow beside the name of a
+/// panel points along the warp.
 ///
 /// # Errors
-/// Those of the writer.
+/// `to` fails.
 pub fn write_svg(map: &PatternMap, mut to: impl Write) -> io::Result<()> {
     let panels = flat_panels(map);
     let area: f64 = panels.iter().map(|panel| panel.size[0] * panel.size[1]).sum();
     let text = (0.022 * area.sqrt()).max(1e-6);
-    let extent = |panel: &FlatPanel| Extent {
-        width: panel.size[0].max(text * (2.0 + LETTER * panel.name.chars().count() as f64)),
-        height: panel.size[1],
-    };
-    let extents: Vec<Extent> = panels.iter().map(extent).collect();
-    let sheet = Sheet::new(&extents, 1.5 * text, 1.7 * text);
-    let page = Page::new(map, sheet.size, text);
+
+    // A panel needs room for its name, which may be wider.
+    let extents: Vec<Extent> = panels
+        .iter()
+        .map(|panel| Extent {
+            width: panel.size[0].max(text * (2.0 + LETTER * panel.name.chars().count() as f64)),
+            height: panel.size[1],
+        })
+        .collect();
+    let layout = PanelLayout::new(&extents, 1.5 * text, 1.7 * text);
+    let page = Page::new(map, layout.size, text);
+
     page.head(&mut to)?;
-    for (panel, [x, y]) in panels.iter().zip(&sheet.corners) {
+    for (panel, [x, y]) in panels.iter().zip(&layout.corners) {
         let corner = [page.margin + x, page.margin + page.title_height() + y];
         page.panel(panel, corner, &mut to)?;
     }
@@ -74,21 +81,21 @@ pub fn write_svg(map: &PatternMap, mut to: impl Write) -> io::Result<()> {
     writeln!(to, "</svg>")
 }
 
-/// Panel, flat.
+/// Flat panel with its values.
 struct FlatPanel<'a> {
     part: &'a SurfacePart,
     name: String,
     identifier: String,
-    /// Positions of its vertices, in mm from its left lower corner.
+    /// Positions of its vertices, in mm from its lower left corner.
     points: Vec<[f64; 2]>,
     /// Width and height, in mm.
     size: [f64; 2],
-    /// Its triangles, with its own vertices from 0, all anticlockwise.
+    /// Triangles, by vertices of the panel from 0, all anticlockwise.
     triangles: Vec<[u32; 3]>,
     values: &'a [f64],
 }
 
-/// Returns the panels of a run, flat.
+/// Returns the panels of the run of `map`, flat.
 fn flat_panels<'a>(map: &PatternMap<'a>) -> Vec<FlatPanel<'a>> {
     let panels = &map.recording.manifest().panels;
     let names = name::unique(panels);
@@ -98,36 +105,44 @@ fn flat_panels<'a>(map: &PatternMap<'a>) -> Vec<FlatPanel<'a>> {
     let mut first = 0;
     let mut flat = Vec::new();
     for ((part, name), identifier) in panels.iter().zip(&names).zip(identifiers) {
-        let own = first..first + part.vertices;
-        let ends = |start: f64, pick: fn(f64, f64) -> f64| {
-            let points = pattern[own.clone()].iter();
-            points.fold([start; 2], |all, point| [pick(all[0], point[0]), pick(all[1], point[1])])
-        };
-        let (low, high) = (ends(f64::INFINITY, f64::min), ends(f64::NEG_INFINITY, f64::max));
-        let millimetres = |point: &[f64; 2]| [0, 1].map(|k| 1e3 * (point[k] - low[k]));
-        let points: Vec<[f64; 2]> = pattern[own.clone()].iter().map(millimetres).collect();
+        let vertices = first..first + part.vertices;
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in &pattern[vertices.clone()] {
+            low = [0, 1].map(|k| low[k].min(point[k]));
+            high = [0, 1].map(|k| high[k].max(point[k]));
+        }
+        let points: Vec<[f64; 2]> = pattern[vertices.clone()]
+            .iter()
+            .map(|point| [0, 1].map(|k| 1e3 * (point[k] - low[k])))
+            .collect();
+        let size = [0, 1].map(|k| (1e3 * (high[k] - low[k])).max(0.0));
+
+        // SVG may fill anticlockwise outlines only if all triangles run in one direction.
         let corners = triangles.by_ref().take(part.triangles);
         let corners = corners.map(|corners| corners.map(|corner| corner - first as u32));
         let triangles = corners.map(|corners| anticlockwise(corners, &points)).collect();
-        let size = [0, 1].map(|k| (1e3 * (high[k] - low[k])).max(0.0));
-        let name: String = match name.chars().count() > LETTERS_MAX {
-            true => name.chars().take(LETTERS_MAX - 1).chain(['…']).collect(),
-            false => name.clone(),
+        let name: String = if name.chars().count() > LETTERS_MAX {
+            name.chars().take(LETTERS_MAX - 1).chain(['…']).collect()
+        } else {
+            name.clone()
         };
-        let values = &map.values[own.clone()];
+        let values = &map.values[vertices.clone()];
         flat.push(FlatPanel { part, name, identifier, points, size, triangles, values });
-        first = own.end;
+        first = vertices.end;
     }
     flat
 }
 
+/// Returns the triangle `a b c` so that it runs anticlockwise. `points` are the points of all
+/// vertices.
 fn anticlockwise([a, b, c]: [u32; 3], points: &[[f64; 2]]) -> [u32; 3] {
     let [p, q, r] = [a, b, c].map(|corner| points[corner as usize]);
     let twice = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     if twice < 0.0 { [a, c, b] } else { [a, b, c] }
 }
 
-/// Returns steps without those of no length, and with one for all that follow each other in one direction.
+/// Returns `steps` without steps of no length. Steps in one direction that follow each other become
+/// one step.
 fn merged(steps: impl Iterator<Item = [i64; 2]>) -> Vec<[i64; 2]> {
     let mut merged: Vec<[i64; 2]> = Vec::new();
     for step in steps.filter(|step| *step != [0, 0]) {
@@ -141,7 +156,7 @@ fn merged(steps: impl Iterator<Item = [i64; 2]>) -> Vec<[i64; 2]> {
     merged
 }
 
-/// Page with its measures, in mm.
+/// Page with its dimensions, in mm.
 struct Page {
     title: String,
     /// Name of the field, with its unit.
@@ -158,6 +173,8 @@ struct Page {
 }
 
 impl Page {
+    /// Returns the page of `map`. `sheet` is the size of all panels and `text` the height of the
+    /// text, in mm.
     fn new(map: &PatternMap, sheet: [f64; 2], text: f64) -> Page {
         let margin = 1.5 * text;
         let label = format!("{}, {}", map.field.label(), map.field.unit());
@@ -176,10 +193,12 @@ impl Page {
         }
     }
 
+    /// Height of the title, in mm.
     fn title_height(&self) -> f64 {
         2.0 * self.text
     }
 
+    /// Writes the beginning of the file, with the title.
     fn head(&self, to: &mut impl Write) -> io::Result<()> {
         let Page { width, height, title, text, margin, .. } = self;
         let title = xml(title);
@@ -195,12 +214,12 @@ impl Page {
         )
     }
 
-    /// Draws a panel with its name, its left upper corner at a place.
+    /// Draws `panel` with its name. Its upper left corner is at a point of the page, in mm.
     fn panel(&self, panel: &FlatPanel, [x, y]: [f64; 2], to: &mut impl Write) -> io::Result<()> {
         let Page { text, unit, range: [low, high], .. } = *self;
         let name = xml(&panel.name);
         writeln!(to, "<g id=\"{}\"><title>{name}</title>", panel.identifier)?;
-        // SVG has y downwards, and turns clockwise.
+        // The arrow along the warp. In SVG y points down, and angles turn clockwise.
         let [weft, warp] = panel.part.pattern_point([0.0, 1.0]);
         let angle = -warp.atan2(weft).to_degrees();
         let half = 0.55 * text;
@@ -221,21 +240,24 @@ impl Page {
         )?;
         let name_x = x + 1.6 * text;
         writeln!(to, "<text x=\"{name_x:.3}\" y=\"{:.3}\">{name}</text>", y - 0.5 * text)?;
+
+        // Each band lies on the band below it.
         writeln!(
             to,
             "<g transform=\"translate({x:.3} {:.3}) scale({unit} -{unit})\">",
             y + panel.size[1]
         )?;
-        let flat = Flat { triangles: &panel.triangles, values: panel.values };
+        let field = FlatField { triangles: &panel.triangles, values: panel.values };
         for band in 0..BANDS {
             let level = low + (high - low) * band as f64 / BANDS as f64;
             let level = if band == 0 { f64::NEG_INFINITY } else { level };
-            let path = self.path(panel, &flat.outlines(level), level);
+            let path = self.path(panel, &field.outlines(level), level);
             if !path.is_empty() {
                 writeln!(to, "<path fill=\"{}\" d=\"{path}\"/>", self.band_colour(band))?;
             }
         }
-        let outline = self.path(panel, &flat.outlines(f64::NEG_INFINITY), f64::NEG_INFINITY);
+
+        let outline = self.path(panel, &field.outlines(f64::NEG_INFINITY), f64::NEG_INFINITY);
         let width = 0.06 * text / unit;
         writeln!(
             to,
@@ -243,20 +265,16 @@ impl Page {
         )
     }
 
-    /// Returns outlines as the data of a path, in whole numbers.
+    /// Returns `outlines` of the region of `panel` above `level` as the data of a path, in whole
+    /// numbers.
     fn path(&self, panel: &FlatPanel, outlines: &[Vec<Node>], level: f64) -> String {
-        let place = |&[one, other]: &Node| {
-            let [a, b] = [one, other].map(|vertex| panel.points[vertex as usize]);
-            let [low, high] = [one, other].map(|vertex| panel.values[vertex as usize]);
-            let part = if one == other { 0.0 } else { (level - low) / (high - low) };
-            [0, 1].map(|k| ((a[k] + part * (b[k] - a[k])) / self.unit).round() as i64)
-        };
         let mut path = String::new();
         for outline in outlines {
-            let places: Vec<[i64; 2]> = outline.iter().map(place).collect();
+            let points: Vec<[i64; 2]> =
+                outline.iter().map(|node| self.grid_point(panel, *node, level)).collect();
             let steps =
-                merged(places.windows(2).map(|pair| [0, 1].map(|k| pair[1][k] - pair[0][k])));
-            let Some([x, y]) = places.first().filter(|_| !steps.is_empty()) else { continue };
+                merged(points.windows(2).map(|pair| [0, 1].map(|k| pair[1][k] - pair[0][k])));
+            let Some([x, y]) = points.first().filter(|_| !steps.is_empty()) else { continue };
             let _ = write!(path, "M{x} {y}l");
             for [x, y] in steps {
                 let _ = write!(path, "{x} {y} ");
@@ -267,11 +285,20 @@ impl Page {
         path
     }
 
+    /// Returns `node` of the region of `panel` above `level`, in units of the paths.
+    fn grid_point(&self, panel: &FlatPanel, node: Node, level: f64) -> [i64; 2] {
+        let [a, b] = node.map(|vertex| panel.points[vertex as usize]);
+        let [low, high] = node.map(|vertex| panel.values[vertex as usize]);
+        let part = if node[0] == node[1] { 0.0 } else { (level - low) / (high - low) };
+        [0, 1].map(|k| ((a[k] + part * (b[k] - a[k])) / self.unit).round() as i64)
+    }
+
+    /// Returns the colour of the band with the number `band`.
     fn band_colour(&self, band: usize) -> String {
         scale::colour((band as f64 + 0.5) / BANDS as f64, self.is_signed)
     }
 
-    /// Draws the bands with their range.
+    /// Draws the bands with the range of the field.
     fn legend(&self, to: &mut impl Write) -> io::Result<()> {
         let Page { text, margin, height, range: [low, high], .. } = *self;
         let (band_width, top) = (0.8 * text, height - margin - 2.4 * text);
@@ -290,6 +317,7 @@ impl Page {
                 self.band_colour(band)
             )?;
         }
+
         let ends = [("start", low), ("middle", 0.5 * (low + high)), ("end", high)];
         for (k, (anchor, value)) in ends.into_iter().enumerate() {
             let x = margin + 0.5 * k as f64 * band_width * BANDS as f64;
@@ -303,10 +331,10 @@ impl Page {
         writeln!(to, "</g>")
     }
 
-    /// Draws a bar of a round length.
+    /// Draws a bar with a round length.
     fn scale_bar(&self, to: &mut impl Write) -> io::Result<()> {
         let Page { text, margin, width, height, .. } = *self;
-        // The round number that is not above a third of what is to the right of the legend.
+        // A round number that is not above a third of the width to the right of the legend.
         let most = 12.0 * text;
         let length = 1.0 / scale::rounded_up(1.0 / most);
         let (x, y) = (width - margin - length, height - margin - 1.4 * text);

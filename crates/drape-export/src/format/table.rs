@@ -1,4 +1,4 @@
-//! CSV: a line for each frame, with its measures.
+//! CSV: a line for each frame, with its measurements.
 
 use std::io::Write;
 
@@ -19,30 +19,31 @@ const COLUMNS: [&str; 7] = [
     "largest speed (m/s)",
 ];
 
-/// Names of the columns of a run that has pressures.
-const OF_PRESSURE: [&str; 2] = ["largest pressure (Pa)", "vertices under pressure"];
+/// Names of the further columns of a run that has pressures.
+const PRESSURE_COLUMNS: [&str; 2] = ["largest pressure (Pa)", "vertices under pressure"];
 
-/// Writes a clip as CSV, a line for each frame: its number and time, heights of the lowest and the
-/// highest vertex of the cloth, its area, mean and largest speed of its vertices since the line
-/// before; where the run has them, the largest pressure and the number of vertices under pressure,
-/// and the entries of the balance of the energy. What is not known is left empty.
+/// Writes `clip` to `to` as CSV, a line for each frame: its number and time, the heights of the
+/// lowest and the highest vertex of the cloth, its area, and the mean and the largest speed of its
+/// vertices since the line before. If the run has them, the largest pressure, the number of
+/// vertices under pressure and the entries of the balance of the energy follow. Unknown values are
+/// empty.
 ///
 /// # Errors
-/// Frames cannot be read, or those of the writer.
+/// Frames cannot be read, or `to` fails.
 pub fn write_csv(clip: &Clip, to: impl Write) -> Result<(), Error> {
     let recording = clip.recording();
     let mut table = csv::Writer::from_writer(to);
-    let failed = |error: csv::Error| Error::Write(error.into());
-    let with_pressure = recording.has_pressures();
+    let has_pressures = recording.has_pressures();
     let energy = recording.energy()?;
     let mut names: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
-    if with_pressure {
-        names.extend(OF_PRESSURE.map(str::to_owned));
+    if has_pressures {
+        names.extend(PRESSURE_COLUMNS.map(str::to_owned));
     }
     if let Some(EnergyTable { names: entries, .. }) = &energy {
         names.extend(entries.iter().map(|entry| format!("{} (J)", entry.replace('_', " "))));
     }
     table.write_record(names).map_err(failed)?;
+
     let mut before: Option<(f64, Frame)> = None;
     for (index, &time) in clip.times().iter().enumerate() {
         let frame = clip.read(index)?;
@@ -50,14 +51,15 @@ pub fn write_csv(clip: &Clip, to: impl Write) -> Result<(), Error> {
         let mut values = vec![time];
         values.extend(extent(recording, &frame));
         values.extend(speeds.unwrap_or([f64::NAN; 2]));
-        if with_pressure {
+        if has_pressures {
             values.extend(under_pressure(&frame));
         }
         if let Some(EnergyTable { names, rows }) = &energy {
-            let unknown = || vec![f64::NAN; names.len()];
-            values.extend(rows[frame.number].clone().unwrap_or_else(unknown));
+            match &rows[frame.number] {
+                Some(row) => values.extend(row),
+                None => values.resize(values.len() + names.len(), f64::NAN),
+            }
         }
-        let cell = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
         let mut cells = vec![frame.number.to_string()];
         cells.extend(values.into_iter().map(cell));
         table.write_record(cells).map_err(failed)?;
@@ -66,23 +68,35 @@ pub fn write_csv(clip: &Clip, to: impl Write) -> Result<(), Error> {
     Ok(table.flush()?)
 }
 
-/// Returns the heights of the lowest and the highest vertex of the cloth in m, and its area in m².
+/// Returns the error of the writer of a table.
+fn failed(error: csv::Error) -> Error {
+    Error::Write(error.into())
+}
+
+/// Returns `value` as the content of a cell, which is empty if it is not known.
+fn cell(value: f64) -> String {
+    if value.is_finite() { value.to_string() } else { String::new() }
+}
+
+/// Returns the heights of the lowest and the highest vertex of the cloth in `frame`, in m, and its
+/// area, in m².
 fn extent(recording: &Recording, frame: &Frame) -> [f64; 3] {
-    let heights = || frame.cloth.iter().map(|position| position[1]);
+    let heights = frame.cloth.iter().map(|position| position[1]);
     let triangles = recording.topology().cloth.iter();
     let twice: f64 = triangles.map(|corners| length(area_vector(&frame.cloth, corners))).sum();
     let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-    [heights().fold(low, f64::min), heights().fold(high, f64::max), 0.5 * twice]
+    [heights.clone().fold(low, f64::min), heights.fold(high, f64::max), 0.5 * twice]
 }
 
-/// Returns the largest pressure in Pa, and the number of vertices under pressure.
+/// Returns the largest pressure in `frame`, in Pa, and the number of vertices under pressure.
 fn under_pressure(frame: &Frame) -> [f64; 2] {
     let Some(pressures) = &frame.pressures else { return [f64::NAN; 2] };
     let touched = pressures.iter().filter(|pressure| **pressure > 0.0).count();
     [pressures.iter().copied().fold(0.0, f64::max), touched as f64]
 }
 
-/// Returns the mean and the largest speed of the vertices of the cloth between two frames, in m/s.
+/// Returns the mean and the largest speed of the vertices of the cloth from `before` to `after`, in
+/// m/s. `seconds` is the time between them.
 fn speeds(before: &Frame, after: &Frame, seconds: f64) -> [f64; 2] {
     let moved = before.cloth.iter().zip(&after.cloth).map(|(a, b)| length(difference(*b, *a)));
     let (sum, largest) =
@@ -105,7 +119,7 @@ mod tests {
         write_csv(&Clip::new(&recording, 0..=2, None).unwrap(), &mut text).unwrap();
         let mut reader = csv::Reader::from_reader(&text[..]);
         let energies = ["kinetic (J)", "gravity (J)"];
-        let names = [&COLUMNS[..], &OF_PRESSURE, &energies].concat();
+        let names = [&COLUMNS[..], &PRESSURE_COLUMNS, &energies].concat();
         assert_eq!(reader.headers().unwrap(), &csv::StringRecord::from(names));
         let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
         let row = |n: usize| {

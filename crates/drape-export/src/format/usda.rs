@@ -5,22 +5,22 @@ use std::io::{self, Write};
 
 use crate::clip::Clip;
 use crate::error::Error;
-use crate::mesh::{self, Kind, Mesh, Sample, Track};
+use crate::mesh::{self, Mesh, MeshKind, Sample, Track};
 use crate::name;
 
-/// Bytes of positions and normals that are in memory at once: what does not fit is read again, part
-/// by part.
+/// Bytes of positions and normals that are in memory at once. Meshes that do not fit are read in a
+/// further pass over the frames.
 const MEMORY: usize = 1 << 28;
 
-/// Writes a clip as USDA: in m, y up, a mesh and a material for each panel and body, positions and
-/// normals as time samples at the times of the frames.
+/// Writes `clip` to `to` as USDA: in m, y up, a mesh and a material for each panel and body,
+/// positions and normals as time samples at the times of the frames.
 ///
-/// Time codes are frames at the rate of the clip, from its first frame. Texture coordinates (`st`) are
-/// pattern coordinates in m. Prims have identifiers for names; the name of the run is the display
-/// name and the custom data `name`, that of the fabric `fabric`.
+/// Time codes are frames at the rate of the clip, from its first frame. Texture coordinates (`st`)
+/// are pattern coordinates in m. Names of prims are identifiers. The name in the run is the display
+/// name and the custom data `name`, the fabric is the custom data `fabric`.
 ///
 /// # Errors
-/// Frames cannot be read, or those of the writer.
+/// Frames cannot be read, or `to` fails.
 pub fn write_usda(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let meshes = mesh::meshes(clip.recording(), &clip.read(0)?);
     let names = name::identifiers(meshes.iter().map(|mesh| &*mesh.name));
@@ -33,38 +33,42 @@ pub fn write_usda(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
         material(mesh, name, &mut to)?;
     }
     writeln!(to, "    }}")?;
+
     let codes: Vec<f64> =
         clip.seconds().iter().map(|seconds| code(seconds * clip.rate())).collect();
-    let mut left = &meshes[..];
+    let mut remaining = &meshes[..];
     let mut names = names.iter();
-    while !left.is_empty() {
-        let (group, others) = left.split_at(fit(left, clip.count()));
+    while !remaining.is_empty() {
+        let (group, rest) = remaining.split_at(fitting_count(remaining, clip.frame_count()));
         for ((mesh, track), name) in group.iter().zip(Track::read(clip, group)?).zip(&mut names) {
-            let samples = Samples { codes: &codes, samples: &track.samples };
-            prim(&Prim { mesh, name }, &samples, &mut to)?;
+            let samples = TimeSamples { codes: &codes, samples: &track.samples };
+            prim(mesh, name, &samples, &mut to)?;
         }
-        left = others;
+        remaining = rest;
     }
     writeln!(to, "}}")?;
     Ok(())
 }
 
-/// Returns how many meshes fit into memory, at least one.
-fn fit(meshes: &[Mesh], frames: usize) -> usize {
+/// Returns how many of `meshes`, from the first on, fit into memory with `frames` frames; at least
+/// one.
+fn fitting_count(meshes: &[Mesh], frames: usize) -> usize {
     let mut bytes = 0;
-    let fits = |mesh: &&Mesh| {
+    let fitting = meshes.iter().take_while(|mesh| {
         bytes += mesh.vertices.len() * frames * size_of::<[f32; 6]>();
         bytes <= MEMORY
-    };
-    meshes.iter().take_while(fits).count().max(1)
+    });
+    fitting.count().max(1)
 }
 
-/// Returns a time code; whole numbers that are a rounding away are whole.
+/// Returns the time code of the time `frames`, in frames. Numbers within rounding of a whole number
+/// become whole.
 fn code(frames: f64) -> f64 {
     let rounded = (1e6 * frames).round() / 1e6;
     if (rounded - rounded.round()).abs() <= 1e-5 { rounded.round() } else { rounded }
 }
 
+/// Writes the beginning of the file.
 fn head(clip: &Clip, to: &mut impl Write) -> io::Result<()> {
     let (rate, seconds) = (clip.rate(), clip.seconds());
     let end = code(seconds[seconds.len() - 1] * rate);
@@ -91,6 +95,7 @@ fn head(clip: &Clip, to: &mut impl Write) -> io::Result<()> {
     )
 }
 
+/// Writes the material of `mesh`, whose prim has the name `name`.
 fn material(mesh: &Mesh, name: &str, to: &mut impl Write) -> io::Result<()> {
     let [red, green, blue] = mesh.colour;
     writeln!(
@@ -110,23 +115,17 @@ fn material(mesh: &Mesh, name: &str, to: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// Mesh with the name of its prim.
-struct Prim<'a> {
-    mesh: &'a Mesh<'a>,
-    name: &'a str,
-}
-
 /// Samples of a mesh with their time codes.
-struct Samples<'a> {
+struct TimeSamples<'a> {
     codes: &'a [f64],
     samples: &'a [Sample],
 }
 
-fn prim(prim: &Prim, samples: &Samples, to: &mut impl Write) -> io::Result<()> {
-    let Prim { mesh, name } = prim;
+/// Writes `mesh` with `samples` as a prim with the name `name`.
+fn prim(mesh: &Mesh, name: &str, samples: &TimeSamples, to: &mut impl Write) -> io::Result<()> {
     let kind = match mesh.kind {
-        Kind::Panel(_) => "panel",
-        Kind::Body(_) => "body",
+        MeshKind::Panel(_) => "panel",
+        MeshKind::Body(_) => "body",
     };
     writeln!(
         to,
@@ -152,22 +151,25 @@ fn prim(prim: &Prim, samples: &Samples, to: &mut impl Write) -> io::Result<()> {
     )?;
     let [red, green, blue] = mesh.colour;
     writeln!(to, "        color3f[] primvars:displayColor = [({red}, {green}, {blue})]")?;
+
+    // The shape, then positions and normals over time.
     line("int[] faceVertexCounts", mesh.triangles.iter().map(|_| 3), to)?;
     line("int[] faceVertexIndices", mesh.triangles.iter().flatten(), to)?;
     samples
         .attribute("float3[] extent", to, |sample, to| tuples(&extent(&sample.positions), to))?;
     samples.attribute("point3f[] points", to, |sample, to| tuples(&sample.positions, to))?;
     match &mesh.kind {
-        Kind::Panel(pattern) => {
+        MeshKind::Panel(pattern) => {
             samples
                 .attribute("normal3f[] normals", to, |sample, to| tuples(&sample.normals, to))?;
             interpolated("normal3f[] normals", "vertex", to)?;
             write!(to, "        texCoord2f[] primvars:st = ")?;
-            let single = |[x, y]: &[f64; 2]| [*x as f32, *y as f32];
-            tuples(&pattern.iter().map(single).collect::<Vec<_>>(), to)?;
+            let coordinates: Vec<[f32; 2]> =
+                pattern.iter().map(|[x, y]| [*x as f32, *y as f32]).collect();
+            tuples(&coordinates, to)?;
             writeln!(to, " (\n            interpolation = \"vertex\"\n        )")?;
         }
-        Kind::Body(creased) => {
+        MeshKind::Body(creased) => {
             let normals = "normal3f[] primvars:normals";
             samples.attribute(normals, to, |sample, to| tuples(&sample.normals, to))?;
             interpolated(normals, "faceVarying", to)?;
@@ -177,8 +179,9 @@ fn prim(prim: &Prim, samples: &Samples, to: &mut impl Write) -> io::Result<()> {
     writeln!(to, "    }}")
 }
 
-impl Samples<'_> {
-    /// Writes an attribute that has a value for each sample, or one value if there is one sample.
+impl TimeSamples<'_> {
+    /// Writes the attribute `name` with a value for each sample, or one value if there is one
+    /// sample. `write` writes the value of a sample.
     fn attribute<W: Write>(
         &self,
         name: &str,
@@ -200,11 +203,15 @@ impl Samples<'_> {
     }
 }
 
-/// Says how the values of an attribute that was written are spread over the mesh.
-fn interpolated(attribute: &str, how: &str, to: &mut impl Write) -> io::Result<()> {
-    writeln!(to, "        {attribute} (\n            interpolation = \"{how}\"\n        )")
+/// Writes the interpolation of `attribute`, which was written, over the mesh.
+fn interpolated(attribute: &str, interpolation: &str, to: &mut impl Write) -> io::Result<()> {
+    writeln!(
+        to,
+        "        {attribute} (\n            interpolation = \"{interpolation}\"\n        )"
+    )
 }
 
+/// Writes `attribute` with the list `values` as a line.
 fn line(
     attribute: &str,
     values: impl IntoIterator<Item = impl Display>,
@@ -220,6 +227,7 @@ fn line(
     writeln!(to, "]")
 }
 
+/// Writes `rows` as a list of tuples.
 fn tuples<const N: usize>(rows: &[[f32; N]], to: &mut impl Write) -> io::Result<()> {
     to.write_all(b"[")?;
     for (index, row) in rows.iter().enumerate() {
@@ -235,18 +243,18 @@ fn tuples<const N: usize>(rows: &[[f32; N]], to: &mut impl Write) -> io::Result<
     to.write_all(b"]")
 }
 
-/// Returns the smallest and the largest coordinates.
+/// Returns the smallest and the largest coordinates of `positions`.
 fn extent(positions: &[[f32; 3]]) -> [[f32; 3]; 2] {
     let first = positions.first().copied().unwrap_or_default();
-    let bound = |pick: fn(f32, f32) -> f32| {
-        let both =
-            |bound: [f32; 3], row: &[f32; 3]| std::array::from_fn(|k| pick(bound[k], row[k]));
-        positions.iter().fold(first, both)
-    };
-    [bound(f32::min), bound(f32::max)]
+    let (mut low, mut high) = (first, first);
+    for position in positions {
+        low = [0, 1, 2].map(|k| low[k].min(position[k]));
+        high = [0, 1, 2].map(|k| high[k].max(position[k]));
+    }
+    [low, high]
 }
 
-/// Returns text as a string of the format.
+/// Returns `text` as a string of the format.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for c in text.chars() {
@@ -256,7 +264,7 @@ fn quoted(text: &str) -> String {
             '\n' => quoted += "\\n",
             '\r' => quoted += "\\r",
             '\t' => quoted += "\\t",
-            // It would end the string of a reader in C.
+            // The letter would end the string of a reader in C.
             '\0' => quoted.push('\u{fffd}'),
             c if c < ' ' || c == '\u{7f}' => quoted += &format!("\\x{:02x}", u32::from(c)),
             c => quoted.push(c),

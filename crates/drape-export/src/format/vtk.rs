@@ -15,7 +15,7 @@ use crate::mesh;
 use crate::name::xml;
 use crate::normal;
 
-/// Which surface of a frame is written.
+/// Surface of a frame that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surface {
     /// All panels.
@@ -31,20 +31,22 @@ pub struct PolyData<'a> {
     pub recording: &'a Recording,
     /// The frame.
     pub frame: &'a Frame,
-    /// What of it is written.
+    /// Surface of the frame that is written.
     pub surface: Surface,
     /// Fields of the cloth, a number for each vertex.
     pub fields: &'a [(Field, Vec<f64>)],
 }
 
-/// Writes the cloth or the bodies of a frame as PolyData of VTK: positions in m with every bit, y up.
+/// Writes the cloth or the bodies of `data` to `to` as PolyData of VTK: positions in m with every
+/// bit, y up.
 ///
-/// Points have normals and, of the cloth, pattern coordinates in m (`uv`) and fields, whose units are in
-/// their names. Triangles have the number of their panel or body (`part`), whose names are the field
-/// data `names`; of the field data, `TimeValue` is the time in s, and `units` and `up` are words.
+/// Points have normals. Points of the cloth also have pattern coordinates in m (`uv`) and fields,
+/// whose units are in their names. Triangles have the number of their panel or body (`part`). The
+/// field data `names` has the names of the parts, `TimeValue` the time in s, and `units` and `up`
+/// words.
 ///
 /// # Errors
-/// Those of the writer.
+/// `to` fails.
 pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
     let PolyData { recording, frame, surface, fields } = *data;
     let (manifest, topology) = (recording.manifest(), recording.topology());
@@ -57,6 +59,7 @@ pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
         to,
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>"
     )?;
+    // Data of the whole surface.
     if let Some(time) = frame.time {
         numbers("TimeValue", &[[time]], &mut to)?;
     }
@@ -68,10 +71,12 @@ pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
         to,
         "</FieldData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\">"
     )?;
+    // Data of points.
     match surface {
         Surface::Cloth => {
             writeln!(to, "<PointData Normals=\"Normals\" TCoords=\"uv\">")?;
-            numbers("Normals", &normal::of_cloth(frame, triangles, &manifest.seam_pairs), &mut to)?;
+            let normals = normal::cloth_normals(frame, triangles, &manifest.seam_pairs);
+            numbers("Normals", &normals, &mut to)?;
             numbers("uv", &mesh::pattern(recording), &mut to)?;
             for (field, values) in fields {
                 let rows: Vec<[f64; 1]> = values.iter().map(|value| [*value]).collect();
@@ -80,8 +85,9 @@ pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
         }
         Surface::Bodies => writeln!(to, "<PointData>")?,
     }
+    // Data of triangles, then points and triangles.
     writeln!(to, "</PointData>\n<CellData Scalars=\"part\">")?;
-    numbers("part", &owners(parts), &mut to)?;
+    numbers("part", &triangle_owners(parts), &mut to)?;
     writeln!(to, "</CellData>\n<Points>")?;
     numbers("Points", positions, &mut to)?;
     writeln!(to, "</Points>\n<Polys>")?;
@@ -93,28 +99,29 @@ pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
     writeln!(to, "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>")
 }
 
-/// File of a list, with its time in s.
+/// File of a collection, with its time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Listed {
+pub struct CollectionFile {
     /// Time, in s.
     pub time: f64,
-    /// Path of the file, from the folder of the list, with slashes.
+    /// Path of the file from the folder of the collection, with slashes.
     pub file: String,
-    /// What the file has.
+    /// Surface that the file has.
     pub surface: Surface,
 }
 
-/// Writes the list of the files of a clip, which ParaView opens as one thing that moves.
+/// Writes the collection of `files`, the files of a clip, to `to`. ParaView opens the collection as
+/// one object that moves.
 ///
 /// # Errors
-/// Those of the writer.
-pub fn write_pvd(files: &[Listed], mut to: impl Write) -> Result<(), Error> {
+/// `to` fails.
+pub fn write_pvd(files: &[CollectionFile], mut to: impl Write) -> Result<(), Error> {
     writeln!(to, "<?xml version=\"1.0\"?>")?;
     writeln!(
         to,
         "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>"
     )?;
-    for Listed { time, file, surface } in files {
+    for CollectionFile { time, file, surface } in files {
         let (part, name) = match surface {
             Surface::Cloth => (0, "cloth"),
             Surface::Bodies => (1, "bodies"),
@@ -129,9 +136,12 @@ pub fn write_pvd(files: &[Listed], mut to: impl Write) -> Result<(), Error> {
     Ok(())
 }
 
-/// Number with a type of VTK.
+/// Number that VTK has a type for.
 trait Number: Copy {
+    /// Name of the type in VTK.
     const NAME: &'static str;
+
+    /// Adds the number to `bytes`.
     fn put(self, bytes: &mut Vec<u8>);
 }
 
@@ -167,13 +177,13 @@ impl Number for i32 {
     }
 }
 
-/// Writes an array of rows.
+/// Writes the array `name` with `rows`.
 fn numbers<T: Number, const N: usize>(
     name: &str,
     rows: &[[T; N]],
     to: &mut impl Write,
 ) -> io::Result<()> {
-    // The bytes of the numbers come first.
+    // The format has the number of bytes before the numbers.
     let mut bytes = Vec::with_capacity(8 + size_of_val(rows));
     bytes.extend((size_of_val(rows) as u64).to_le_bytes());
     rows.iter().flatten().for_each(|number| number.put(&mut bytes));
@@ -186,7 +196,7 @@ fn numbers<T: Number, const N: usize>(
     writeln!(to, "</DataArray>")
 }
 
-/// Writes a list of words: each ends with a zero, so that one inside a word is replaced.
+/// Writes the list `name` of `words`. Each word ends with a zero. A zero inside a word is replaced.
 fn words<'a>(
     name: &str,
     words: impl IntoIterator<Item = &'a str>,
@@ -204,14 +214,15 @@ fn words<'a>(
     writeln!(to, "</Array>")
 }
 
-fn owners(parts: &[SurfacePart]) -> Vec<[i32; 1]> {
+/// Returns for each triangle of `parts` the number of its part.
+fn triangle_owners(parts: &[SurfacePart]) -> Vec<[i32; 1]> {
     (0..)
         .zip(parts)
         .flat_map(|(index, part)| std::iter::repeat_n([index], part.triangles))
         .collect()
 }
 
-/// Writes bytes by base 64.
+/// Writes `bytes` in base 64.
 fn base64(bytes: &[u8], to: &mut impl Write) -> io::Result<()> {
     to.write_all(STANDARD.encode(bytes).as_bytes())
 }
@@ -279,7 +290,7 @@ mod tests {
     #[test]
     fn the_list_has_every_file_whatever_its_name() {
         let name = "a \"b\" <&> 'c'\n袖/run-00000.vtp";
-        let files = [Surface::Cloth, Surface::Bodies].map(|surface| Listed {
+        let files = [Surface::Cloth, Surface::Bodies].map(|surface| CollectionFile {
             time: 0.25,
             file: name.to_owned(),
             surface,

@@ -7,7 +7,7 @@ use super::bits::{Bounds, Differences, deflated, octet};
 use super::json_element;
 use super::measures::tables;
 use super::named::Named;
-use super::samples::{Chosen, Samples, Shown};
+use super::samples::{Samples, ShownField, ShownSamples};
 use crate::palette::{FabricPalette, hex};
 use crate::scale;
 
@@ -55,7 +55,7 @@ impl Scene {
         let last = samples.frames.len() - 1;
         let mut chosen: Vec<usize> = (0..last).step_by(stride.max(1)).collect();
         chosen.push(last);
-        let Chosen { frames, fields } = samples.chosen(&chosen);
+        let ShownSamples { frames, fields } = samples.shown(&chosen);
         let content = Content::new(recording, &frames, &fields);
         let path = recording.folder().to_owned();
         let unreadable = |reason: String| Error::Unreadable { path, reason };
@@ -84,7 +84,7 @@ struct Content {
 }
 
 impl Content {
-    fn new(recording: &Recording, frames: &[&Frame], fields: &[Shown<'_>]) -> Content {
+    fn new(recording: &Recording, frames: &[&Frame], fields: &[ShownField<'_>]) -> Content {
         let (topology, manifest) = (recording.topology(), recording.manifest());
         let mut bytes = Vec::new();
         let numbers = |all: &mut dyn Iterator<Item = u32>, bytes: &mut Vec<u8>| {
@@ -171,7 +171,7 @@ fn panel(part: &SurfacePart, palette: &FabricPalette) -> Value {
 fn meta(
     run: &Named<'_>,
     frames: &[&Frame],
-    fields: &[Shown<'_>],
+    fields: &[ShownField<'_>],
     content: &Content,
 ) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
@@ -189,7 +189,7 @@ fn meta(
             "bodies": if manifest.bodies.is_empty() { -1 } else { content.body_states[k] as i64 },
         })
     };
-    let field = |shown: &Shown| {
+    let field = |shown: &ShownField<'_>| {
         json!({
             "key": shown.field.key(), "label": shown.field.label(), "unit": shown.field.unit(),
             "stops": scale::stops(shown.field.is_signed()), "low": shown.range[0], "high": shown.range[1], "signed": shown.field.is_signed(),

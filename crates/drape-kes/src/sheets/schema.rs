@@ -217,7 +217,7 @@ fn size_schema(description: &str) -> Value {
 fn curve_schema() -> Value {
     let files = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
     let properties = json!({
-        "name": text("Name of the curve; its test and direction if missing."),
+        "name": text_schema("Name of the curve; its test and direction if missing."),
         "test": choice_schema(&TEST, "Test that it comes from."),
         "direction": choice_schema(&DIRECTION, "Yarns along which the strip was cut."),
         "file": {

@@ -1,11 +1,11 @@
 //! Breakpoints of outlines: the points that become nodes, with the seam pieces between them.
 //!
 //! A breakpoint is an end of an edge, or a notch: the point on one side of a seam that an end of an
-//! edge on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs;
+//! edge on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs.
 //! `simplify` removes breakpoints, `sampling` samples the arcs.
 
 use super::merge::Merge;
-use crate::edge::Edge;
+use crate::edge::{Edge, turning_angle};
 use crate::pattern::Pattern;
 use crate::pattern::seam::{EdgeId, Seam};
 
@@ -14,15 +14,15 @@ const SAME: f64 = 1e-9;
 
 /// Ratio of the lengths of two pieces that are sewn together above which they are a gather.
 ///
-/// With as many arcs on both sides, those of the shorter one would be under two thirds of the
-/// spacing. The small addition keeps a ratio of 1.5 in a file, which is rounded, from being a
-/// gather.
+/// With the same number of arcs on both sides, arcs of the shorter piece would be under two thirds
+/// of the spacing. The small addition keeps a ratio of 1.5 in a file, which is rounded, from being
+/// a gather.
 const GATHER: f64 = 1.5 + 1e-6;
 
-/// Point of an outline that becomes a node; the arcs between two of them are sampled.
+/// Point of an outline that becomes a node. The arcs between two of them are sampled.
 #[derive(Debug, Clone)]
 pub(crate) struct Breakpoint {
-    /// Number of the closed line that it lies on, among those of all panels.
+    /// Number of the closed line that it lies on, among the closed lines of all panels.
     pub line: usize,
     /// Distance along the line from the start of its first edge, in m.
     pub distance: f64,
@@ -30,7 +30,7 @@ pub(crate) struct Breakpoint {
     pub corner_angle: f64,
     /// Number of the edge that begins here, if one does.
     pub edge: Option<usize>,
-    /// Number of the class; breakpoints that are sewn to each other have the same class.
+    /// Number of the class. Breakpoints that are sewn to each other have the same class.
     pub class: usize,
     /// Breakpoints before and after it on the outline.
     pub neighbours: [usize; 2],
@@ -44,7 +44,7 @@ pub(crate) struct Breakpoint {
 pub(crate) struct SeamPiece {
     /// Number of the seam.
     pub seam: usize,
-    /// Breakpoints where it starts and ends, for both sides.
+    /// Breakpoints at its start and its end, for both sides.
     pub ends: [[usize; 2]; 2],
     /// Whether it runs along the outline, for both sides.
     pub forward: [bool; 2],
@@ -58,9 +58,9 @@ pub(crate) struct Breakpoints {
     pub pieces: Vec<SeamPiece>,
     /// Breakpoints of each class.
     pub classes: Vec<Vec<usize>>,
-    /// Breakpoints that are all of a collapsed piece.
+    /// Pairs of breakpoints that remain of collapsed pieces.
     pub merges: Vec<Merge>,
-    /// Closed lines of all panels: of each panel its outline, then the holes of its darts.
+    /// Closed lines of all panels: the outline of each panel, then the holes of its darts.
     pub lines: Vec<ClosedLine>,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct Breakpoints {
 pub(crate) struct ClosedLine {
     /// Number of the panel.
     pub panel: usize,
-    /// Number of its first edge among those of the panel.
+    /// Number of its first edge among the edges of the panel.
     pub first_edge: usize,
     /// Distances along the line at which its edges start, and its length, in m.
     pub starts: Vec<f64>,
@@ -84,7 +84,7 @@ impl ClosedLine {
     }
 
     /// Returns the number of edges.
-    fn edges(&self) -> usize {
+    fn edge_count(&self) -> usize {
         self.starts.len() - 1
     }
 }
@@ -105,30 +105,31 @@ type Sides = [Vec<SideEdge>; 2];
 struct SeamPoint {
     /// Breakpoint that ends the piece before it, for both sides.
     before: [usize; 2],
-    /// Breakpoint that begins the piece after it, for both sides; another one where a chain goes on
-    /// in another panel.
+    /// Breakpoint that begins the piece after it, for both sides. It is another breakpoint where a
+    /// chain goes on in another panel.
     after: [usize; 2],
 }
 
 impl Breakpoints {
-    /// Returns the breakpoints of a pattern for a spacing in m.
+    /// Returns the breakpoints of `pattern` for a spacing of `spacing`, in m.
     pub fn new(pattern: &Pattern, spacing: f64) -> Self {
-        let mut all = Self::default();
-        for (panel, own) in pattern.panels().iter().enumerate() {
+        let mut breakpoints = Self::default();
+        for (number, panel) in pattern.panels().iter().enumerate() {
             let mut first_edge = 0;
-            for edges in own.loops() {
-                all.add_line(panel, first_edge, edges);
+            for edges in panel.loops() {
+                breakpoints.add_line(number, first_edge, edges);
                 first_edge += edges.len();
             }
         }
         for (index, seam) in pattern.seams().iter().enumerate() {
-            all.sew(pattern, seam, index, spacing);
+            breakpoints.sew(pattern, seam, index, spacing);
         }
-        all.connect();
-        all
+        breakpoints.connect();
+        breakpoints
     }
 
-    /// Adds a closed line of a panel with the breakpoints at the starts of its edges.
+    /// Adds the closed line `edges` of the panel with the number `panel`, with the breakpoints at
+    /// the starts of its edges. `first_edge` is the number of its first edge.
     fn add_line(&mut self, panel: usize, first_edge: usize, edges: &[Edge]) {
         let (line, first) = (self.lines.len(), self.points.len());
         let mut distance = 0.0;
@@ -136,7 +137,8 @@ impl Breakpoints {
         for (index, edge) in edges.iter().enumerate() {
             let before = &edges[(index + edges.len() - 1) % edges.len()];
             let point = self.insert(line, distance);
-            self.points[point].corner_angle = corner_angle(before, edge);
+            self.points[point].corner_angle =
+                turning_angle(before.tangents()[1], edge.tangents()[0]).abs();
             self.points[point].edge = Some(first_edge + index);
             distance += edge.length();
             starts.push(distance);
@@ -144,22 +146,22 @@ impl Breakpoints {
         self.lines.push(ClosedLine { panel, first_edge, starts, first });
     }
 
-    /// Returns the number of the closed line of an edge, and the number of the edge there.
-    fn place(&self, id: EdgeId) -> [usize; 2] {
-        let own = |line: &ClosedLine| {
-            let edges = line.first_edge..line.first_edge + line.edges();
+    /// Returns the number of the closed line of the edge `id`, and the number of the edge there.
+    fn line_and_edge(&self, id: EdgeId) -> [usize; 2] {
+        let line = self.lines.iter().position(|line| {
+            let edges = line.first_edge..line.first_edge + line.edge_count();
             line.panel == id.panel && edges.contains(&id.edge)
-        };
-        let line = self.lines.iter().position(own).expect("its pattern has the edge");
+        });
+        let line = line.expect("its pattern has the edge");
         [line, id.edge - self.lines[line].first_edge]
     }
 
-    /// Returns the number of the panel of a breakpoint.
+    /// Returns the number of the panel of the breakpoint `point`.
     pub fn panel(&self, point: usize) -> usize {
         self.lines[self.points[point].line].panel
     }
 
-    /// Adds a smooth breakpoint that begins no edge.
+    /// Adds a smooth breakpoint that begins no edge to `line` at `distance`, in m, and returns it.
     fn insert(&mut self, line: usize, distance: f64) -> usize {
         let class = self.points.len();
         self.classes.push(vec![class]);
@@ -176,30 +178,31 @@ impl Breakpoints {
         class
     }
 
-    /// Returns the breakpoints of a closed line that are not removed, along it.
+    /// Returns the breakpoints of `line` that are not removed, in the order along it.
     pub fn ring(&self, line: usize) -> Vec<usize> {
-        let own = |p: &usize| self.points[*p].line == line && !self.points[*p].removed;
-        let mut ring: Vec<usize> = (0..self.points.len()).filter(own).collect();
-        let distance = |p: usize| self.points[p].distance;
-        ring.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)));
+        let points = &self.points;
+        let mut ring: Vec<usize> =
+            (0..points.len()).filter(|&p| points[p].line == line && !points[p].removed).collect();
+        ring.sort_by(|&a, &b| points[a].distance.total_cmp(&points[b].distance).then(a.cmp(&b)));
         ring
     }
 
-    /// Returns the length of the outline from a breakpoint to the next, in m.
+    /// Returns the length of the outline from the breakpoint `point` to the next, in m.
     pub fn length_after(&self, point: usize) -> f64 {
         let next = self.points[point].neighbours[1];
         let [here, there] = [point, next].map(|p| self.points[p].distance);
-        // Breakpoints at the same distance are in the order of their numbers.
+        // Breakpoints at one distance are in the order of their numbers.
         let onward = here.total_cmp(&there).then(point.cmp(&next)).is_lt();
         let whole = self.lines[self.points[point].line].length();
         if onward { there - here } else { there - here + whole }
     }
 
-    /// Returns the length from which the arcs of the piece after a breakpoint are counted, in m.
+    /// Returns the length that determines the number of arcs of the piece after `point`, in m.
     ///
     /// It is the length of the piece, or of the longer of two pieces that are sewn together. In a
-    /// gather it is the geometric mean of the shorter piece and of the part of the longer one that
-    /// has as many arcs, so that the arcs of both differ from the spacing by the same factor.
+    /// gather it is the geometric mean of the shorter piece and of the part of the longer piece
+    /// that has the same number of arcs. The arcs of both then differ from the spacing by the same
+    /// factor.
     pub fn counted_after(&self, point: usize) -> f64 {
         let Some([short, long]) = self.sewn_lengths(point) else { return self.length_after(point) };
         match fullness([short, long]) {
@@ -208,41 +211,42 @@ impl Breakpoints {
         }
     }
 
-    /// Returns the number of arcs that the longer piece of a gather has for each arc of the shorter
-    /// one, at the piece after a breakpoint; 1 outside of gathers.
+    /// Returns the number of arcs of the longer piece of a gather for each arc of the shorter
+    /// piece, at the piece after `point`; 1 outside of gathers.
     pub fn fullness(&self, point: usize) -> u32 {
         self.sewn_lengths(point).map_or(1, fullness)
     }
 
-    /// Returns whether the piece after a breakpoint is the longer one of a gather.
+    /// Returns whether the piece after `point` is the longer piece of a gather.
     pub fn is_gathered(&self, point: usize) -> bool {
-        let own = self.length_after(point);
-        self.fullness(point) > 1 && self.sewn_lengths(point).is_some_and(|[short, _]| own > short)
+        let length = self.length_after(point);
+        self.fullness(point) > 1
+            && self.sewn_lengths(point).is_some_and(|[short, _]| length > short)
     }
 
-    /// Returns the lengths of the piece after a breakpoint and of the piece that it is sewn to, the
-    /// shorter first, in m.
+    /// Returns the lengths of the piece after `point` and of the piece that it is sewn to, the
+    /// shorter first, in m; `None` if it is not sewn.
     fn sewn_lengths(&self, point: usize) -> Option<[f64; 2]> {
         let piece = &self.pieces[self.points[point].pieces[1]?];
-        let [a, b] = [0, 1].map(|side| self.length_after(Self::foremost(piece, side)));
+        let [a, b] = [0, 1].map(|side| self.length_after(Self::piece_start(piece, side)));
         Some([a.min(b), a.max(b)])
     }
 
-    /// Returns the breakpoint after which a side of a seam piece lies on the outline.
-    pub fn foremost(piece: &SeamPiece, side: usize) -> usize {
+    /// Returns the breakpoint at which `side` of the seam piece `piece` begins along the outline.
+    pub fn piece_start(piece: &SeamPiece, side: usize) -> usize {
         piece.ends[side][usize::from(!piece.forward[side])]
     }
 
+    /// Returns the edges of `side`, a side of a seam that runs along outlines if `forward`.
     fn side_edges(pattern: &Pattern, side: &[EdgeId], forward: bool) -> Vec<SideEdge> {
         let whole = pattern.side_length(side);
         let mut begin = 0.0;
-        let edge = |&id: &EdgeId| {
+        let mut edges = Vec::new();
+        for &id in side {
             let end = begin + pattern.edge(id).length() / whole;
-            let range = [begin, end];
+            edges.push(SideEdge { id, forward, range: [begin, end] });
             begin = end;
-            SideEdge { id, forward, range }
-        };
-        let mut edges: Vec<SideEdge> = side.iter().map(edge).collect();
+        }
         // The fractions add up to one but for rounding.
         if let Some(last) = edges.last_mut() {
             last.range[1] = 1.0;
@@ -250,34 +254,38 @@ impl Breakpoints {
         edges
     }
 
-    /// Returns the breakpoints at which an edge starts and ends, in the direction of the seam.
+    /// Returns the breakpoints at which `edge` starts and ends, in the direction of the seam.
     fn ends_of(&self, edge: &SideEdge) -> [usize; 2] {
-        let [line, number] = self.place(edge.id);
+        let [line, number] = self.line_and_edge(edge.id);
         let line = &self.lines[line];
-        let ends = [number, (number + 1) % line.edges()].map(|number| line.first + number);
+        let ends = [number, (number + 1) % line.edge_count()].map(|number| line.first + number);
         if edge.forward { ends } else { [ends[1], ends[0]] }
     }
 
-    /// Adds a notch at a fraction of a side and returns it.
+    /// Adds a notch at `fraction` of the side with the edges `edges`, and returns it.
     fn notch(&mut self, edges: &[SideEdge], fraction: f64) -> usize {
         let edge = edges.iter().find(|e| fraction < e.range[1]).unwrap_or(&edges[edges.len() - 1]);
         let [begin, end] = edge.range;
         let part = ((fraction - begin) / (end - begin)).clamp(0.0, 1.0);
-        let [line, number] = self.place(edge.id);
+        let [line, number] = self.line_and_edge(edge.id);
         let [from, to] = [0, 1].map(|end| self.lines[line].starts[number + end]);
         let part = if edge.forward { part } else { 1.0 - part };
         self.insert(line, from + part * (to - from))
     }
 
-    /// Makes the seam pieces of a seam.
+    /// Adds the seam pieces of `seam`, the seam with the number `index`.
     ///
-    /// Points of both sides correspond by the fraction of the length of the side; ends of edges on
-    /// both sides that lie less than half a spacing apart correspond to each other.
+    /// Points of both sides correspond if they are at the same fraction of the length of their
+    /// side. Ends of edges on both sides that lie less than half a spacing apart correspond to each
+    /// other.
     fn sew(&mut self, pattern: &Pattern, seam: &Seam, index: usize, spacing: f64) {
         let forward = [true, seam.reversed];
         let sides = [0, 1].map(|side| Self::side_edges(pattern, &seam.sides[side], forward[side]));
-        let [one, other] = seam.sides.each_ref().map(|side| pattern.side_length(side));
-        let tolerance = 0.5 * spacing / one.min(other);
+        let [first_length, second_length] =
+            seam.sides.each_ref().map(|side| pattern.side_length(side));
+        let tolerance = 0.5 * spacing / first_length.min(second_length);
+
+        // The points along the seam where both sides have a breakpoint.
         let start = [0, 1].map(|side| self.ends_of(&sides[side][0])[0]);
         let mut points = vec![SeamPoint { before: start, after: start }];
         // Numbers of the edges that begin at the last point with an end on both sides.
@@ -292,26 +300,30 @@ impl Breakpoints {
             points.push(SeamPoint { before, after });
             from = to;
         }
+
+        // Both breakpoints of a point become one node, also where a chain goes on elsewhere.
         for SeamPoint { before, after } in &points {
             for point in [after[0], before[1], after[1]] {
                 self.unite(before[0], point);
             }
         }
+
         for pair in points.windows(2) {
             let ends = [0, 1].map(|side| [pair[0].after[side], pair[1].before[side]]);
             self.pieces.push(SeamPiece { seam: index, ends, forward, removed: false });
         }
     }
 
-    /// Adds points at the ends of edges between two points with an end on both sides, each given by
-    /// the numbers of the edges after it; the other side gets a notch.
+    /// Adds points at the ends of edges between two points with an end on both sides, which are
+    /// given by the numbers `from` and `to` of the edges after them. The side without an end gets a
+    /// notch.
     fn notch_between(
         &mut self,
         sides: &Sides,
         [from, to]: [[usize; 2]; 2],
         points: &mut Vec<SeamPoint>,
     ) {
-        // Fractions of each side between which it runs here.
+        // Fractions of each side between which the points lie.
         let range = [0, 1].map(|s| [sides[s][from[s]].range[0], sides[s][to[s] - 1].range[1]]);
         let mut ends: Vec<(f64, usize, usize)> = Vec::new();
         for side in 0..2 {
@@ -320,21 +332,24 @@ impl Breakpoints {
             ends.extend(between.map(|k| ((sides[side][k].range[1] - low) / (high - low), side, k)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        // Fraction of the range, and for both sides the edge that ends there.
-        let mut found: Vec<(f64, [Option<usize>; 2])> = Vec::new();
+
+        // Ends of both sides at one fraction are one point. Each entry has the fraction of the
+        // range, and for both sides the edge that ends there.
+        let mut matched: Vec<(f64, [Option<usize>; 2])> = Vec::new();
         for (fraction, side, k) in ends {
-            match found.last_mut() {
+            match matched.last_mut() {
                 Some((at, both)) if fraction - *at < SAME && both[side].is_none() => {
                     both[side] = Some(k)
                 }
                 _ => {
                     let mut both = [None; 2];
                     both[side] = Some(k);
-                    found.push((fraction, both));
+                    matched.push((fraction, both));
                 }
             }
         }
-        for (fraction, both) in found {
+
+        for (fraction, both) in matched {
             let around = [0, 1].map(|side| match both[side] {
                 Some(k) => [self.ends_of(&sides[side][k])[1], self.ends_of(&sides[side][k + 1])[0]],
                 None => {
@@ -347,7 +362,7 @@ impl Breakpoints {
         }
     }
 
-    /// Makes one class of the classes of two breakpoints.
+    /// Merges the classes of the breakpoints `a` and `b`.
     pub fn unite(&mut self, a: usize, b: usize) {
         let (a, b) = (self.points[a].class, self.points[b].class);
         if a != b {
@@ -372,7 +387,7 @@ impl Breakpoints {
         }
     }
 
-    /// Sets a seam piece at the breakpoints of its ends.
+    /// Records the seam piece `piece` at the breakpoints of its ends.
     pub fn mark(&mut self, piece: usize) {
         let SeamPiece { ends, forward, .. } = self.pieces[piece].clone();
         for side in 0..2 {
@@ -383,14 +398,15 @@ impl Breakpoints {
     }
 }
 
-/// Returns the number of arcs of the longer of two pieces for each arc of the shorter one.
+/// Returns the number of arcs of the longer of two pieces for each arc of the shorter piece.
 fn fullness([short, long]: [f64; 2]) -> u32 {
     // No more than a pattern may have.
     if long > GATHER * short { (long / short).round().min(100.0) as u32 } else { 1 }
 }
 
-/// Returns pairs of ends of edges of both sides that are sewn to each other, as the numbers of the
-/// edges after them; the last pair is the end of both sides.
+/// Returns the pairs of ends of edges of both sides that are sewn to each other, by the numbers of
+/// the edges after them. Ends that differ by less than `tolerance`, a fraction of the side, match.
+/// The last pair is the end of both sides.
 fn matched_ends(sides: &Sides, tolerance: f64) -> Vec<[usize; 2]> {
     let count = [sides[0].len(), sides[1].len()];
     let mut pairs = Vec::new();
@@ -408,10 +424,4 @@ fn matched_ends(sides: &Sides, tolerance: f64) -> Vec<[usize; 2]> {
     }
     pairs.push(count);
     pairs
-}
-
-/// Returns the angle between the end of an edge and the start of the next, in rad.
-fn corner_angle(before: &Edge, after: &Edge) -> f64 {
-    let ([_, a], [b, _]) = (before.tangents(), after.tangents());
-    (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs()
 }

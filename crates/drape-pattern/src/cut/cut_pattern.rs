@@ -2,7 +2,7 @@
 
 use super::panel_cut::Cut;
 use super::seam_nodes::SeamNodes;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::pattern::partition::Partition;
 
 /// Pattern cut at one spacing.
@@ -15,26 +15,26 @@ pub struct CutPattern {
     /// Nodes of the seams, in the order of the pattern.
     pub seams: Vec<SeamNodes>,
     /// Notes on the cut for its user.
-    pub notes: Vec<Note>,
+    pub notes: Vec<PatternNote>,
 }
 
 impl CutPattern {
-    /// Returns the number of particles when all seams are closed: the nodes of a pair are one
-    /// particle, and tied nodes are none.
+    /// Returns the number of particles when all seams are closed. The two nodes of a pair are one
+    /// particle. Tied nodes are no particles.
     #[must_use]
-    pub fn particles(&self) -> usize {
+    pub fn particle_count(&self) -> usize {
         let mut first = Vec::new();
         let mut count = 0;
         for cut in &self.panels {
             first.push(count);
             count += cut.positions.len();
         }
-        let mut same = Partition::new(count);
+        let mut particles = Partition::new(count);
         for pair in self.seams.iter().flat_map(|seam| &seam.pairs) {
             let [a, b] = pair.map(|id| first[id.panel] + id.node as usize);
-            same.unite(a, b);
+            particles.unite(a, b);
         }
         let tied = self.seams.iter().map(|seam| seam.ties.len()).sum::<usize>();
-        same.sets() - tied
+        particles.set_count() - tied
     }
 }

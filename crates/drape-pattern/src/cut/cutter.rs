@@ -12,21 +12,21 @@ use crate::mistake::Mistake;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 
-/// Spacing when none is chosen, in m.
+/// Default spacing, in m.
 const SPACING: f64 = 0.01;
 
 /// Shortest and longest spacing, in m.
 const SPACINGS: std::ops::RangeInclusive<f64> = 1e-5..=10.0;
 
 /// Largest number of grid points of a panel.
-const POINTS_MAX: f64 = 4e6;
+const MOST_POINTS: f64 = 4e6;
 
 /// Cutter of patterns into particles at a spacing.
 ///
 /// Outlines are sampled at equal arcs of about the spacing between the ends of their edges, with
-/// the same number on both sides of a seam. Inside, a regular grid along the grain keeps 0.6
-/// spacings clear of the outline, and a constrained Delaunay triangulation fills the rim between
-/// them.
+/// the same number of arcs on both sides of a seam. Inside, a regular grid along the grain keeps
+/// 0.6 spacings clear of the outline. A constrained Delaunay triangulation fills the rim between
+/// grid and outline.
 ///
 /// ```
 /// use drape_pattern::{Cutter, Edge, Panel, Pattern};
@@ -52,32 +52,32 @@ impl Default for Cutter {
 }
 
 impl Cutter {
-    /// Returns a cutter with a spacing in m.
+    /// Returns a cutter with the spacing `spacing`, in m.
     #[must_use]
     pub fn new(spacing: f64) -> Self {
         Self { spacing }
     }
 
-    /// Cuts all panels of a pattern.
+    /// Returns all panels of `pattern`, cut, with the nodes of its seams.
     ///
     /// # Errors
-    /// Edges too short for the spacing, panels too narrow or too large for it; all are listed.
+    /// Edges too short for the spacing, and panels too narrow or too large for it. All are listed.
     pub fn cut(&self, pattern: &Pattern) -> Result<CutPattern, Error> {
         let spacing = self.spacing;
         if !SPACINGS.contains(&spacing) {
             return Err(Error::Pattern(vec![Mistake::Spacing { spacing }]));
         }
+
         let sampled = SampledPattern::new(pattern, spacing).map_err(Error::Pattern)?;
         let mut notes = sampled.notes;
         let mut panels: Vec<Cut> = Vec::new();
         let mut mistakes = Vec::new();
-        // A rectangle numbers the nodes of its outline anew.
         let mut seams = sampled.seams;
         for (number, outline) in sampled.panels.into_iter().enumerate() {
             match self.cut_panel(&pattern.panels()[number], outline) {
                 Ok(cut) => {
+                    // A rectangle, which has no holes, numbers the nodes of its outline anew.
                     let nodes = seams.iter_mut().flat_map(SeamNodes::nodes_mut);
-                    // A rectangle has no holes.
                     for id in nodes.filter(|id| id.panel == number && cut.holes.is_empty()) {
                         id.node = cut.outline[id.node as usize];
                     }
@@ -93,10 +93,13 @@ impl Cutter {
         Ok(CutPattern { spacing, panels, seams, notes })
     }
 
-    /// Cuts a panel with a sampled outline.
+    /// Returns the cut of `panel`, whose closed lines are sampled in `outline`.
     fn cut_panel(&self, panel: &Panel, outline: SampledPanel) -> Result<Cut, Mistake> {
         let spacing = self.spacing;
-        let name = || panel.name().to_owned();
+        let name = panel.name().to_owned();
+
+        // The grid has its origin at the lowest corner along the grain, and the spacing as its
+        // unit.
         let grain = GrainFrame::new(panel.grain());
         let mut polygon: Vec<[f64; 2]> = outline.nodes.iter().map(|&p| grain.to_grain(p)).collect();
         let low = [0, 1].map(|k| polygon.iter().map(|p| p[k]).fold(f64::MAX, f64::min));
@@ -104,19 +107,24 @@ impl Cutter {
             *node = difference(*node, low).map(|x| x / spacing);
         }
         let size = [0, 1].map(|k| polygon.iter().map(|p| p[k] + 1.0).fold(1.0, f64::max));
-        if size[0] * size[1] > POINTS_MAX {
-            return Err(Mistake::TooMany { panel: name(), nodes: size[0] * size[1], spacing });
+        if size[0] * size[1] > MOST_POINTS {
+            return Err(Mistake::TooMany { panel: name, nodes: size[0] * size[1], spacing });
         }
+
+        // At a coarse spacing, chords of a sound outline may cross.
         let region = Region::new(polygon, outline.lines.clone());
         let is_flat = region.twice_area() <= 0.0;
         if let Some(first) = region.intersection().or(is_flat.then_some(0)) {
-            return Err(Mistake::Narrow { panel: name(), at: outline.nodes[first], spacing });
+            return Err(Mistake::Narrow { panel: name, at: outline.nodes[first], spacing });
         }
-        if let Some(rectangle) = Cut::of_rectangle(&outline, grain, spacing) {
-            return Ok(Cut { panel: name(), ..rectangle });
+
+        if let Some(rectangle) = Cut::from_rectangle(&outline, grain, spacing) {
+            return Ok(Cut { panel: name, ..rectangle });
         }
-        let rim = Rim::new(&region).ok_or_else(|| Mistake::Rim { panel: name(), spacing })?;
+        let Some(rim) = Rim::new(&region) else {
+            return Err(Mistake::Rim { panel: name, spacing });
+        };
         let units = RimUnits { origin: low, spacing };
-        Ok(Cut { panel: name(), ..Cut::of_rim(outline, &rim, grain, units) })
+        Ok(Cut { panel: name, ..Cut::from_rim(outline, &rim, grain, units) })
     }
 }

@@ -1,13 +1,15 @@
 //! Lattice: the nodes of a regular grid inside a region that keep clear of its sides.
 //!
-//! `rim` fills the strip between the full cells of the lattice and the region's sides with triangles.
+//! `rim` fills the strip between the full cells of the lattice and the region's sides with
+//! triangles.
 
 use super::region::Region;
 use crate::edge::difference;
+use crate::polygon::range;
 
 /// Smallest distance of a lattice node from the outline, in spacings.
 ///
-/// Edges at lattice nodes are at least as long. A larger distance makes the rim wide and its
+/// Edges at lattice nodes are at least this long. A larger distance makes the rim wide and its
 /// triangles obtuse.
 const CLEAR: f64 = 0.6;
 
@@ -27,29 +29,26 @@ pub(crate) struct Lattice {
     pub size: [usize; 2],
     /// Whether each grid point is a node, row by row.
     kept: Vec<bool>,
-    /// Distance of each grid point from the outline, row by row; exact where it is under [`LOOSE`],
-    /// else only known to be larger.
+    /// Distance of each grid point from the outline, row by row. It is exact under [`LOOSE`]. A
+    /// larger value says only that the distance is larger.
     clearance: Vec<f64>,
 }
 
 impl Lattice {
-    /// Returns the phases of the grid in the order of their numbers of full cells, most first.
+    /// Returns the phases of the grid over `region`, in descending order of their numbers of full
+    /// cells.
     pub fn phases(region: &Region) -> Vec<usize> {
-        let cells = |phase: usize| Self::new(region, phase).cells().len();
-        let mut all: Vec<(usize, usize)> =
-            (0..PHASES * PHASES).map(|phase| (cells(phase), phase)).collect();
-        all.sort_by_key(|&(cells, phase)| (std::cmp::Reverse(cells), phase));
-        all.into_iter().map(|(_, phase)| phase).collect()
+        let mut phases: Vec<(usize, usize)> = (0..PHASES * PHASES)
+            .map(|phase| (Self::new(region, phase).cells().len(), phase))
+            .collect();
+        phases.sort_by_key(|&(cells, phase)| (std::cmp::Reverse(cells), phase));
+        phases.into_iter().map(|(_, phase)| phase).collect()
     }
 
-    /// Returns the grid over a region at a phase.
+    /// Returns the grid over `region` at `phase`.
     pub fn new(region: &Region, phase: usize) -> Self {
         let offset = [phase % PHASES, phase / PHASES].map(|k| k as f64 / PHASES as f64);
-        let extent = |k: usize| {
-            let all = region.corners.iter().map(|p| p[k]);
-            [all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max)]
-        };
-        let extents = [extent(0), extent(1)];
+        let extents = [0, 1].map(|k| range(region.corners.iter().map(|p| p[k])));
         let origin = [0, 1].map(|k| extents[k][0] + offset[k]);
         let size = [0, 1].map(|k| (extents[k][1] - origin[k]).max(0.0) as usize + 1);
         let count = size[0] * size[1];
@@ -62,19 +61,18 @@ impl Lattice {
         lattice
     }
 
-    /// Returns the columns or rows between two coordinates.
+    /// Returns the columns (`axis` 0) or rows (1) from the coordinate `low` to `high`.
     fn between(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
         let low = (low - self.origin[axis]).ceil().max(0.0) as usize;
         let high = (high - self.origin[axis]).floor();
         if high < 0.0 { 0..0 } else { low..(high as usize + 1).min(self.size[axis]) }
     }
 
-    /// Lowers the clearance of the grid points near a side of the polygon.
+    /// Lowers the clearance of the grid points near the side of the region from `a` to `b`.
     fn measure_clearance(&mut self, a: [f64; 2], b: [f64; 2]) {
         let side = difference(b, a);
         let square = side[0] * side[0] + side[1] * side[1];
-        let range = |k: usize| (a[k].min(b[k]) - LOOSE, a[k].max(b[k]) + LOOSE);
-        let ((x0, x1), (y0, y1)) = (range(0), range(1));
+        let [[x0, x1], [y0, y1]] = [0, 1].map(|k| [a[k].min(b[k]) - LOOSE, a[k].max(b[k]) + LOOSE]);
         for row in self.between(1, y0, y1) {
             for column in self.between(0, x0, x1) {
                 let arm = difference(self.position([column, row]), a);
@@ -87,8 +85,9 @@ impl Lattice {
         }
     }
 
-    /// Makes nodes of the grid points inside the region that are clear of its sides.
+    /// Makes nodes of the grid points inside `region` that are clear of its sides.
     fn fill(&mut self, region: &Region) {
+        // Coordinates at which each row of the grid crosses the sides.
         let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.size[1]];
         for side in region.sides() {
             let [a, b] = side.map(|corner| region.corners[corner]);
@@ -102,9 +101,11 @@ impl Lattice {
                 }
             }
         }
-        for (row, mut places) in crossings.into_iter().enumerate() {
-            places.sort_by(f64::total_cmp);
-            for pair in places.chunks_exact(2) {
+
+        // A row is inside between every second crossing and the next.
+        for (row, mut row_crossings) in crossings.into_iter().enumerate() {
+            row_crossings.sort_by(f64::total_cmp);
+            for pair in row_crossings.chunks_exact(2) {
                 for column in self.between(0, pair[0], pair[1]) {
                     let index = self.index([column, row]);
                     self.kept[index] = self.clearance[index] >= CLEAR;
@@ -113,6 +114,7 @@ impl Lattice {
         }
     }
 
+    /// Returns the index of a grid point in `kept` and `clearance`.
     fn index(&self, [column, row]: [usize; 2]) -> usize {
         row * self.size[0] + column
     }
@@ -122,26 +124,27 @@ impl Lattice {
         [self.origin[0] + column as f64, self.origin[1] + row as f64]
     }
 
-    /// Returns whether a grid point is a node.
+    /// Returns whether the grid point `node` is a node.
     pub fn has(&self, node: [usize; 2]) -> bool {
         self.kept[self.index(node)]
     }
 
-    /// Returns the distance of a grid point from the outline.
+    /// Returns the distance of the grid point `node` from the outline; a number above [`LOOSE`] if
+    /// it is larger than that.
     pub fn clearance(&self, node: [usize; 2]) -> f64 {
         self.clearance[self.index(node)]
     }
 
-    /// Removes a node.
+    /// Removes the node `node`.
     pub fn drop_node(&mut self, node: [usize; 2]) {
         let index = self.index(node);
         self.kept[index] = false;
     }
 
-    /// Returns the nodes, row by row, as columns and rows.
+    /// Returns the nodes as columns and rows, row by row.
     pub fn nodes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
-        let all = (0..self.size[1]).flat_map(|row| (0..self.size[0]).map(move |c| [c, row]));
-        all.filter(|&node| self.has(node))
+        let points = (0..self.size[1]).flat_map(|row| (0..self.size[0]).map(move |c| [c, row]));
+        points.filter(|&node| self.has(node))
     }
 
     /// Returns whether the cell to the right of and above a grid point has all four nodes.

@@ -1,6 +1,6 @@
-//! Pair of breakpoints that are sewn to each other and are all of a piece of a seam.
+//! Merge: what remains of a collapsed piece of a seam.
 
-/// Two breakpoints that are all of a piece of a seam.
+/// Two breakpoints that are sewn to each other and remain of a collapsed piece of a seam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Merge {
     /// Number of the seam.

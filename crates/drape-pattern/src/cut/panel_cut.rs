@@ -1,4 +1,4 @@
-//! Cut of a panel: nodes, cells and triangles, made of a rim.
+//! Cut of a panel: nodes, cells and triangles.
 
 use std::ops::Range;
 
@@ -8,8 +8,8 @@ use super::sampling::SampledPanel;
 /// Panel cut into the full cells of a lattice along its grain, and triangles between them and its
 /// outline.
 ///
-/// The nodes of the outline come first, anticlockwise, then those of holes, then those of the
-/// lattice, row by row. In a rectangle without a rim all nodes are in rows.
+/// Nodes of the outline come first, anticlockwise, then nodes of holes, then nodes of the lattice,
+/// row by row. In a rectangle without a rim all nodes are in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
     /// Name of the panel.
@@ -18,8 +18,8 @@ pub struct Cut {
     pub spacing: [f64; 2],
     /// Positions of the nodes in the panel's frame, in m.
     pub positions: Vec<[f64; 2]>,
-    /// Positions of the nodes in the frame of the grain, whose x axis is the weft and whose y axis
-    /// is the warp, in m; its origin is that of the panel's frame.
+    /// Positions of the nodes in the frame of the grain, in m. Its x axis is the weft, its y axis
+    /// is the warp, and its origin is the origin of the panel's frame.
     pub yarns: Vec<[f64; 2]>,
     /// Column and row of each node of the lattice; `None` for nodes of closed lines beside a rim.
     pub lattice: Vec<Option<[u32; 2]>>,
@@ -27,9 +27,9 @@ pub struct Cut {
     pub quads: Vec<[u32; 4]>,
     /// Triangles of the rim by their nodes, anticlockwise.
     pub triangles: Vec<[u32; 3]>,
-    /// Nodes of each edge of the panel, in its direction, with both ends. An edge shorter than
-    /// half a spacing that was joined with a neighbour has the nodes nearest to its ends, which may
-    /// be one.
+    /// Nodes of each edge of the panel, in its direction, with both ends. An edge shorter than half
+    /// a spacing that was joined with a neighbour has the nodes nearest to its ends. These may be
+    /// one node.
     pub edges: Vec<Vec<u32>>,
     /// Nodes of the outline, anticlockwise.
     pub outline: Vec<u32>,
@@ -47,7 +47,7 @@ pub(crate) struct GrainFrame {
 }
 
 impl GrainFrame {
-    /// Returns the frame of a warp at an angle to the panel's y axis, anticlockwise, in rad.
+    /// Returns the frame of a warp at `angle` to the panel's y axis, anticlockwise, in rad.
     pub fn new(angle: f64) -> Self {
         let (sine, cosine) = angle.sin_cos();
         Self { sine, cosine }
@@ -79,48 +79,65 @@ impl Cut {
         std::iter::once(self.outline.as_slice()).chain(self.holes.iter().map(Vec::as_slice))
     }
 
-    /// Returns the cut of a sampled outline with a rim.
-    pub(crate) fn of_rim(
+    /// Returns the position of `node` in the panel's frame, in m.
+    pub(crate) fn position(&self, node: u32) -> [f64; 2] {
+        self.positions[node as usize]
+    }
+
+    /// Returns the cut of the sampled `outline` with `rim`, without the name of the panel. `grain`
+    /// is the frame of the grain, `units` are the units of `rim`.
+    pub(crate) fn from_rim(
         outline: SampledPanel,
         rim: &Rim,
         grain: GrainFrame,
         units: RimUnits,
     ) -> Self {
         let RimUnits { origin, spacing } = units;
-        let sides = outline.nodes.len();
-        let nodes: Vec<[usize; 2]> = rim.lattice.nodes().collect();
-        let mut number = vec![0_u32; rim.lattice.size[0] * rim.lattice.size[1]];
-        let at = |[column, row]: [usize; 2]| row * rim.lattice.size[0] + column;
-        for (k, &node) in nodes.iter().enumerate() {
-            number[at(node)] = (sides + k) as u32;
+        let lattice = &rim.lattice;
+        let columns = lattice.size[0];
+        let outline_count = outline.nodes.len();
+
+        // Numbers of the lattice's nodes in the cut, by grid points.
+        let nodes: Vec<[usize; 2]> = lattice.nodes().collect();
+        let mut number = vec![0_u32; lattice.size[0] * lattice.size[1]];
+        for (k, &[column, row]) in nodes.iter().enumerate() {
+            number[row * columns + column] = (outline_count + k) as u32;
         }
-        let corners = |[c, r]: [usize; 2]| [[c, r], [c + 1, r], [c + 1, r + 1], [c, r + 1]];
-        let quads =
-            rim.lattice.cells().into_iter().map(|cell| corners(cell).map(|n| number[at(n)]));
+        let quads = lattice.cells().into_iter().map(|[c, r]| {
+            let corners = [[c, r], [c + 1, r], [c + 1, r + 1], [c, r + 1]];
+            corners.map(|[column, row]| number[row * columns + column])
+        });
+
+        // Nodes of the outline keep the bits of their positions in the panel's frame.
         let inner = nodes.iter().map(|&node| {
-            let [x, y] = rim.lattice.position(node);
+            let [x, y] = lattice.position(node);
             [origin[0] + spacing * x, origin[1] + spacing * y]
         });
         let yarns: Vec<[f64; 2]> =
             outline.nodes.iter().map(|&p| grain.to_grain(p)).chain(inner).collect();
-        let inside = yarns[sides..].iter().map(|&p| grain.to_panel(p));
-        let positions = outline.nodes.iter().copied().chain(inside).collect();
-        let columns = nodes.iter().map(|node| Some(node.map(|k| k as u32)));
-        let line = |nodes: &Range<usize>| nodes.clone().map(|node| node as u32).collect();
+        let inner_positions = yarns[outline_count..].iter().map(|&p| grain.to_panel(p));
+        let positions = outline.nodes.iter().copied().chain(inner_positions).collect();
+
+        let grid = nodes.iter().map(|node| Some(node.map(|k| k as u32)));
         let mut hard = outline.hard;
         hard.resize(yarns.len(), false);
         Self {
             panel: String::new(),
             spacing: [spacing; 2],
             positions,
-            lattice: std::iter::repeat_n(None, sides).chain(columns).collect(),
+            lattice: std::iter::repeat_n(None, outline_count).chain(grid).collect(),
             quads: quads.collect(),
             triangles: rim.triangles.clone(),
             edges: outline.edges,
-            outline: line(&outline.lines[0]),
-            holes: outline.lines[1..].iter().map(line).collect(),
+            outline: numbers(&outline.lines[0]),
+            holes: outline.lines[1..].iter().map(numbers).collect(),
             hard,
             yarns,
         }
     }
+}
+
+/// Returns the numbers of `nodes` as they stand in a cut.
+fn numbers(nodes: &Range<usize>) -> Vec<u32> {
+    nodes.clone().map(|node| node as u32).collect()
 }

@@ -1,8 +1,9 @@
-//! Region of a panel that is to be filled: closed polygons with the cloth on their left, the outline
-//! and then the holes of darts.
+//! Region of a panel: closed polygons with the cloth on their left, the outline and then the holes
+//! of darts.
 
 use std::ops::Range;
 
+use crate::edge::cross;
 use crate::polygon::{meeting, self_intersection};
 
 /// Region between closed polygons.
@@ -15,49 +16,46 @@ pub(crate) struct Region {
 }
 
 impl Region {
+    /// Returns the region between the polygons `lines`, which are ranges of `corners`.
     pub fn new(corners: Vec<[f64; 2]>, lines: Vec<Range<usize>>) -> Self {
         Self { corners, lines }
     }
 
-    /// Returns the corner after a corner.
+    /// Returns the corner after `corner` along its polygon.
     pub fn next(&self, corner: usize) -> usize {
         let line = self.lines.iter().find(|line| line.contains(&corner));
         line.map_or(corner, |line| if corner + 1 < line.end { corner + 1 } else { line.start })
     }
 
     /// Returns all sides by their corners.
+    /// Returns all sides by their corners.
     pub fn sides(&self) -> impl Iterator<Item = [usize; 2]> {
-        let of_line = |line: &Range<usize>| {
+        self.lines.iter().flat_map(|line| {
             let line = line.clone();
             line.clone().map(move |k| [k, if k + 1 < line.end { k + 1 } else { line.start }])
-        };
-        self.lines.iter().flat_map(of_line)
+        })
     }
 
-    /// Returns a corner at which a polygon meets itself or another one, if there is one.
+    /// Returns a corner at which a polygon meets itself or another polygon, if there is one.
     pub fn intersection(&self) -> Option<usize> {
         for (number, line) in self.lines.iter().enumerate() {
             let polygon = &self.corners[line.clone()];
             if let Some([first, _]) = self_intersection(polygon) {
                 return Some(line.start + first);
             }
-            let others = self.lines[..number].iter().find_map(|other| {
-                let [side, _] = meeting(polygon, &self.corners[other.clone()])?;
+            let meeting_corner = self.lines[..number].iter().find_map(|earlier| {
+                let [side, _] = meeting(polygon, &self.corners[earlier.clone()])?;
                 Some(line.start + side)
             });
-            if others.is_some() {
-                return others;
+            if meeting_corner.is_some() {
+                return meeting_corner;
             }
         }
         None
     }
 
-    /// Returns twice the area.
+    /// Returns twice the area, positive if the outline runs anticlockwise.
     pub fn twice_area(&self) -> f64 {
-        let cross = |[a, b]: [usize; 2]| {
-            let (a, b) = (self.corners[a], self.corners[b]);
-            a[0] * b[1] - a[1] * b[0]
-        };
-        self.sides().map(cross).sum()
+        self.sides().map(|[a, b]| cross(self.corners[a], self.corners[b])).sum()
     }
 }

@@ -12,10 +12,10 @@ pub struct NodeId {
 /// Nodes of a seam.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SeamNodes {
-    /// Pairs of nodes that become one, in the order in which the seam runs. Both are the same node
-    /// at the tip of a dart.
+    /// Pairs of nodes that become one, in the order in which the seam runs. At the tip of a dart
+    /// both are one node.
     pub pairs: Vec<[NodeId; 2]>,
-    /// Nodes of the longer side of a gather between the pairs, in the same order.
+    /// Nodes of the longer side of a gather between the pairs, in the order in which the seam runs.
     pub ties: Vec<Tie>,
     /// Numbers of the pairs, from 0, after which the seam goes on elsewhere, as over the mouth of a
     /// dart or in another panel: the next pair is no neighbour on the outlines.
@@ -26,19 +26,19 @@ pub struct SeamNodes {
 /// side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tie {
-    /// Number of the pair after which it comes. On the other side it lies between that pair and the
-    /// next.
+    /// Number of the pair before it. On the other side of the seam it lies between that pair and
+    /// the next pair.
     pub after: usize,
     /// Side of the seam to which it belongs, 0 or 1.
     pub side: usize,
     /// The node.
     pub node: NodeId,
-    /// Fraction of the arc from the pair to the next at which it lies, 0 to 1.
+    /// Fraction of the arc from that pair to the next at which it lies, 0 to 1.
     pub fraction: f64,
 }
 
 impl SeamNodes {
-    /// Returns all nodes of a side, in the order in which the seam runs.
+    /// Returns all nodes of `side`, 0 or 1, in the order in which the seam runs.
     pub fn side(&self, side: usize) -> impl Iterator<Item = NodeId> {
         let mut ties = self.ties.iter().filter(move |tie| tie.side == side).peekable();
         self.pairs.iter().enumerate().flat_map(move |(index, pair)| {
@@ -50,14 +50,15 @@ impl SeamNodes {
         })
     }
 
-    /// Returns the nodes between which a tied node lies.
+    /// Returns the two nodes between which the node of `tie` lies.
     #[must_use]
     pub fn ends(&self, tie: &Tie) -> [NodeId; 2] {
         [tie.after, tie.after + 1].map(|pair| self.pairs[pair][1 - tie.side])
     }
 
-    /// Adds the first pair of a piece, which is the last one of the piece before it, or elsewhere.
-    pub(crate) fn go_on_at(&mut self, pair: [NodeId; 2]) {
+    /// Adds `pair`, the first pair of a piece. It is the last pair of the piece before, or the seam
+    /// goes on elsewhere.
+    pub(crate) fn begin_piece(&mut self, pair: [NodeId; 2]) {
         match self.pairs.last() {
             Some(last) if *last == pair => return,
             Some(_) => self.breaks.push(self.pairs.len() - 1),
@@ -66,7 +67,7 @@ impl SeamNodes {
         self.pairs.push(pair);
     }
 
-    /// Returns all nodes, to be renumbered.
+    /// Returns all nodes, so that they can be renumbered.
     pub(crate) fn nodes_mut(&mut self) -> impl Iterator<Item = &mut NodeId> {
         let ties = self.ties.iter_mut().map(|tie| &mut tie.node);
         self.pairs.iter_mut().flatten().chain(ties)

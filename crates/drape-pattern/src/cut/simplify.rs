@@ -1,12 +1,11 @@
-//! Simplification of outlines: pieces shorter than half a spacing are joined with a neighbour where
-//! the outline is smooth, and become one node where it is not.
+//! Simplification of outlines. Pieces shorter than half a spacing are joined with a neighbour where
+//! the outline is smooth, and become one node elsewhere.
 //!
 //! Called on the breakpoints of a pattern before `sampling` counts the arcs between them.
 
 use super::breakpoint::{Breakpoints, SeamPiece};
 use crate::mistake::Mistake;
-use crate::note::Note;
-use crate::panel::Panel;
+use crate::note::PatternNote;
 use crate::pattern::Pattern;
 
 /// Largest corner angle at a breakpoint that may be removed, in rad: 15 degrees. A chord across it
@@ -30,10 +29,10 @@ struct Partner {
     point: usize,
 }
 
-/// Result of a simplification: notes on what was joined, mistakes of what could not be.
+/// Result of a simplification: notes on pieces that were joined, mistakes of pieces that cannot be.
 #[derive(Debug, Default)]
 pub(crate) struct Simplified {
-    pub notes: Vec<Note>,
+    pub notes: Vec<PatternNote>,
     pub mistakes: Vec<Mistake>,
 }
 
@@ -46,22 +45,24 @@ pub(crate) struct Simplifier<'a> {
 }
 
 impl Simplifier<'_> {
-    /// Joins short pieces with neighbours, the shortest first; pieces that cannot be joined are
+    /// Joins short pieces with neighbours, the shortest first. Pieces that cannot be joined are
     /// mistakes.
     pub fn run(mut self) -> Simplified {
         let shortest = SHORTEST * self.spacing * (1.0 - 1e-9);
         let mut notes = self.dissolve_runs(shortest);
         loop {
+            // The short pieces of this pass.
             let mut short: Vec<(f64, usize)> = self
-                .foremost_points()
+                .piece_starts()
                 .into_iter()
                 .map(|point| (self.breakpoints.counted_after(point), point))
                 .filter(|(length, _)| *length < shortest)
                 .collect();
             short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+
             let mut changed = false;
             for &(length, point) in &short {
-                // An earlier one of this pass may have joined it already.
+                // An earlier piece of this pass may have joined it already.
                 if self.breakpoints.points[point].removed
                     || self.breakpoints.counted_after(point) != length
                 {
@@ -76,6 +77,7 @@ impl Simplifier<'_> {
                     changed = true;
                 }
             }
+
             if !changed {
                 let merged = self.collapse(&short);
                 changed = !merged.is_empty();
@@ -91,12 +93,12 @@ impl Simplifier<'_> {
         }
     }
 
-    /// Makes one breakpoint of the ends of short pieces, given with their lengths, in m, and the
-    /// breakpoints before them; returns notes on those of which that could be done.
-    fn collapse(&mut self, short: &[(f64, usize)]) -> Vec<Note> {
+    /// Merges the ends of each of the `short` pieces, if possible. A piece is given by its length,
+    /// in m, and the breakpoint before it. Returns notes on the pieces that were merged.
+    fn collapse(&mut self, short: &[(f64, usize)]) -> Vec<PatternNote> {
         let mut notes = Vec::new();
         for &(length, point) in short {
-            // An earlier one may have changed it.
+            // An earlier piece may have changed it.
             if self.breakpoints.points[point].removed
                 || self.breakpoints.counted_after(point) != length
             {
@@ -104,21 +106,22 @@ impl Simplifier<'_> {
             }
             let EdgeName { panel, edge } = self.edge_after(point);
             if self.breakpoints.collapse(point) {
-                notes.push(Note::Merged { panel, edge, length, spacing: self.spacing });
+                notes.push(PatternNote::Merged { panel, edge, length, spacing: self.spacing });
             }
         }
         notes
     }
 
-    /// Removes the smooth breakpoints inside runs of short pieces, of which digitised outlines
-    /// consist.
-    fn dissolve_runs(&mut self, shortest: f64) -> Vec<Note> {
+    /// Removes the smooth breakpoints inside runs of pieces below `shortest`, in m. Digitised
+    /// outlines consist of such runs.
+    fn dissolve_runs(&mut self, shortest: f64) -> Vec<PatternNote> {
         let points = 0..self.breakpoints.points.len();
         let short: Vec<bool> =
             points.clone().map(|point| self.breakpoints.counted_after(point) < shortest).collect();
         let inside: Vec<usize> = points
             .filter(|&point| short[point] && short[self.breakpoints.points[point].neighbours[0]])
             .collect();
+
         let mut lost = vec![0; self.pattern.panels().len()];
         for point in inside {
             let class = self.breakpoints.points[point].class;
@@ -127,40 +130,41 @@ impl Simplifier<'_> {
                 self.remove(class);
             }
         }
+
         let panels = self.pattern.panels().iter().zip(lost).filter(|(_, ends)| *ends > 0);
-        let note = |(panel, ends): (&Panel, usize)| Note::Dissolved {
-            panel: panel.name().into(),
-            ends,
-            spacing: self.spacing,
-        };
-        panels.map(note).collect()
+        panels
+            .map(|(panel, ends)| {
+                let (panel, spacing) = (panel.name().into(), self.spacing);
+                PatternNote::Dissolved { panel, ends, spacing }
+            })
+            .collect()
     }
 
-    /// Returns for each piece of outline, or pair of pieces that are sewn together, the breakpoint
-    /// after which it lies.
-    fn foremost_points(&self) -> Vec<usize> {
+    /// Returns for each piece of outline the breakpoint at which it begins. Of two pieces that are
+    /// sewn together only the piece on the first side counts.
+    fn piece_starts(&self) -> Vec<usize> {
         let Breakpoints { points, pieces, .. } = &*self.breakpoints;
-        let first = |&number: &usize| {
+        let starts = (0..points.len()).filter(|&number| {
             let point = &points[number];
-            let other_side = point.pieces[1]
-                .is_some_and(|piece| Breakpoints::foremost(&pieces[piece], 0) != number);
-            !point.removed && !other_side
-        };
-        (0..points.len()).filter(first).collect()
+            let is_second_side = point.pieces[1]
+                .is_some_and(|piece| Breakpoints::piece_start(&pieces[piece], 0) != number);
+            !point.removed && !is_second_side
+        });
+        starts.collect()
     }
 
-    /// Returns the breakpoints of a class that are not removed.
+    /// Returns the breakpoints of `class` that are not removed.
     fn class(&self, class: usize) -> impl Iterator<Item = usize> + '_ {
         let points = &self.breakpoints.points;
         self.breakpoints.classes[class].iter().copied().filter(|&p| !points[p].removed)
     }
 
-    /// Returns the largest corner angle of a class, in rad.
+    /// Returns the largest corner angle of `class`, in rad.
     fn sharpest(&self, class: usize) -> f64 {
         self.class(class).map(|p| self.breakpoints.points[p].corner_angle).fold(0.0, f64::max)
     }
 
-    /// Returns the end, at a breakpoint, of the seam piece before it (0) or after it (1).
+    /// Returns the end, at `point`, of the seam piece before it (`beside` 0) or after it (1).
     fn end_at(&self, point: usize, beside: usize) -> Option<PieceEnd> {
         let piece = self.breakpoints.points[point].pieces[beside]?;
         let SeamPiece { ends, forward, .. } = &self.breakpoints.pieces[piece];
@@ -170,15 +174,16 @@ impl Simplifier<'_> {
         })
     }
 
-    /// Returns the breakpoint to which a breakpoint is sewn by the piece before it (0) or after it
-    /// (1).
+    /// Returns the breakpoint to which `point` is sewn by the piece before it (`beside` 0) or after
+    /// it (1).
     fn partner(&self, point: usize, beside: usize) -> Option<Partner> {
         let PieceEnd { piece, side, end } = self.end_at(point, beside)?;
         Some(Partner { piece, point: self.breakpoints.pieces[piece].ends[1 - side][end] })
     }
 
-    /// Returns whether all breakpoints of a class can be removed: the outlines are smooth there,
-    /// and the pieces before and after are sewn to the same breakpoint in the same sense.
+    /// Returns whether all breakpoints of `class` can be removed. The outlines must be smooth
+    /// there, and the pieces before and after must be sewn to the same breakpoint in the same
+    /// sense.
     fn is_removable(&self, class: usize) -> bool {
         self.sharpest(class) < SMOOTH
             && self.class(class).all(|point| {
@@ -193,18 +198,19 @@ impl Simplifier<'_> {
                     }
                     _ => false,
                 };
-                // One breakpoint at least stays on an outline.
+                // At least one breakpoint stays on an outline.
                 alike && before != point
             })
     }
 
-    /// Returns whether both sides of two seam pieces run in the same sense.
+    /// Returns whether the two sides of the seam piece `first` run in the same sense if and only if
+    /// the two sides of `second` do.
     fn same_sense(&self, first: usize, second: usize) -> bool {
-        let sense = |piece: &SeamPiece| piece.forward[0] == piece.forward[1];
-        sense(&self.breakpoints.pieces[first]) == sense(&self.breakpoints.pieces[second])
+        let [first, second] = [first, second].map(|piece| self.breakpoints.pieces[piece].forward);
+        (first[0] == first[1]) == (second[0] == second[1])
     }
 
-    /// Removes the breakpoints of a class.
+    /// Removes the breakpoints of `class`.
     fn remove(&mut self, class: usize) {
         let points: Vec<usize> = self.class(class).collect();
         for point in points {
@@ -222,29 +228,31 @@ impl Simplifier<'_> {
         }
     }
 
-    /// Makes one seam piece of two that end at a breakpoint. The longer one is extended: it keeps
-    /// its seam, its sides and its sense.
-    fn join(&mut self, one: PieceEnd, two: PieceEnd) {
-        let two_longer = self.piece_length(two.piece) > self.piece_length(one.piece);
-        let (kept, lost) = if two_longer { (two, one) } else { (one, two) };
+    /// Joins two seam pieces whose ends `before` and `after` are at one breakpoint. The longer
+    /// piece is extended: it keeps its seam, its sides and its sense.
+    fn join(&mut self, before: PieceEnd, after: PieceEnd) {
+        let is_after_longer = self.piece_length(after.piece) > self.piece_length(before.piece);
+        let (kept, lost) = if is_after_longer { (after, before) } else { (before, after) };
         let pieces = &mut self.breakpoints.pieces;
-        for other in 0..2 {
-            // The far end of the lost piece, on the side of the breakpoint and on the other.
-            let far = pieces[lost.piece].ends[lost.side ^ other][1 - lost.end];
-            pieces[kept.piece].ends[kept.side ^ other][kept.end] = far;
+        for flip in 0..2 {
+            // The far end of the lost piece, on the side of the breakpoint (0) and across the seam
+            // (1).
+            let far = pieces[lost.piece].ends[lost.side ^ flip][1 - lost.end];
+            pieces[kept.piece].ends[kept.side ^ flip][kept.end] = far;
         }
         pieces[lost.piece].removed = true;
         self.breakpoints.mark(kept.piece);
     }
 
-    /// Returns the length of the first side of a seam piece, in m.
+    /// Returns the length of the first side of the seam piece `piece`, in m.
     fn piece_length(&self, piece: usize) -> f64 {
         let piece = &self.breakpoints.pieces[piece];
-        self.breakpoints.length_after(Breakpoints::foremost(piece, 0))
+        self.breakpoints.length_after(Breakpoints::piece_start(piece, 0))
     }
 
-    /// Returns a note on a piece that loses a breakpoint of a class, if that is the end of an edge.
-    fn note(&self, piece: usize, class: usize) -> Option<Note> {
+    /// Returns a note on the piece after the breakpoint `piece`, which loses a breakpoint of
+    /// `class`, if that breakpoint is the end of an edge.
+    fn note(&self, piece: usize, class: usize) -> Option<PatternNote> {
         let points = &self.breakpoints.points;
         let after = points[piece].neighbours[1];
         let lost = if points[piece].class == class { piece } else { after };
@@ -253,11 +261,16 @@ impl Simplifier<'_> {
         let neighbour = if lost == piece { points[piece].neighbours[0] } else { after };
         let with = self.edge_after(neighbour).edge;
         let length = self.breakpoints.length_after(piece);
-        (edge != with).then_some(Note::Joined { panel, edge, with, length, spacing: self.spacing })
+        (edge != with).then_some(PatternNote::Joined {
+            panel,
+            edge,
+            with,
+            length,
+            spacing: self.spacing,
+        })
     }
 
-    /// Returns the names of the panel and of the edge in the middle of the piece after a
-    /// breakpoint.
+    /// Returns the names of the panel and of the edge in the middle of the piece after `point`.
     fn edge_after(&self, point: usize) -> EdgeName {
         let Breakpoints { points, lines, .. } = &*self.breakpoints;
         let line = &lines[points[point].line];

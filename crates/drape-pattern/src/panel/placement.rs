@@ -1,6 +1,6 @@
-//! Place of a panel in space before it is sewn.
+//! Placement of a panel in space before it is sewn.
 
-/// Place of a panel in space: bent to a cylinder or flat, then rotated and translated.
+/// Placement of a panel in space: bent to a cylinder or flat, then rotated and translated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Rows of the rotation matrix from the panel's frame, whose z axis points to its right side,
@@ -17,8 +17,8 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Returns the place of a flat panel: rotated about x, then y, then z by angles in rad, and
-    /// translated, in m.
+    /// Returns the placement of a flat panel: rotated about x, then y, then z by `angles`, in rad,
+    /// and translated by `translation`, in m.
     #[must_use]
     pub fn new(angles: [f64; 3], translation: [f64; 3]) -> Self {
         let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(f64::sin_cos);
@@ -30,14 +30,15 @@ impl Placement {
         Self { rotation, translation, wrap: None }
     }
 
-    /// Returns the place with the panel bent to a cylinder of a radius in m, or flat.
+    /// Returns the placement with the panel bent to a cylinder with the radius `wrap`, in m, or
+    /// flat.
     #[must_use]
     pub fn with_wrap(mut self, wrap: Option<f64>) -> Self {
         self.wrap = wrap;
         self
     }
 
-    /// Returns the position in space of a point of the panel, in m.
+    /// Returns the position in space of a point of the panel, both in m.
     #[must_use]
     pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let [x, z] = match self.wrap {
@@ -45,12 +46,13 @@ impl Placement {
             // The height of the arc is `r (cos(x/r) − 1)`, written without cancellation.
             Some(r) => [r * (x / r).sin(), -2.0 * r * (0.5 * x / r).sin().powi(2)],
         };
-        let row =
-            |k: usize| self.rotation[k][0] * x + self.rotation[k][1] * y + self.rotation[k][2] * z;
-        [0, 1, 2].map(|k| row(k) + self.translation[k])
+        [0, 1, 2].map(|k| {
+            let row = self.rotation[k];
+            row[0] * x + row[1] * y + row[2] * z + self.translation[k]
+        })
     }
 
-    /// Returns the place of the panel reflected in its y axis: half a turn about that axis.
+    /// Returns the placement of the panel reflected in its y axis: half a turn about that axis.
     pub(crate) fn turned_over(mut self) -> Self {
         for row in &mut self.rotation {
             row[0] = -row[0];
@@ -60,12 +62,12 @@ impl Placement {
         self
     }
 
-    /// Returns the place of a mirror image in the plane x = 0 of space.
+    /// Returns the placement of a mirror image in the plane x = 0 of space.
     pub(crate) fn mirrored(mut self) -> Self {
-        for (row, of_x) in self.rotation.iter_mut().zip([true, false, false]) {
+        for (row, is_x) in self.rotation.iter_mut().zip([true, false, false]) {
             for (column, number) in row.iter_mut().enumerate() {
                 // Both the frame and space are reflected in x.
-                if of_x != (column == 0) {
+                if is_x != (column == 0) {
                     *number = -*number;
                 }
             }
@@ -74,19 +76,21 @@ impl Placement {
         self
     }
 
-    /// Returns the rotations about x, then y, then z that [`Placement::new`] takes, in rad.
+    /// Returns the rotations about x, then y, then z that [`Placement::new`] takes as `angles`, in
+    /// rad.
     #[must_use]
     pub fn angles(&self) -> [f64; 3] {
         let r = &self.rotation;
         let cosine = r[0][0].hypot(r[1][0]);
         let y = (-r[2][0]).atan2(cosine);
         if cosine < 1e-9 {
-            // Rotations about x and z are one: all of it is taken as about x.
+            // Rotations about x and z have one axis. The whole rotation counts as about x.
             return [(-r[1][2]).atan2(r[1][1]), y, 0.0];
         }
         [r[2][1].atan2(r[2][2]), y, r[1][0].atan2(r[0][0])]
     }
 
+    /// Returns whether all numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let numbers = self.rotation.iter().flatten().chain(&self.translation).chain(&self.wrap);
         numbers.copied().all(f64::is_finite)

@@ -1,4 +1,4 @@
-//! Closed polyline of edges in a row, of an outline or of the hole of a dart.
+//! Closed polyline of edges in a row: of an outline or of the hole of a dart.
 
 use crate::edge::Edge;
 use crate::polygon::{contains, meeting, meeting_point, self_intersection};
@@ -14,11 +14,12 @@ pub(crate) struct Ring {
 /// Two edges, by their numbers, that have a point in common.
 pub(crate) struct Meeting {
     pub(crate) edges: [usize; 2],
-    /// Approximate place of the point.
+    /// Approximate point, in m.
     pub(crate) at: [f64; 2],
 }
 
 impl Ring {
+    /// Returns the ring of `edges`, which are in a row.
     pub(crate) fn new(edges: &[Edge]) -> Self {
         let mut ring = Self { corners: Vec::new(), edges: Vec::new() };
         for (number, edge) in edges.iter().enumerate() {
@@ -37,19 +38,19 @@ impl Ring {
         Some(Meeting { edges: sides.map(|side| self.edges[side]), at })
     }
 
-    /// Returns where the ring crosses or touches another one, whose edge comes second.
+    /// Returns where the ring crosses or touches `other`, whose edge comes second.
     pub(crate) fn meeting(&self, other: &Self) -> Option<Meeting> {
         let [first, second] = meeting(&self.corners, &other.corners)?;
         let at = meeting_point(self.side(first), other.side(second));
         Some(Meeting { edges: [self.edges[first], other.edges[second]], at })
     }
 
-    /// Returns whether another ring, which this one does not meet, lies inside.
+    /// Returns whether `other`, which this ring does not meet, lies inside.
     pub(crate) fn contains(&self, other: &Self) -> bool {
         other.corners.first().is_some_and(|corner| contains(&self.corners, *corner))
     }
 
-    /// Returns the ends of a side.
+    /// Returns the ends of the side with the number `number`.
     fn side(&self, number: usize) -> [[f64; 2]; 2] {
         [number, number + 1].map(|corner| self.corners[corner % self.corners.len()])
     }

@@ -1,20 +1,21 @@
 //! Chains of edges on the sides of seams, in the order in which their outlines run.
 //!
-//! A side of a seam is listed in the order in which the seam runs. Whether its edges are listed along
-//! their outlines or against them says nothing about how they are sewn: the seam runs from one end
-//! to the other, or back. A seam whose sides are both listed backwards is turned round, so that
-//! each edge begins where the one before it ends. Called by `pattern` on checked seams.
+//! A side of a seam is listed in the order in which the seam runs. The listing of edges along or
+//! against their outlines does not change how the edges are sewn: the seam runs from one end to the
+//! other, or back. A seam whose sides are both listed backwards is turned round, so that each edge
+//! begins where the edge before it ends. Called by `pattern` on checked seams.
 //!
-//! An edge begins where another one ends if both ends are one corner, or if other seams sew their
+//! An edge begins where another edge ends if both ends are one corner, or if other seams sew their
 //! corners together, as at the mouth of a dart or where two panels meet.
 
 use crate::panel::Panel;
 use crate::pattern::partition::Partition;
 use crate::pattern::seam::{EdgeId, Seam};
 
-/// Corners of the panels of a pattern, with those that seams join.
+/// Corners of the panels of a pattern, and which of them seams join.
 struct Corners {
-    /// Number of the first corner of each panel. Corner `k` of a panel is where its edge `k` begins.
+    /// Number of the first corner of each panel. Corner `k` of a panel is where its edge `k`
+    /// begins.
     first: Vec<usize>,
     joined: Partition,
 }
@@ -26,34 +27,34 @@ struct Listing {
     against: usize,
 }
 
-/// Turns the seams round whose sides are listed against the sense in which the seams run.
+/// Turns each of `seams` round whose sides are listed against the direction of the seam.
 pub(crate) fn turn_listings(panels: &[Panel], seams: &mut [Seam]) {
     let mut corners = Corners::new(panels);
-    let single = |seam: &Seam| seam.sides.iter().all(|side| side.len() == 1);
-    let mut left: Vec<usize> = Vec::new();
+    let mut undecided: Vec<usize> = Vec::new();
     for (number, seam) in seams.iter().enumerate() {
-        if single(seam) {
+        if seam.sides.iter().all(|side| side.len() == 1) {
             corners.join(panels, seam);
         } else {
-            left.push(number);
+            undecided.push(number);
         }
     }
-    // A seam whose sense is known joins corners, by which that of others may be known.
+
+    // A decided seam joins corners. These corners may decide further seams.
     loop {
-        let before = left.len();
-        left.retain(|&number| {
+        let before = undecided.len();
+        undecided.retain(|&number| {
             let seam = &mut seams[number];
             let listing = corners.listing(panels, seam);
-            let known = (listing.along > 0) != (listing.against > 0);
-            if known && listing.against > 0 {
+            let is_decided = (listing.along > 0) != (listing.against > 0);
+            if is_decided && listing.against > 0 {
                 seam.sides.iter_mut().for_each(|side| side.reverse());
             }
-            if known {
+            if is_decided {
                 corners.join(panels, seam);
             }
-            !known
+            !is_decided
         });
-        if left.len() == before {
+        if undecided.len() == before {
             break;
         }
     }
@@ -70,26 +71,27 @@ impl Corners {
         Self { first, joined: Partition::new(count) }
     }
 
-    /// Returns the corners at which an edge begins and ends on a side of a seam that runs along
-    /// outlines, or against them.
+    /// Returns the corners at which the edge `id` begins and ends on a side of a seam that runs
+    /// `along` outlines, or against them.
     fn ends(&self, panels: &[Panel], id: EdgeId, along: bool) -> [usize; 2] {
         let next = panels[id.panel].next_edge(id.edge);
         let ends = [id.edge, next].map(|corner| self.first[id.panel] + corner);
         if along { ends } else { [ends[1], ends[0]] }
     }
 
-    /// Joins the corners at the ends of the sides of a seam.
+    /// Joins the corners at the ends of both sides of `seam`.
     fn join(&mut self, panels: &[Panel], seam: &Seam) {
         let along = [true, seam.reversed];
         let ends = [0, 1].map(|side| {
             let ids = &seam.sides[side];
-            let of = |id: EdgeId| self.ends(panels, id, along[side]);
-            [of(ids[0])[0], of(ids[ids.len() - 1])[1]]
+            let [begin, _] = self.ends(panels, ids[0], along[side]);
+            let [_, end] = self.ends(panels, ids[ids.len() - 1], along[side]);
+            [begin, end]
         });
         (0..2).for_each(|end| self.joined.unite(ends[0][end], ends[1][end]));
     }
 
-    /// Returns how the sides of a seam are listed.
+    /// Counts the neighbours on both sides of `seam` that are listed along and against outlines.
     fn listing(&self, panels: &[Panel], seam: &Seam) -> Listing {
         let along = [true, seam.reversed];
         let mut listing = Listing::default();
@@ -98,10 +100,11 @@ impl Corners {
                 let [[begin, end], [next_begin, next_end]] = [pair[0], pair[1]]
                     .map(|id| self.ends(panels, id, along))
                     .map(|ends| ends.map(|corner| self.joined.root(corner)));
-                match (end == next_begin, next_end == begin) {
-                    (true, false) => listing.along += 1,
-                    (false, true) => listing.against += 1,
-                    _ => {}
+                let (follows, precedes) = (end == next_begin, next_end == begin);
+                if follows && !precedes {
+                    listing.along += 1;
+                } else if precedes && !follows {
+                    listing.against += 1;
                 }
             }
         }

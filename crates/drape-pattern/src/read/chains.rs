@@ -1,63 +1,74 @@
-//! Chains of edges whose ends meet: closed outlines of lines that were drawn apart.
+//! Chains of edges whose ends meet: closed outlines from lines that were drawn apart.
 
 use crate::edge::{Edge, distance};
 
 /// Distance between ends that count as one point, in m: the rounding of drawings.
 const MEET: f64 = 1e-4;
 
-/// Largest number of chains that are tried against each other.
-const MOST: usize = 5000;
+/// Largest number of chains that are compared with each other.
+const MOST_CHAINS: usize = 5000;
 
-/// Joins chains whose ends meet, takes out those that close, and returns them.
+/// Joins `chains` whose ends meet. Returns the chains that close, and leaves the others in
+/// `chains`.
 pub(crate) fn joined(chains: &mut Vec<Vec<Edge>>) -> Vec<Vec<Edge>> {
     chains.retain(|chain| !chain.is_empty());
     let mut closed = Vec::new();
-    if chains.len() > MOST {
+    if chains.len() > MOST_CHAINS {
         return closed;
     }
+
+    // The stack has the first chain on top, so that chains keep their order.
     let mut open: Vec<Vec<Edge>> = Vec::new();
-    let mut left = std::mem::take(chains);
-    left.reverse();
-    while let Some(mut chain) = left.pop() {
+    let mut remaining = std::mem::take(chains);
+    remaining.reverse();
+    while let Some(mut chain) = remaining.pop() {
         loop {
-            let (start, end) = (chain[0].start, chain[chain.len() - 1].end);
-            let long = chain.len() > 1;
-            if long && distance(start, end) <= MEET {
+            let [start, end] = ends(&chain);
+            if chain.len() > 1 && distance(start, end) <= MEET {
                 closed.push(shut(chain));
                 break;
             }
-            let meets = |other: &Vec<Edge>| {
-                let (from, to) = (other[0].start, other[other.len() - 1].end);
-                [from, to].iter().any(|p| distance(end, *p) <= MEET || distance(start, *p) <= MEET)
-            };
-            let Some(number) = left.iter().rposition(meets) else {
+            let next = remaining.iter().rposition(|candidate| {
+                let mut ends = ends(candidate).into_iter();
+                ends.any(|p| distance(end, p) <= MEET || distance(start, p) <= MEET)
+            });
+            let Some(number) = next else {
                 open.push(chain);
                 break;
             };
-            let other = left.remove(number);
-            let (from, to) = (other[0].start, other[other.len() - 1].end);
-            let flipped = || other.iter().rev().map(Edge::reversed).collect::<Vec<Edge>>();
-            let before = |mut first: Vec<Edge>, then: Vec<Edge>| {
-                first.extend(then);
-                first
-            };
-            chain = if distance(end, from) <= MEET {
-                before(chain, other)
-            } else if distance(end, to) <= MEET {
-                let other = flipped();
-                before(chain, other)
-            } else if distance(start, to) <= MEET {
-                before(other, chain)
-            } else {
-                before(flipped(), chain)
-            };
+            chain = appended(chain, remaining.remove(number));
         }
     }
     *chains = open;
     closed
 }
 
-/// Returns a closed chain whose edges begin exactly where those before them end.
+/// Returns the first and the last point of `chain`, which has edges.
+fn ends(chain: &[Edge]) -> [[f64; 2]; 2] {
+    [chain[0].start, chain[chain.len() - 1].end]
+}
+
+/// Returns one chain of two whose ends meet: `added` is put behind or before `chain`, reversed if
+/// necessary.
+fn appended(chain: Vec<Edge>, added: Vec<Edge>) -> Vec<Edge> {
+    let ([start, end], [from, to]) = (ends(&chain), ends(&added));
+    if distance(end, from) <= MEET {
+        [chain, added].concat()
+    } else if distance(end, to) <= MEET {
+        [chain, reversed(&added)].concat()
+    } else if distance(start, to) <= MEET {
+        [added, chain].concat()
+    } else {
+        [reversed(&added), chain].concat()
+    }
+}
+
+/// Returns `chain` in the opposite direction.
+fn reversed(chain: &[Edge]) -> Vec<Edge> {
+    chain.iter().rev().map(Edge::reversed).collect()
+}
+
+/// Returns the closed chain `chain` with edges that begin exactly where the edges before them end.
 fn shut(mut chain: Vec<Edge>) -> Vec<Edge> {
     for k in 0..chain.len() {
         let end = chain[(k + chain.len() - 1) % chain.len()].end;

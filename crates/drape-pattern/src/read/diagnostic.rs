@@ -1,4 +1,4 @@
-//! Answers to mistakes in files, shared by the readers.
+//! Diagnostics of mistakes in files, shared by the readers.
 
 mod foreign;
 
@@ -6,9 +6,9 @@ use drape_input::{Diagnostic, Document};
 
 use crate::mistake::Mistake;
 
-pub(crate) use foreign::foreign;
+pub(crate) use foreign::foreign_file;
 
-/// Returns the answer to a mistake of grammar or type in JSON.
+/// Returns the diagnostic of `error`, a mistake of grammar or type in the JSON of `document`.
 pub(crate) fn syntax(document: &Document, error: &serde_json::Error) -> Diagnostic {
     let text = error.to_string();
     let message = text.split(" at line ").next().unwrap_or(&text);
@@ -17,7 +17,7 @@ pub(crate) fn syntax(document: &Document, error: &serde_json::Error) -> Diagnost
     diagnostic
 }
 
-/// Returns the answer to a mistake of a pattern in a file.
+/// Returns the diagnostic of `mistake`, a mistake of the pattern in `document`, without a line.
 pub(crate) fn diagnostic(document: &Document, mistake: &Mistake) -> Diagnostic {
     mistake.diagnostic(document.path())
 }

@@ -1,11 +1,11 @@
 //! Reader of DXF as pattern makers' programs write it: AAMA-292 and ASTM D6673.
 //!
-//! Every piece is a block; the layer says what a line is: 1 the cut line, 14 the sewing line, 2
+//! Every piece is a block. The layer says what a line is: 1 the cut line, 14 the sewing line, 2
 //! corners, 3 points of curves, 4 and 80 to 83 notches, 6 a fold, 7 the grain line, 8 lines inside,
-//! 11 cut-outs, 13 drill holes; texts name the piece, its size, and the unit. `pairs` splits the
-//! file, `entities` makes blocks of it, `piece` a panel of a block, `slit` notches of slits in a
-//! line. The reader is the project's own: the `dxf` crate brings a tree of packages for whole
-//! drawings, and keeps no lines for the answers.
+//! 11 cut-outs, 13 drill holes. Texts name the piece, its size, and the unit. `pairs` splits the
+//! file, `entities` collects its blocks, `piece` makes a panel of a block, `slit` makes notches of
+//! slits in a line. The reader is written here because the `dxf` crate brings a tree of packages
+//! for whole drawings, and keeps no line numbers for diagnostics.
 
 mod entities;
 mod pairs;
@@ -23,15 +23,17 @@ use super::fit::CHORDS;
 use super::request::Request;
 use super::size::Doubt;
 use super::unit::Unit;
-use crate::edge::Edge;
-use crate::note::Note;
+use crate::edge::control_extent;
+use crate::note::PatternNote;
 use crate::pattern::Pattern;
 use crate::sketch::Sketch;
 
-/// Distances within which programs let chords follow a curve, in m; others are another quantity.
+/// Distances within which programs let chords follow a curve, in m. Other numbers are another
+/// quantity.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-5..=1e-3;
 
-/// Returns the pattern of a file.
+/// Returns the pattern of `document`, and adds its lines to `sketch`. `request` may state the unit
+/// and the size.
 pub(crate) fn read(
     document: &Document,
     request: &Request,
@@ -45,10 +47,12 @@ pub(crate) fn read(
     if pieces.is_empty() {
         return Err(no_piece(document, &contents));
     }
+
     let (unit, taken) = unit(document, &contents, request, &pieces)?;
     let mut notes = vec![taken];
-    let (pieces, taken) = of_size(document, &contents, request, pieces)?;
+    let (pieces, taken) = pieces_of_size(document, &contents, request, pieces)?;
     notes.extend(taken);
+
     let tolerance = tolerance(&contents, unit);
     let mut reader = Reader { document, sketch, unit, tolerance, mistakes: Vec::new(), notes };
     let mut panels = Vec::new();
@@ -57,13 +61,15 @@ pub(crate) fn read(
     }
     let Reader { mistakes, mut notes, .. } = reader;
     Diagnostics::check(mistakes)?;
-    if let Some(doubt) = Doubt::of_drawing(&panels, unit.metres()) {
+
+    if let Some(doubt) = Doubt::for_drawing(&panels, unit.metres()) {
         match request.unit {
             Some(_) => notes.push(doubt.note()),
             None => return Err(doubt.question(document, request, unit.word()).into()),
         }
     }
-    notes.push(Note::NoSeams { format: "DXF" });
+
+    notes.push(PatternNote::NoSeams { format: "DXF" });
     match Pattern::new(panels, Vec::new()) {
         Ok(pattern) => Ok(pattern.with_notes(notes)),
         Err(all) => Err(Diagnostics(
@@ -72,7 +78,7 @@ pub(crate) fn read(
     }
 }
 
-/// Returns whether a block has an outline of a piece.
+/// Returns whether `block` has an outline of a piece.
 fn is_piece(block: &Block) -> bool {
     block.entities.iter().any(|entity| {
         matches!(layer(&entity.layer), Some(1 | 14))
@@ -80,30 +86,31 @@ fn is_piece(block: &Block) -> bool {
     })
 }
 
-/// Returns the mistake of a file without pieces.
+/// Returns the mistake that `document` with `contents` has no piece.
 fn no_piece(document: &Document, contents: &Contents) -> Diagnostics {
     let all = contents.blocks.iter().chain([&contents.loose]).flat_map(|block| &block.entities);
     let layers: BTreeSet<&str> = all.map(|entity| entity.layer.as_str()).collect();
     let layers: Vec<&str> = layers.into_iter().take(20).collect();
-    let message = match layers.is_empty() {
-        true => "the file has no lines".to_owned(),
-        false => format!(
+    let message = if layers.is_empty() {
+        "the file has no lines".to_owned()
+    } else {
+        format!(
             "no line is on layer 1 (cut line) or 14 (sewing line); the layers are: {}",
             layers.join(", ")
-        ),
+        )
     };
     let help = "export the pattern as DXF-AAMA or DXF-ASTM, or put outlines on layer 1";
     Diagnostic::new(document.path(), message).help(help).into()
 }
 
-/// Returns the value of a text anywhere in a file.
+/// Returns the value of the text `key` anywhere in a file.
 fn field_of_file(contents: &Contents, key: &str) -> Option<String> {
     let blocks = [&contents.loose].into_iter().chain(&contents.blocks);
     blocks.into_iter().find_map(|block| field(block, key))
 }
 
-/// Returns the distance within which the chords of a file follow its curves, in m: what the file
-/// states, or what is usual.
+/// Returns the distance within which the chords of a file follow its curves, in m: the distance
+/// that the file states, or a usual distance.
 fn tolerance(contents: &Contents, unit: Unit) -> f64 {
     let text = ["curve tolerance", "tolerance"].iter();
     let text = text.filter_map(|key| field_of_file(contents, key)).next();
@@ -112,19 +119,18 @@ fn tolerance(contents: &Contents, unit: Unit) -> f64 {
     metres.filter(|metres| TOLERANCES.contains(metres)).unwrap_or(CHORDS)
 }
 
-/// Returns the unit of a file, with a note on why.
+/// Returns the unit of a file with the pieces `pieces`, with a note on the reason.
 fn unit(
     document: &Document,
     contents: &Contents,
     request: &Request,
     pieces: &[&Block],
-) -> Result<(Unit, Note), Diagnostics> {
-    let taken = |unit: Unit, reason: String| {
-        (unit, Note::Taken { taken: format!("lengths are in {}", unit.word()), reason })
-    };
+) -> Result<(Unit, PatternNote), Diagnostics> {
     if let Some(unit) = request.unit {
-        return Ok(taken(unit, "it is asked for".into()));
+        return Ok((unit, unit_note(unit, "it is asked for".into())));
     }
+
+    // The text of a piece is more reliable than the header, which many programs leave as it is.
     let text = field_of_file(contents, "units");
     let word = text.clone().unwrap_or_default().to_ascii_uppercase();
     let by_text = match word.as_str() {
@@ -134,8 +140,10 @@ fn unit(
         _ => None,
     };
     if let Some(unit) = by_text {
-        return Ok(taken(unit, format!("its text says \"Units: {}\"", text.unwrap_or_default())));
+        let reason = format!("its text says \"Units: {}\"", text.unwrap_or_default());
+        return Ok((unit, unit_note(unit, reason)));
     }
+
     let by_header = match contents.insunits {
         Some(1) => Some(Unit::INCH),
         Some(4) => Some(Unit::MM),
@@ -144,8 +152,21 @@ fn unit(
         _ => None,
     };
     if let (Some(unit), Some(number)) = (by_header, contents.insunits) {
-        return Ok(taken(unit, format!("its header says $INSUNITS {number}")));
+        let reason = format!("its header says $INSUNITS {number}");
+        return Ok((unit, unit_note(unit, reason)));
     }
+
+    Err(unknown_unit(document, pieces))
+}
+
+/// Returns the note that lengths are in `unit`, for `reason`.
+fn unit_note(unit: Unit, reason: String) -> PatternNote {
+    PatternNote::Taken { taken: format!("lengths are in {}", unit.word()), reason }
+}
+
+/// Returns the question for the unit of `document`, with the size of the largest of `pieces` in
+/// each.
+fn unknown_unit(document: &Document, pieces: &[&Block]) -> Diagnostics {
     let largest = pieces.iter().map(|block| (extent(block), block.name.as_str()));
     let (size, name) = largest.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, ""));
     let message = format!(
@@ -159,38 +180,33 @@ fn unit(
         "say it: drape convert {} --unit mm (or cm, in), or unit = \"mm\" in the [from] of a pattern",
         document.path().display()
     );
-    Err(Diagnostic::new(document.path(), message).help(help).into())
+    Diagnostic::new(document.path(), message).help(help).into()
 }
 
-/// Larger side of the bounding box of a piece, in the unit of the file.
+/// Larger side of the bounding box of `block`, in the unit of the file.
 fn extent(block: &Block) -> f64 {
     let chains = block.entities.iter().filter_map(|entity| match &entity.form {
         Form::Chain(edges) => Some(edges),
         _ => None,
     });
-    let numbers: Vec<f64> = chains.flatten().flat_map(Edge::coordinates).collect();
-    let side = |axis: usize| {
-        let all = numbers.iter().skip(axis).step_by(2).copied();
-        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
-    };
-    if numbers.is_empty() { 0.0 } else { side(0).max(side(1)) }
+    control_extent(chains.flatten())
 }
 
-/// Returns the pieces of one size: the one that is asked for, or the sample size, or the only one;
-/// with a note on a choice.
-fn of_size<'a>(
+/// Returns the members of `pieces` with one size: the size that `request` asks for, or the sample
+/// size, or the only size. A choice comes with a note.
+fn pieces_of_size<'a>(
     document: &Document,
     contents: &Contents,
     request: &Request,
     pieces: Vec<&'a Block>,
-) -> Result<(Vec<&'a Block>, Option<Note>), Diagnostics> {
-    let size = |block: &Block| field(block, "size");
-    let sizes: BTreeSet<String> = pieces.iter().filter_map(|block| size(block)).collect();
+) -> Result<(Vec<&'a Block>, Option<PatternNote>), Diagnostics> {
+    let sizes: BTreeSet<String> = pieces.iter().filter_map(|block| field(block, "size")).collect();
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     for piece in &pieces {
         *counts.entry(piece::name(piece)).or_default() += 1;
     }
-    let graded = sizes.len() > 1 && counts.values().any(|count| *count > 1);
+    let is_graded = sizes.len() > 1 && counts.values().any(|count| *count > 1);
+
     let sample = field_of_file(contents, "sample size");
     let list = sizes.iter().cloned().collect::<Vec<_>>().join(", ");
     let mut note = None;
@@ -207,10 +223,10 @@ fn of_size<'a>(
             }
             wanted.clone()
         }
-        (None, _) if !graded => return Ok((pieces, None)),
+        (None, _) if !is_graded => return Ok((pieces, None)),
         (None, Some(sample)) if sizes.contains(&sample) => {
             let taken = format!("the size is {sample} of {list}");
-            note = Some(Note::Taken { taken, reason: "it is the sample size".into() });
+            note = Some(PatternNote::Taken { taken, reason: "it is the sample size".into() });
             sample
         }
         (None, _) => {
@@ -223,6 +239,9 @@ fn of_size<'a>(
             return Err(Diagnostic::new(document.path(), message).help(help).into());
         }
     };
-    let fits = |block: &&Block| size(block).is_none_or(|size| size == wanted);
-    Ok((pieces.into_iter().filter(fits).collect(), note))
+
+    // Pieces without a size belong to every size.
+    let chosen =
+        pieces.into_iter().filter(|block| field(block, "size").is_none_or(|size| size == wanted));
+    Ok((chosen.collect(), note))
 }

@@ -1,51 +1,52 @@
-//! Curves through points: Bézier curves of degree three for the polylines that programs write for
-//! them.
+//! Curves through points: cubic Bézier curves in place of the polylines that programs write for
+//! curves.
 //!
 //! Between its ends `$p_0$`, `$p_3$` the curve `$(1-t)^3 p_0 + 3t(1-t)^2 p_1 + 3t^2(1-t) p_2 + t^3
-//! p_3$` has the control points of the least squares of its distances from the points; their
-//! parameters begin as fractions of the length of the chords and are moved to the nearest points of
-//! the curve \[Sch90\]. A run that one curve does not fit is halved.
+//! p_3$` has control points that minimise the sum of squares of its distances from the points. The
+//! parameters of the points begin as fractions of the length of the chords, and are moved to the
+//! nearest points of the curve \[Sch90\]. A run that one curve does not fit is halved.
 //!
-//! A curve fits if it passes the points, and if it stays near the chords between them: a program
-//! writes more points where a curve bends more, so that its chords are within a tolerance of it.
-//! Between points that are far apart a curve would bulge. A chord that is much longer than those
-//! beside it is a straight part, and a sharp turn is a corner.
+//! A curve fits if it passes the points, and if it stays near the chords between them. A program
+//! writes more points where a curve bends more, so that its chords are within a tolerance of it. A
+//! curve would bulge between points that are far apart. A chord that is much longer than its
+//! neighbours is a straight part, and a sharp turn is a corner.
 
-use crate::edge::{Curve, Edge, difference, distance};
+use crate::edge::{Curve, Edge, difference, distance, turning_angle};
 
 /// Largest distance of a point from the curve, in m.
 pub(crate) const TOLERANCE: f64 = 5e-5;
 
-/// Largest distance of a curve from the chords between its points where the file states none, in m.
+/// Largest distance of a curve from the chords between its points if the file states none, in m.
 pub(crate) const CHORDS: f64 = 2e-4;
 
-/// Ratio of the length of a chord to the lengths of those beside it above which it is a straight
-/// part. Points that follow one tolerance are at most twice as far apart as their neighbours, but
-/// where the curvature jumps.
+/// Ratio of the length of a chord to the lengths of its neighbours above which it is a straight
+/// part. Points that follow one tolerance are at most twice as far apart as their neighbours,
+/// except where the curvature jumps.
 const LONG: f64 = 3.0;
 
-/// Angle between two chords from which on their point is a corner, in rad: 20°.
+/// Angle between two chords above which their point is a corner, in rad: 20°.
 pub(crate) const TURN: f64 = 0.35;
 
-/// Largest number of times that the parameters are moved; the gain of a round below which they are
-/// not.
+/// Largest number of times that the parameters are moved.
 const ROUNDS: usize = 100;
+
+/// Ratio of the errors after and before a round above which no further round is tried.
 const GAIN: f64 = 0.99;
 
-/// Number of times that the point of a curve nearest to the middle of a chord is improved.
+/// Number of Newton steps towards the point of a curve nearest to the middle of a chord.
 const STEPS: usize = 4;
 
-/// Edges for the chords between points, with their largest distances from them, in m.
+/// Edges in place of the chords between points, with their largest distances from both, in m.
 #[derive(Debug, Default)]
 pub(crate) struct Fit {
     pub(crate) edges: Vec<Edge>,
-    /// From the points.
+    /// Largest distance from the points.
     pub(crate) from_points: f64,
-    /// From the chords.
+    /// Largest distance from the chords.
     pub(crate) from_chords: f64,
 }
 
-/// Edge for some chords, with its largest distances from points and chords, in m.
+/// Edge in place of some chords, with its largest distances from points and chords, in m.
 struct Piece {
     edge: Edge,
     from_points: f64,
@@ -54,21 +55,21 @@ struct Piece {
 
 /// Reason why one edge does not fit some points.
 enum Misfit {
-    /// It leaves the points.
+    /// The edge leaves the points.
     Points,
-    /// It leaves the chord of this number, from 0, more than others.
+    /// The edge leaves the chord with this number, from 0, more than other chords.
     Chord(usize),
 }
 
-/// Returns edges from the first to the last of some points that pass all of them, and leave the
-/// chords between them by no more than a distance, in m.
-pub(crate) fn fitted(points: &[[f64; 2]], chords: f64) -> Fit {
+/// Returns edges from the first to the last of `points` that pass all of them, and leave the chords
+/// between them by no more than `tolerance`, in m.
+pub(crate) fn fitted(points: &[[f64; 2]], tolerance: f64) -> Fit {
     let mut fit = Fit::default();
     for part in parts(points) {
-        // Where one chord bulges, it is taken out; where a curve is too long, it is halved. Which of
-        // both is wrong shows in the number of edges.
-        let ways = [true, false].map(|takes_out| pieces(part, chords, takes_out));
-        let fewer = ways.into_iter().min_by_key(Vec::len).unwrap_or_default();
+        // If one chord bulges, taking it out needs fewer edges. If a curve is too long, halving
+        // does.
+        let trials = [true, false].map(|takes_out| pieces(part, tolerance, takes_out));
+        let fewer = trials.into_iter().min_by_key(Vec::len).unwrap_or_default();
         for piece in fewer {
             fit.from_points = fit.from_points.max(piece.from_points);
             fit.from_chords = fit.from_chords.max(piece.from_chords);
@@ -78,44 +79,39 @@ pub(crate) fn fitted(points: &[[f64; 2]], chords: f64) -> Fit {
     fit
 }
 
-/// Returns the edges for the chords of a part. One that leaves a chord is divided at the chord, or
-/// halved.
-fn pieces(part: &[[f64; 2]], chords: f64, takes_out: bool) -> Vec<Piece> {
+/// Returns the edges for the chords of `part`, within `tolerance`, in m. A run whose edge leaves a
+/// chord is divided at the chord if `takes_out`. Any other run that does not fit is halved.
+fn pieces(part: &[[f64; 2]], tolerance: f64, takes_out: bool) -> Vec<Piece> {
     let mut pieces = Vec::new();
-    let mut left = vec![part];
-    while let Some(run) = left.pop() {
-        match one(run, chords) {
+    let mut runs = vec![part];
+    while let Some(run) = runs.pop() {
+        match piece(run, tolerance) {
             Ok(piece) => pieces.push(piece),
             Err(Misfit::Chord(k)) if takes_out => {
                 let three = [&run[k + 1..], &run[k..=k + 1], &run[..=k]];
-                left.extend(three.into_iter().filter(|run| run.len() > 1));
+                runs.extend(three.into_iter().filter(|run| run.len() > 1));
             }
             Err(_) => {
                 let (first, second) = (&run[..=run.len() / 2], &run[run.len() / 2..]);
-                left.extend([second, first]);
+                runs.extend([second, first]);
             }
         }
     }
     pieces
 }
 
-/// Returns the parts of a run of points between its corners and its straight parts. Each begins at
-/// the last point of the one before it.
+/// Returns the parts of `points` between corners and straight parts. Each begins at the last point
+/// of the part before it.
 fn parts(points: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
+    let chords: Vec<[f64; 2]> =
+        points.windows(2).map(|pair| difference(pair[1], pair[0])).collect();
     let lengths: Vec<f64> = points.windows(2).map(|pair| distance(pair[0], pair[1])).collect();
-    let is_long = |k: usize| {
-        let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-        let mut beside = beside.filter_map(|k| lengths.get(k)).peekable();
-        beside.peek().is_some() && beside.all(|length| lengths[k] > LONG * length)
-    };
-    let is_corner = |k: usize| {
-        let (a, b) = (difference(points[k], points[k - 1]), difference(points[k + 1], points[k]));
-        (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs() > TURN
-    };
+
     let mut parts = Vec::new();
     let mut start = 0;
     for k in 1..lengths.len() {
-        if is_corner(k) || is_long(k - 1) || is_long(k) {
+        let is_corner = turning_angle(chords[k - 1], chords[k]).abs() > TURN;
+        if is_corner || is_long(&lengths, k - 1) || is_long(&lengths, k) {
             parts.push(&points[start..=k]);
             start = k;
         }
@@ -124,70 +120,114 @@ fn parts(points: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
     parts
 }
 
-/// Returns one edge that passes two or more points and stays within a distance, in m, of the chords
-/// between them.
-fn one(points: &[[f64; 2]], chords: f64) -> Result<Piece, Misfit> {
+/// Returns whether the chord `k` of chords with `lengths` is much longer than its neighbours.
+fn is_long(lengths: &[f64], k: usize) -> bool {
+    let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+    let mut beside = neighbours.filter_map(|k| lengths.get(k)).peekable();
+    beside.peek().is_some() && beside.all(|length| lengths[k] > LONG * length)
+}
+
+/// Returns one edge that passes `points`, two or more, and stays within `tolerance`, in m, of the
+/// chords between them.
+fn piece(points: &[[f64; 2]], tolerance: f64) -> Result<Piece, Misfit> {
     let (start, end) = (points[0], points[points.len() - 1]);
-    let line = Edge::line("", start, end);
-    let chord = difference(end, start);
-    let size = chord[0].hypot(chord[1]);
-    let off = |p: &[f64; 2]| {
-        let arm = difference(*p, start);
-        ((arm[1] * chord[0] - arm[0] * chord[1]) / size).abs()
-    };
-    let is_beside = |p: &[f64; 2]| {
-        let arm = difference(*p, start);
-        let along = (arm[0] * chord[0] + arm[1] * chord[1]) / size;
-        off(p) <= 0.2 * TOLERANCE && (-TOLERANCE..=size + TOLERANCE).contains(&along)
-    };
-    if points.len() < 3 || points.iter().all(is_beside) {
-        let off = if points.len() < 3 { 0.0 } else { points.iter().map(off).fold(0.0, f64::max) };
-        return Ok(Piece { edge: line, from_points: off, from_chords: off });
+    if points.len() < 3 {
+        return Ok(Piece { edge: Edge::line("", start, end), from_points: 0.0, from_chords: 0.0 });
     }
+    if let Some(piece) = straight_piece(points) {
+        return Ok(piece);
+    }
+
+    // The parameters begin as fractions of the length of the polyline.
     let mut sums = vec![0.0];
     for pair in points.windows(2) {
         sums.push(sums[sums.len() - 1] + distance(pair[0], pair[1]));
     }
     let total = sums[sums.len() - 1];
-    let mut parameters: Vec<f64> = sums.iter().map(|sum| sum / total).collect();
-    if let [_, middle, _] = points {
-        let t = parameters[1];
-        let weights = [(1.0 - t) * (1.0 - t), t * t, 2.0 * t * (1.0 - t)];
-        let control =
-            [0, 1].map(|k| (middle[k] - weights[0] * start[k] - weights[1] * end[k]) / weights[2]);
-        // The same curve as one of degree three.
-        let towards = |p: [f64; 2]| [0, 1].map(|k| p[k] + 2.0 / 3.0 * (control[k] - p[k]));
-        let all = [start, towards(start), towards(end), end];
-        let edge = line.curved(Curve::Quadratic(control));
-        let from_chords = within_chords(&all, points, &parameters, chords)?;
-        return Ok(Piece { edge, from_points: 0.0, from_chords });
+    let parameters: Vec<f64> = sums.iter().map(|sum| sum / total).collect();
+    match points {
+        [_, middle, _] => quadratic_piece([start, *middle, end], &parameters, tolerance),
+        _ => cubic_piece(points, parameters, tolerance),
     }
+}
+
+/// Returns the straight edge from the first to the last of `points`, if they lie on it.
+fn straight_piece(points: &[[f64; 2]]) -> Option<Piece> {
+    let (start, end) = (points[0], points[points.len() - 1]);
+    let chord = difference(end, start);
+    let size = chord[0].hypot(chord[1]);
+    let mut most: f64 = 0.0;
+    for p in points {
+        let arm = difference(*p, start);
+        let gap = ((arm[1] * chord[0] - arm[0] * chord[1]) / size).abs();
+        let along = (arm[0] * chord[0] + arm[1] * chord[1]) / size;
+        if !(gap <= 0.2 * TOLERANCE && (-TOLERANCE..=size + TOLERANCE).contains(&along)) {
+            return None;
+        }
+        most = most.max(gap);
+    }
+    Some(Piece { edge: Edge::line("", start, end), from_points: most, from_chords: most })
+}
+
+/// Returns the quadratic curve through three points at `parameters`, if it stays within
+/// `tolerance`, in m, of the chords.
+fn quadratic_piece(
+    points: [[f64; 2]; 3],
+    parameters: &[f64],
+    tolerance: f64,
+) -> Result<Piece, Misfit> {
+    let [start, middle, end] = points;
+    let t = parameters[1];
+    let weights = [(1.0 - t) * (1.0 - t), t * t, 2.0 * t * (1.0 - t)];
+    let control =
+        [0, 1].map(|k| (middle[k] - weights[0] * start[k] - weights[1] * end[k]) / weights[2]);
+
+    // The distances are measured on the cubic curve that is equal to it.
+    let [first, second] =
+        [start, end].map(|p| [0, 1].map(|k| p[k] + 2.0 / 3.0 * (control[k] - p[k])));
+    let from_chords = within_chords(&[start, first, second, end], &points, parameters, tolerance)?;
+    let edge = Edge::line("", start, end).curved(Curve::Quadratic(control));
+    Ok(Piece { edge, from_points: 0.0, from_chords })
+}
+
+/// Returns the cubic curve that passes `points` within [`TOLERANCE`] and stays within `tolerance`,
+/// in m, of the chords. `parameters` are first values of the parameters of the points.
+fn cubic_piece(
+    points: &[[f64; 2]],
+    mut parameters: Vec<f64>,
+    tolerance: f64,
+) -> Result<Piece, Misfit> {
+    let (start, end) = (points[0], points[points.len() - 1]);
     let mut last = f64::INFINITY;
     for _ in 0..ROUNDS {
         let controls = controls(points, &parameters).ok_or(Misfit::Points)?;
-        let all = [start, controls[0], controls[1], end];
-        let worst = points.iter().zip(&parameters).map(|(p, t)| distance(*p, at(&all, *t)));
-        let from_points = worst.fold(0.0, f64::max);
-        if from_points <= TOLERANCE.min(chords) {
-            let edge = line.curved(Curve::Cubic(controls));
-            let from_chords = within_chords(&all, points, &parameters, chords)?;
+        let curve = [start, controls[0], controls[1], end];
+        let distances = points.iter().zip(&parameters).map(|(p, t)| distance(*p, at(&curve, *t)));
+        let from_points = distances.fold(0.0, f64::max);
+        if from_points <= TOLERANCE.min(tolerance) {
+            let edge = Edge::line("", start, end).curved(Curve::Cubic(controls));
+            let from_chords = within_chords(&curve, points, &parameters, tolerance)?;
             return Ok(Piece { edge, from_points, from_chords });
         }
         if !(from_points < GAIN * last) {
             return Err(Misfit::Points);
         }
+
         last = from_points;
         for (point, t) in points.iter().zip(&mut parameters) {
-            *t = nearer(&all, *point, *t);
+            *t = nearer(&curve, *point, *t);
         }
     }
     Err(Misfit::Points)
 }
 
-/// Returns the largest distance of the middle of a chord from a curve, and of the curve from the
-/// chord, in m, if it is within a limit. The curve passes the points at some parameters.
+/// Returns the largest distance between a cubic curve and the chords of `points`, in m, if it is
+/// within `limit`. `curve` has the ends and control points, and passes `points` at `parameters`.
+///
+/// Both the distance of the middle of a chord from the curve and distances of the curve from the
+/// chord count.
 fn within_chords(
-    all: &[[f64; 2]; 4],
+    curve: &[[f64; 2]; 4],
     points: &[[f64; 2]],
     parameters: &[f64],
     limit: f64,
@@ -196,20 +236,20 @@ fn within_chords(
     for (k, (pair, t)) in points.windows(2).zip(parameters.windows(2)).enumerate() {
         let middle = [0, 1].map(|k| 0.5 * (pair[0][k] + pair[1][k]));
         let mut nearest = 0.5 * (t[0] + t[1]);
-        (0..STEPS).for_each(|_| nearest = nearer(all, middle, nearest));
+        (0..STEPS).for_each(|_| nearest = nearer(curve, middle, nearest));
         let beside = [0.25, 0.5, 0.75].map(|part| {
-            let point = at(all, t[0] + part * (t[1] - t[0]));
+            let point = at(curve, t[0] + part * (t[1] - t[0]));
             distance_from_segment(point, [pair[0], pair[1]])
         });
-        let off = beside.into_iter().fold(distance(middle, at(all, nearest)), f64::max);
-        if off > most {
-            (most, worst) = (off, k);
+        let gap = beside.into_iter().fold(distance(middle, at(curve, nearest)), f64::max);
+        if gap > most {
+            (most, worst) = (gap, k);
         }
     }
     if most <= limit { Ok(most) } else { Err(Misfit::Chord(worst)) }
 }
 
-/// Returns the distance of a point from a segment, in m.
+/// Returns the distance of `point` from the segment from `from` to `to`, in m.
 pub(crate) fn distance_from_segment(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
     let (chord, arm) = (difference(to, from), difference(point, from));
     let square = (chord[0] * chord[0] + chord[1] * chord[1]).max(f64::MIN_POSITIVE);
@@ -217,9 +257,11 @@ pub(crate) fn distance_from_segment(point: [f64; 2], [from, to]: [[f64; 2]; 2]) 
     distance(point, [from[0] + t * chord[0], from[1] + t * chord[1]])
 }
 
-/// Returns the control points of the least squares.
+/// Returns the two inner control points of the cubic curve from the first to the last of `points`
+/// with the least squares of distances at `parameters`; `None` if the points do not determine them.
 fn controls(points: &[[f64; 2]], parameters: &[f64]) -> Option<[[f64; 2]; 2]> {
     let (start, end) = (points[0], points[points.len() - 1]);
+    // Normal equations: `a` and `b` are the weights of the two control points.
     let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
     let (mut right_a, mut right_b) = ([0.0; 2], [0.0; 2]);
     for (point, &t) in points.iter().zip(parameters) {
@@ -234,6 +276,7 @@ fn controls(points: &[[f64; 2]], parameters: &[f64]) -> Option<[[f64; 2]; 2]> {
             right_b[k] += b * rest;
         }
     }
+
     let determinant = aa * bb - ab * ab;
     if !(determinant > 1e-9 * aa * bb) {
         return None;
@@ -243,21 +286,23 @@ fn controls(points: &[[f64; 2]], parameters: &[f64]) -> Option<[[f64; 2]; 2]> {
     Some([first, second])
 }
 
-/// Returns the point of a curve at a parameter.
-fn at(all: &[[f64; 2]; 4], t: f64) -> [f64; 2] {
+/// Returns the point at parameter `t` of the cubic curve with the points `curve`.
+fn at(curve: &[[f64; 2]; 4], t: f64) -> [f64; 2] {
     let s = 1.0 - t;
     let weights = [s * s * s, 3.0 * t * s * s, 3.0 * t * t * s, t * t * t];
-    [0, 1].map(|k| (0..4).map(|n| weights[n] * all[n][k]).sum())
+    [0, 1].map(|k| (0..4).map(|n| weights[n] * curve[n][k]).sum())
 }
 
-/// Returns a parameter whose point is nearer to a point: a step of Newton's method.
-fn nearer(all: &[[f64; 2]; 4], point: [f64; 2], t: f64) -> f64 {
+/// Returns a parameter whose point of `curve` is nearer to `point` than the point at `t`: a step of
+/// Newton's method.
+fn nearer(curve: &[[f64; 2]; 4], point: [f64; 2], t: f64) -> f64 {
     let s = 1.0 - t;
-    let arm = difference(at(all, t), point);
-    let leg = |n: usize| difference(all[n + 1], all[n]);
+    let arm = difference(at(curve, t), point);
+    let legs = [0, 1, 2].map(|n| difference(curve[n + 1], curve[n]));
     let first =
-        [0, 1].map(|k| 3.0 * (s * s * leg(0)[k] + 2.0 * s * t * leg(1)[k] + t * t * leg(2)[k]));
-    let second = [0, 1].map(|k| 6.0 * (s * (leg(1)[k] - leg(0)[k]) + t * (leg(2)[k] - leg(1)[k])));
+        [0, 1].map(|k| 3.0 * (s * s * legs[0][k] + 2.0 * s * t * legs[1][k] + t * t * legs[2][k]));
+    let second =
+        [0, 1].map(|k| 6.0 * (s * (legs[1][k] - legs[0][k]) + t * (legs[2][k] - legs[1][k])));
     let slope = first[0] * first[0] + first[1] * first[1] + arm[0] * second[0] + arm[1] * second[1];
     let step = (arm[0] * first[0] + arm[1] * first[1]) / slope;
     if step.is_finite() && slope > 0.0 { (t - step).clamp(0.0, 1.0) } else { t }

@@ -1,8 +1,8 @@
 //! Reader of drafts of FreeSewing, in JSON: parts with paths and named points, in mm, with y down.
 //!
-//! The outline of a part is its path `seam`, or else its largest closed path; a part without one is
-//! left out. Its edges are named by the points at their ends; of several points at one position the
-//! first by the alphabet counts. A part that is cut on the fold is unfolded.
+//! The outline of a part is its path `seam`, or else its largest closed path. A part without a
+//! closed path is left out. Edges are named by the points at their ends. Of several points at one
+//! position the first by the alphabet counts. A part that is cut on the fold is unfolded.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use super::diagnostic::{diagnostic, syntax};
 use super::marks::{add_notch, grain_of, says_on_fold, unfold};
 use super::size::{Doubt, wrong_size};
 use crate::edge::{Curve, Edge, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 use crate::sketch::Sketch;
@@ -29,31 +29,31 @@ const SAME: f64 = 1e-6;
 struct Draft {
     /// Parts by name, as scripts write them.
     #[serde(default)]
-    parts: BTreeMap<String, Part>,
-    /// What FreeSewing itself hands to programs that draw: stacks of parts.
+    parts: BTreeMap<String, DraftPart>,
+    /// Stacks of parts, as FreeSewing hands them to programs that draw.
     #[serde(default)]
-    stacks: BTreeMap<String, Stack>,
+    stacks: BTreeMap<String, DraftStack>,
 }
 
 #[derive(Deserialize)]
-struct Stack {
-    parts: Vec<Part>,
+struct DraftStack {
+    parts: Vec<DraftPart>,
 }
 
 #[derive(Deserialize)]
-struct Part {
+struct DraftPart {
     #[serde(default)]
     hidden: bool,
     #[serde(default)]
-    paths: BTreeMap<String, Path>,
+    paths: BTreeMap<String, DraftPath>,
     #[serde(default)]
-    points: BTreeMap<String, Point>,
+    points: BTreeMap<String, DraftPoint>,
     #[serde(default)]
     snippets: BTreeMap<String, Snippet>,
 }
 
 #[derive(Deserialize)]
-struct Path {
+struct DraftPath {
     ops: Vec<Operation>,
     hidden: Option<bool>,
     /// Whether older versions of FreeSewing draw it.
@@ -62,7 +62,7 @@ struct Path {
     attributes: Value,
 }
 
-/// Returns the values of an attribute in the attributes of what is drawn: classes, styles, texts.
+/// Returns the values of `key` in `attributes`, attributes of a path or a point.
 fn values<'a>(attributes: &'a Value, key: &str) -> Vec<&'a str> {
     match &attributes["list"][key] {
         Value::Array(all) => all.iter().filter_map(Value::as_str).collect(),
@@ -70,8 +70,8 @@ fn values<'a>(attributes: &'a Value, key: &str) -> Vec<&'a str> {
     }
 }
 
-impl Path {
-    /// Returns whether the draft shows it.
+impl DraftPath {
+    /// Returns whether the draft shows the path.
     fn is_shown(&self) -> bool {
         let values = |key: &str| values(&self.attributes, key);
         let classes = values("class").join(" ");
@@ -85,26 +85,40 @@ impl Path {
             || ["display:none", "visibility:hidden"].iter().any(|hidden| style.contains(hidden)))
     }
 
-    /// Returns the first and the last point.
+    /// Returns the first and the last point, in m.
     fn ends(&self) -> Option<[[f64; 2]; 2]> {
         let mut points = self.ops.iter().filter_map(|operation| operation.p.as_ref());
         Some([points.next()?.flipped(), points.next_back()?.flipped()])
     }
 }
 
-impl Part {
+impl DraftPart {
     /// Returns the texts that the draft shows along paths and at points.
     fn texts(&self) -> impl Iterator<Item = &str> {
         let along = self.paths.values().map(|path| &path.attributes);
-        let at = self.points.values().filter_map(Point::attributes);
+        let at = self.points.values().filter_map(DraftPoint::attributes);
         along.chain(at).flat_map(|attributes| values(attributes, "data-text"))
     }
 
-    /// Returns the ends of a path along which the draft says that the part is cut on the fold.
+    /// Returns the ends of a path along which the draft says that the part is cut on the fold, in
+    /// m.
     fn said_fold(&self) -> Option<[[f64; 2]; 2]> {
-        let says =
-            |path: &&Path| values(&path.attributes, "data-text").into_iter().any(says_on_fold);
-        self.paths.values().find(says)?.ends()
+        let mut paths = self.paths.values();
+        let path = paths
+            .find(|path| values(&path.attributes, "data-text").into_iter().any(says_on_fold))?;
+        path.ends()
+    }
+
+    /// Returns the ends of the line that the macro `name` draws, in m.
+    fn macro_line(&self, name: &str) -> Option<[[f64; 2]; 2]> {
+        let mut paths = self.paths.iter();
+        let (_, path) = paths.find(|(key, _)| key.starts_with(name) && key.ends_with("_line"))?;
+        path.ends()
+    }
+
+    /// Returns the points by their names, in m, with y up.
+    fn flipped_points(&self) -> Points {
+        self.points.iter().map(|(name, point)| (name.clone(), point.flipped())).collect()
     }
 }
 
@@ -113,21 +127,21 @@ struct Operation {
     #[serde(alias = "type")]
     t: String,
     #[serde(alias = "to")]
-    p: Option<Point>,
-    cp1: Option<Point>,
-    cp2: Option<Point>,
+    p: Option<DraftPoint>,
+    cp1: Option<DraftPoint>,
+    cp2: Option<DraftPoint>,
 }
 
 #[derive(Deserialize)]
 struct Snippet {
     #[serde(default)]
     def: String,
-    anchor: Option<Point>,
+    anchor: Option<DraftPoint>,
 }
 
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Point {
+enum DraftPoint {
     Pair([f64; 2]),
     Named {
         x: f64,
@@ -137,7 +151,7 @@ enum Point {
     },
 }
 
-impl Point {
+impl DraftPoint {
     /// Returns the point in the panel's frame, in m, with y up.
     fn flipped(&self) -> [f64; 2] {
         let [x, y] = match self {
@@ -147,7 +161,7 @@ impl Point {
         [UNIT * x, -UNIT * y]
     }
 
-    /// Returns its attributes, if it has some.
+    /// Returns the attributes of the point, if it has some.
     fn attributes(&self) -> Option<&Value> {
         match self {
             Self::Pair(_) => None,
@@ -164,18 +178,22 @@ struct Reader<'a> {
     document: &'a Document,
     sketch: &'a mut Sketch,
     mistakes: Vec<Diagnostic>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
+    /// Names of panels without a grainline.
     grainless: Vec<String>,
 }
 
-/// Returns the pattern of a draft. It has no seams: a draft does not say which edges are sewn.
+/// Returns the pattern of the draft `document`, and adds its lines to `sketch`. The pattern has no
+/// seams: a draft does not say which edges are sewn.
 pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, Diagnostics> {
     let draft: Draft = serde_json::from_str(document.text()).map_err(|error| {
         syntax(document, &error).help("a draft has parts with paths, of ops, and points")
     })?;
     let mut reader =
         Reader { document, sketch, mistakes: Vec::new(), notes: Vec::new(), grainless: Vec::new() };
-    let mut parts: Vec<(String, &Part)> =
+
+    // A stack with several parts gives them numbers.
+    let mut parts: Vec<(String, &DraftPart)> =
         draft.parts.iter().map(|(name, part)| (name.clone(), part)).collect();
     for (name, stack) in &draft.stacks {
         parts.extend(stack.parts.iter().enumerate().map(|(number, part)| match number {
@@ -186,20 +204,22 @@ pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, 
     let shown = parts.iter().filter(|(_, part)| !part.hidden);
     let panels: Vec<Panel> = shown.filter_map(|(name, part)| reader.panel(name, part)).collect();
     if panels.is_empty() && reader.mistakes.is_empty() {
-        let left: Vec<String> = reader.notes.iter().map(ToString::to_string).collect();
-        let message = match left.is_empty() {
-            true => "no part of the draft is shown".to_owned(),
-            false => format!("no part of the draft is a panel: {}", left.join("; ")),
+        let reasons: Vec<String> = reader.notes.iter().map(ToString::to_string).collect();
+        let message = if reasons.is_empty() {
+            "no part of the draft is shown".to_owned()
+        } else {
+            format!("no part of the draft is a panel: {}", reasons.join("; "))
         };
         let help = "draft it again, with parts whose outline is the path \"seam\"";
         reader.mistakes.push(Diagnostic::new(document.path(), message).help(help));
     }
+
     if !reader.grainless.is_empty() {
-        reader.notes.push(Note::NoGrain { panels: reader.grainless });
+        reader.notes.push(PatternNote::NoGrain { panels: reader.grainless });
     }
-    reader.notes.push(Note::NoSeams { format: "a FreeSewing draft" });
+    reader.notes.push(PatternNote::NoSeams { format: "a FreeSewing draft" });
     if reader.mistakes.is_empty() {
-        let doubt = Doubt::of_file(&panels, UNIT);
+        let doubt = Doubt::for_file(&panels, UNIT);
         reader.notes.extend(doubt.map(|doubt| doubt.note()));
         match Pattern::new(panels, Vec::new()) {
             Ok(pattern) => return Ok(pattern.with_notes(reader.notes)),
@@ -210,10 +230,9 @@ pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, 
 }
 
 impl Reader<'_> {
-    /// Returns the panel of a part, or a note on why it is none.
-    fn panel(&mut self, name: &str, part: &Part) -> Option<Panel> {
-        let points: Points =
-            part.points.iter().map(|(name, point)| (name.clone(), point.flipped())).collect();
+    /// Returns the panel of `part`, under the name `name`. Adds a note on a part that is no panel.
+    fn panel(&mut self, name: &str, part: &DraftPart) -> Option<Panel> {
+        let points = part.flipped_points();
         let (key, path) = self.outline(name, part)?;
         let mut edges = match edges(path, &points) {
             Ok(edges) => edges,
@@ -225,24 +244,22 @@ impl Reader<'_> {
                 return None;
             }
         };
-        let line = |word: &str| {
-            let mut all = part.paths.iter().filter(|(key, _)| key.starts_with(word));
-            all.find(|(key, _)| key.ends_with("_line"))?.1.ends()
-        };
+
         notches(&mut edges, part);
-        let fold = line("__macro_cutonfold").or_else(|| part.said_fold());
+        let fold = part.macro_line("__macro_cutonfold").or_else(|| part.said_fold());
         match fold.and_then(|fold| unfold(&mut edges, fold)) {
-            Some(edge) => self.notes.push(Note::Unfolded { panel: name.into(), edge }),
+            Some(edge) => self.notes.push(PatternNote::Unfolded { panel: name.into(), edge }),
             None => {
                 let text = part.texts().find(|text| says_on_fold(text));
                 let text = text.or(fold.map(|_| "cut on fold"));
-                let half = text.map(|text| Note::Half { panel: name.into(), text: text.into() });
-                self.notes.extend(half);
+                let panel = name.to_owned();
+                self.notes.extend(text.map(|text| PatternNote::Half { panel, text: text.into() }));
             }
         }
+
         // The fold lies along the grain where a draft shows no grainline.
-        let grain = line("__macro_grainline").or(fold).map(grain_of);
-        self.sketch.add(name, &edges);
+        let grain = part.macro_line("__macro_grainline").or(fold).map(grain_of);
+        self.sketch.add_outline(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
@@ -255,22 +272,23 @@ impl Reader<'_> {
         }
         self.mistakes.extend(wrong_size(&panel).map(|m| diagnostic(self.document, &m)));
         if panel.was_clockwise() {
-            self.notes.push(Note::Reversed { panel: name.into() });
+            self.notes.push(PatternNote::Reversed { panel: name.into() });
         }
         panel.with_grain(grain.unwrap_or_default()).ok()
     }
 
-    /// Returns the path that is the outline of a part: the one of the usual name, or else the
-    /// closed path round the largest area; a note if there is none.
-    fn outline<'p>(&mut self, name: &str, part: &'p Part) -> Option<(&'p str, &'p Path)> {
+    /// Returns the outline of the part `name` with its key: the path `seam`, or else the closed
+    /// path round the largest area. Adds a note if there is none.
+    fn outline<'p>(&mut self, name: &str, part: &'p DraftPart) -> Option<(&'p str, &'p DraftPath)> {
         if let Some((key, path)) = part.paths.get_key_value("seam")
             && path.is_shown()
         {
             return Some((key, path));
         }
+
         let closed = part.paths.iter().filter(|(key, path)| {
-            let last = path.ops.last().is_some_and(|op| kind(op) == "Z");
-            last && path.is_shown() && !key.starts_with("__") && !is_allowance(key)
+            let is_closed = path.ops.last().is_some_and(|operation| letter(operation) == "Z");
+            is_closed && path.is_shown() && !key.starts_with("__") && !is_allowance(key)
         });
         let areas = closed.filter_map(|(key, path)| {
             let edges = edges(path, &Points::new()).ok()?;
@@ -289,11 +307,12 @@ impl Reader<'_> {
                 } else {
                     format!("no closed path among {}", known.join(", "))
                 };
-                self.notes.push(Note::LeftOut { part: format!("part {name}"), reason });
+                self.notes.push(PatternNote::LeftOut { part: format!("part {name}"), reason });
                 return None;
             }
         };
-        self.notes.push(Note::Taken {
+
+        self.notes.push(PatternNote::Taken {
             taken: format!("panel {name}: its outline is the path \"{key}\""),
             reason: "there is no \"seam\", and it is the closed path round the largest area".into(),
         });
@@ -301,13 +320,13 @@ impl Reader<'_> {
     }
 }
 
-/// Returns whether a path is named as one of a seam allowance.
+/// Returns whether the path with the key `key` is named as a seam allowance.
 fn is_allowance(key: &str) -> bool {
     key == "sa" || key.starts_with("saBase") || key.ends_with("SA") || key.ends_with("Sa")
 }
 
-/// Returns the letter of an operation in SVG, however it is written.
-fn kind(operation: &Operation) -> &str {
+/// Returns the letter of `operation` in SVG, from its letter or its word.
+fn letter(operation: &Operation) -> &str {
     match operation.t.as_str() {
         "move" => "M",
         "line" => "L",
@@ -318,51 +337,43 @@ fn kind(operation: &Operation) -> &str {
     }
 }
 
-/// Puts the notches of a part on its edges.
-fn notches(edges: &mut [Edge], part: &Part) {
+/// Adds the notches of `part` to its `edges`.
+fn notches(edges: &mut [Edge], part: &DraftPart) {
     let all = part.snippets.values().filter(|snippet| snippet.def.ends_with("notch"));
     for at in all.filter_map(|snippet| Some(snippet.anchor.as_ref()?.flipped())) {
         add_notch(edges, at);
     }
 }
 
-/// Returns the edges of a path, or the number of the first operation that cannot belong to an
-/// outline.
-fn edges(path: &Path, points: &Points) -> Result<Vec<Edge>, usize> {
+/// Returns the edges of `path`, named by `points`.
+///
+/// # Errors
+/// The number of the first operation that cannot belong to an outline.
+fn edges(path: &DraftPath, points: &Points) -> Result<Vec<Edge>, usize> {
     let mut edges: Vec<Edge> = Vec::new();
+    // The first point and the current point.
     let mut ends: Option<([f64; 2], [f64; 2])> = None;
     let mut closed = false;
-    let mut push = |start: [f64; 2], end: [f64; 2], curve: Curve| {
-        // Drafts contain lines without length.
-        if distance(start, end) > SAME {
-            let mut name = format!("{}-{}", point_name(points, start), point_name(points, end));
-            let same = |e: &&Edge| e.name == name || e.name.starts_with(&format!("{name} "));
-            match edges.iter().filter(same).count() {
-                0 => {}
-                n => name = format!("{name} {}", n + 1),
-            }
-            edges.push(Edge::line(name, start, end).curved(curve));
-        }
-    };
     for (index, operation) in path.ops.iter().enumerate() {
         let Operation { p, cp1, cp2, .. } = operation;
-        let end = p.as_ref().map(Point::flipped);
-        match (kind(operation), ends, end) {
+        let end = p.as_ref().map(DraftPoint::flipped);
+        match (letter(operation), ends, end) {
             ("", ..) => {}
             _ if closed => return Err(index),
             ("M", None, Some(end)) => ends = Some((end, end)),
             ("L", Some((start, at)), Some(end)) => {
-                push(at, end, Curve::Line);
+                push(&mut edges, Edge::line(edge_name(points, at, end), at, end));
                 ends = Some((start, end));
             }
             ("C", Some((start, at)), Some(end)) => {
                 let [Some(first), Some(second)] = [cp1, cp2] else { return Err(index) };
-                let controls = [first, second].map(Point::flipped);
-                push(at, end, Curve::Cubic(controls));
+                let controls = [first, second].map(DraftPoint::flipped);
+                let line = Edge::line(edge_name(points, at, end), at, end);
+                push(&mut edges, line.curved(Curve::Cubic(controls)));
                 ends = Some((start, end));
             }
             ("Z", Some((start, at)), _) => {
-                push(at, start, Curve::Line);
+                push(&mut edges, Edge::line(edge_name(points, at, start), at, start));
                 closed = true;
             }
             _ => return Err(index),
@@ -371,11 +382,30 @@ fn edges(path: &Path, points: &Points) -> Result<Vec<Edge>, usize> {
     Ok(edges)
 }
 
-/// Returns the name of the point at a position: the first by the alphabet that a designer gave.
+/// Adds `edge` to `edges`, unless it has no length: drafts contain such lines. A name that an edge
+/// has already gets a number.
+fn push(edges: &mut Vec<Edge>, mut edge: Edge) {
+    if distance(edge.start, edge.end) <= SAME {
+        return;
+    }
+    let numbered = format!("{} ", edge.name);
+    let same = edges.iter().filter(|e| e.name == edge.name || e.name.starts_with(&numbered));
+    match same.count() {
+        0 => {}
+        count => edge.name = format!("{} {}", edge.name, count + 1),
+    }
+    edges.push(edge);
+}
+
+/// Returns the name of the edge from `start` to `end`: the names of both points.
+fn edge_name(points: &Points, start: [f64; 2], end: [f64; 2]) -> String {
+    format!("{}-{}", point_name(points, start), point_name(points, end))
+}
+
+/// Returns the name of the point at `at`: the first by the alphabet that a designer gave.
 fn point_name(points: &Points, at: [f64; 2]) -> String {
-    let here = |p: &[f64; 2]| distance(*p, at) < SAME;
-    let mut names: Vec<&String> =
-        points.iter().filter(|(_, p)| here(p)).map(|(name, _)| name).collect();
+    let here = points.iter().filter(|(_, p)| distance(**p, at) < SAME);
+    let mut names: Vec<&String> = here.map(|(name, _)| name).collect();
     // Points that FreeSewing adds itself come last.
     names.sort_by_key(|name| name.starts_with('_') || *name == "gridAnchor");
     match names.first() {

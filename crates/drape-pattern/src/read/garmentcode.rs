@@ -15,16 +15,18 @@ use super::diagnostic::{diagnostic, syntax};
 use super::size::{Doubt, wrong_size};
 use crate::ease::MAX_EASE;
 use crate::edge::{Curve, Edge};
-use crate::note::Note;
+use crate::mistake::Mistake;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::panel::placement::Placement;
 use crate::pattern::Pattern;
 use crate::pattern::seam::{EdgeId, Seam};
 use crate::sketch::Sketch;
 
+/// File, as its JSON states it.
 #[derive(Deserialize)]
-struct File {
-    pattern: PatternPart,
+struct Specification {
+    pattern: PatternObject,
     properties: Properties,
 }
 
@@ -36,8 +38,8 @@ struct Properties {
 }
 
 #[derive(Deserialize)]
-struct PatternPart {
-    panels: BTreeMap<String, PanelPart>,
+struct PatternObject {
+    panels: BTreeMap<String, PanelObject>,
     #[serde(default)]
     stitches: Vec<Vec<Value>>,
     #[serde(default)]
@@ -45,20 +47,20 @@ struct PatternPart {
 }
 
 #[derive(Deserialize)]
-struct PanelPart {
+struct PanelObject {
     vertices: Vec<[f64; 2]>,
-    edges: Vec<EdgePart>,
+    edges: Vec<EdgeObject>,
     translation: Option<[f64; 3]>,
     rotation: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
-struct EdgePart {
+struct EdgeObject {
     endpoints: [usize; 2],
     curvature: Option<Value>,
 }
 
-/// Fault of a curve of the file.
+/// Mistake of a curve of the file.
 struct CurveFault {
     message: String,
     help: &'static str,
@@ -69,26 +71,27 @@ struct Reader<'a> {
     document: &'a Document,
     sketch: &'a mut Sketch,
     mistakes: Vec<Diagnostic>,
-    notes: Vec<Note>,
+    notes: Vec<PatternNote>,
     /// Unit of lengths of the file, in m.
     metres: f64,
     /// Whether control points are absolute.
     absolute: bool,
 }
 
-/// Panels of the file with the order in which the pattern has them.
+/// Panels of the file, and their names in the order of the pattern.
 struct Panels<'a> {
-    file: &'a PatternPart,
+    file: &'a PatternObject,
     order: &'a [String],
 }
 
-/// Returns the pattern of a document in this format.
+/// Returns the pattern of `document`, and adds its lines to `sketch`.
 pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, Diagnostics> {
-    let file: File = serde_json::from_str(document.text()).map_err(|error| {
+    let file: Specification = serde_json::from_str(document.text()).map_err(|error| {
         let help = "a specification has pattern.panels with vertices and edges, pattern.stitches \
                     and properties.units_in_meter";
         syntax(document, &error).help(help)
     })?;
+
     let unit = file.properties.units_in_meter;
     let coords = file.properties.curvature_coords.as_deref();
     let mut reader = Reader {
@@ -99,6 +102,8 @@ pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, 
         metres: unit.recip(),
         absolute: coords == Some("absolute"),
     };
+
+    // The pattern is read in spite of a wrong unit, so that all mistakes are reported together.
     if !(1e-3..=1e6).contains(&unit) {
         let message = format!("properties.units_in_meter is {unit}");
         reader.fail(message, "100 for centimetres, 1000 for millimetres");
@@ -112,57 +117,65 @@ pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, 
 }
 
 impl Reader<'_> {
-    /// Adds a mistake.
+    /// Adds the mistake `message` with the remedy `help`.
     fn fail(&mut self, message: impl Into<String>, help: impl Into<String>) {
         self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
     }
 
-    /// Returns the pattern of the panels and the seams of the file.
-    fn pattern(mut self, mut file: PatternPart) -> Result<Pattern, Diagnostics> {
+    /// Adds `all`, mistakes of the pattern.
+    fn fail_all(&mut self, all: &[Mistake]) {
+        self.mistakes.extend(all.iter().map(|mistake| diagnostic(self.document, mistake)));
+    }
+
+    /// Returns the pattern of the panels and the seams of `file`.
+    fn pattern(mut self, mut file: PatternObject) -> Result<Pattern, Diagnostics> {
+        // Panels that the file does not order come last, by the alphabet.
         let mut order = Vec::new();
         for name in &file.panel_order {
-            match file.panels.contains_key(name) {
-                true if !order.contains(name) => order.push(name.clone()),
-                true => {}
-                false => self.no_panel("pattern.panel_order", name, &file),
+            if !file.panels.contains_key(name) {
+                self.fail_unknown_panel("pattern.panel_order", name, &file);
+            } else if !order.contains(name) {
+                order.push(name.clone());
             }
         }
         order.extend(file.panels.keys().filter(|k| !file.panel_order.contains(k)).cloned());
         if order.is_empty() {
             self.fail("pattern.panels is empty", "add a panel");
         }
+
         let stitches = std::mem::take(&mut file.stitches);
         let known = Panels { file: &file, order: &order };
         let mut seams = Vec::new();
         for (index, sides) in stitches.iter().enumerate() {
             let seam = self.seam(&known, index, sides);
-            let word = |id: &EdgeId| format!("{}.{}", order[id.panel], id.edge);
-            let words =
-                seam.iter().flat_map(|seam| seam.sides.iter().flatten()).map(word).collect();
+            let ids = seam.iter().flat_map(|seam| seam.sides.iter().flatten());
+            let words = ids.map(|id| format!("{}.{}", order[id.panel], id.edge)).collect();
             self.sketch.add_seam(&index.to_string(), words);
             seams.extend(seam);
         }
+
         let mut panels = Vec::new();
         for name in &order {
             panels.extend(self.panel(name, &file.panels[name]));
         }
+
         if self.mistakes.is_empty() {
-            let doubt = Doubt::of_file(&panels, self.metres);
+            let doubt = Doubt::for_file(&panels, self.metres);
             self.notes.extend(doubt.map(|doubt| doubt.note()));
             match Pattern::new(panels, seams) {
                 Ok(pattern) => {
                     // The format has no grain.
-                    self.notes.push(Note::NoGrain { panels: order });
+                    self.notes.push(PatternNote::NoGrain { panels: order });
                     return Ok(pattern.with_notes(self.notes));
                 }
-                Err(all) => self.mistakes.extend(all.iter().map(|m| diagnostic(self.document, m))),
+                Err(all) => self.fail_all(&all),
             }
         }
         Err(Diagnostics(self.mistakes))
     }
 
-    /// Adds the mistake of a panel that does not exist.
-    fn no_panel(&mut self, place: &str, name: &str, file: &PatternPart) {
+    /// Adds the mistake that `file` has no panel `name`, which `place` of the file names.
+    fn fail_unknown_panel(&mut self, place: &str, name: &str, file: &PatternObject) {
         let known: Vec<&str> = file.panels.keys().map(String::as_str).collect();
         let help = match closest(name, known.iter().copied()) {
             Some(word) => format!("did you mean \"{word}\"?"),
@@ -171,16 +184,16 @@ impl Reader<'_> {
         self.fail(format!("{place}: there is no panel \"{name}\""), help);
     }
 
-    /// Returns a panel of the file.
-    fn panel(&mut self, name: &str, part: &PanelPart) -> Option<Panel> {
+    /// Returns the panel `name`, which `object` states.
+    fn panel(&mut self, name: &str, object: &PanelObject) -> Option<Panel> {
         let before = self.mistakes.len();
         let mut edges = Vec::new();
-        for (index, edge) in part.edges.iter().enumerate() {
+        for (index, edge) in object.edges.iter().enumerate() {
             let place = format!("pattern.panels.{name}.edges[{index}]");
-            let ends = edge.endpoints.map(|k| part.vertices.get(k));
+            let ends = edge.endpoints.map(|k| object.vertices.get(k));
             let [Some(start), Some(end)] = ends else {
                 let message = format!("{place}.endpoints are {:?}", edge.endpoints);
-                let help = match part.vertices.len() {
+                let help = match object.vertices.len() {
                     0 => "the panel has no vertices".to_owned(),
                     n => format!("the vertices are 0 to {}", n - 1),
                 };
@@ -200,36 +213,40 @@ impl Reader<'_> {
         if self.mistakes.len() > before {
             return None;
         }
-        self.sketch.add(name, &edges);
+
+        self.sketch.add_outline(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
-                self.mistakes.extend(all.iter().map(|m| diagnostic(self.document, m)));
+                self.fail_all(&all);
                 return None;
             }
         };
         self.mistakes.extend(wrong_size(&panel).map(|m| diagnostic(self.document, &m)));
-        let angles = part.rotation.unwrap_or_default().map(f64::to_radians);
-        let placement = part
-            .translation
-            .map(|translation| Placement::new(angles, translation.map(|x| x * self.metres)));
-        let panel = match placement.map(|p| panel.clone().with_placement(p)) {
+        let placement = object.translation.map(|translation| {
+            let angles = object.rotation.unwrap_or_default().map(f64::to_radians);
+            Placement::new(angles, translation.map(|x| x * self.metres))
+        });
+        let panel = match placement {
             None => panel,
-            Some(Ok(panel)) => panel,
-            Some(Err(mistake)) => {
-                self.mistakes.push(diagnostic(self.document, &mistake));
-                return None;
-            }
+            Some(placement) => match panel.with_placement(placement) {
+                Ok(panel) => panel,
+                Err(mistake) => {
+                    self.fail_all(&[mistake]);
+                    return None;
+                }
+            },
         };
+
         // The right side is the one from which the outline runs anticlockwise.
         if !panel.was_clockwise() {
             return Some(panel);
         }
-        self.notes.push(Note::TurnedOver { panel: name.into() });
+        self.notes.push(PatternNote::TurnedOver { panel: name.into() });
         Some(panel.turned_over())
     }
 
-    /// Returns the curve of an edge.
+    /// Returns the curve that `value` states for `edge`.
     fn curve(&self, edge: &Edge, value: &Value) -> Result<Curve, CurveFault> {
         let help =
             "a curve is [x, y], or a type \"quadratic\", \"cubic\" or \"circle\" with params";
@@ -246,22 +263,21 @@ impl Reader<'_> {
                 Ok(Curve::Quadratic(self.control(edge, control).ok_or_else(wrong)?))
             }
             (Some("cubic"), [first, second]) => {
-                let control = |value| self.control(edge, value).ok_or_else(wrong);
-                Ok(Curve::Cubic([control(first)?, control(second)?]))
+                let first = self.control(edge, first).ok_or_else(wrong)?;
+                Ok(Curve::Cubic([first, self.control(edge, second).ok_or_else(wrong)?]))
             }
             (Some("circle"), [radius, large, right]) => {
-                let flag = |value: &Value| {
-                    value.as_bool().or_else(|| value.as_f64().map(|x| x != 0.0)).ok_or_else(wrong)
-                };
                 let radius = radius.as_f64().filter(|r| *r > 0.0).ok_or_else(wrong)? * self.metres;
+                let large = flag(large).ok_or_else(wrong)?;
                 // An arc that bulges to the right turns left.
-                Ok(Curve::Arc { sweep: edge.arc_sweep(radius, flag(large)?, flag(right)?) })
+                let left = flag(right).ok_or_else(wrong)?;
+                Ok(Curve::Arc { sweep: edge.arc_sweep(radius, large, left) })
             }
             _ => Err(wrong()),
         }
     }
 
-    /// Returns a control point in the panel's frame, in m.
+    /// Returns the control point that `value` states for `edge`, in the panel's frame, in m.
     fn control(&self, edge: &Edge, value: &Value) -> Option<[f64; 2]> {
         let [x, y] = value.as_array()?.as_slice() else { return None };
         let (x, y) = (x.as_f64()?, y.as_f64()?);
@@ -275,7 +291,7 @@ impl Reader<'_> {
         ])
     }
 
-    /// Returns the seam of a stitch of the file.
+    /// Returns the seam of the stitch with the number `index`, which has `sides`.
     fn seam(&mut self, known: &Panels<'_>, index: usize, sides: &[Value]) -> Option<Seam> {
         let place = format!("pattern.stitches[{index}]");
         let reversed = match sides {
@@ -291,11 +307,11 @@ impl Reader<'_> {
         let sides = [0, 1].map(|side| self.side(&format!("{place}[{side}]"), known, &sides[side]));
         let [Some(first), Some(second)] = sides else { return None };
         let (name, sides) = (index.to_string(), [vec![first], vec![second]]);
-        // The format has gathers, but no word for how much ease is intended.
+        // The format has gathers, but does not state how much ease is intended.
         Some(Seam { name, sides, reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 })
     }
 
-    /// Returns the edge of a side of a stitch.
+    /// Returns the edge that `value`, a side of a stitch at `place` of the file, names.
     fn side(&mut self, place: &str, known: &Panels<'_>, value: &Value) -> Option<EdgeId> {
         let Panels { file, order } = known;
         let panel = value.get("panel").and_then(Value::as_str);
@@ -304,11 +320,12 @@ impl Reader<'_> {
             self.fail(format!("{place} is {value}"), "name a panel and the number of an edge");
             return None;
         };
-        let Some(part) = file.panels.get(panel) else {
-            self.no_panel(place, panel, file);
+
+        let Some(object) = file.panels.get(panel) else {
+            self.fail_unknown_panel(place, panel, file);
             return None;
         };
-        let edges = part.edges.len();
+        let edges = object.edges.len();
         if edge >= edges as u64 {
             let help = match edges {
                 0 => "it has no edges".to_owned(),
@@ -320,4 +337,9 @@ impl Reader<'_> {
         let panel = order.iter().position(|name| name == panel)?;
         Some(EdgeId { panel, edge: edge as usize })
     }
+}
+
+/// Returns the truth that `value` states as a boolean or a number.
+fn flag(value: &Value) -> Option<bool> {
+    value.as_bool().or_else(|| value.as_f64().map(|x| x != 0.0))
 }

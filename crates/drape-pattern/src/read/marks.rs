@@ -1,35 +1,36 @@
 //! Marks on panels that other formats draw: grain lines, folds, notches.
 
 use super::fit::distance_from_segment;
-use crate::edge::{Curve, Edge, difference, distance};
-use crate::note::Note;
+use crate::edge::{Curve, Edge, cross, difference, distance, dot};
+use crate::note::PatternNote;
+use crate::polygon::{contains, range};
 
 /// Distance below which a point lies on a line, in m.
 const ON_LINE: f64 = 5e-5;
 
-/// Angle to an edge below which a line runs along it, in rad: 5°.
+/// Angle to an edge below which a line is parallel to it, in rad: 5°.
 const ALONG: f64 = 0.09;
 
-/// Distance from the outline below which a mark is a notch of it, in m.
+/// Distance from the outline below which a mark is a notch of the outline, in m.
 const NOTCH: f64 = 2e-3;
 
-/// Returns the grain, in rad, of a line along the warp. The line has no sense: the warp is taken
-/// within a right angle of the y axis.
+/// Returns the grain, in rad, of the line from `from` to `to` along the warp. The line has no
+/// sense: the warp is taken within a right angle of the y axis.
 pub(crate) fn grain_of([from, to]: [[f64; 2]; 2]) -> f64 {
     let along = difference(to, from);
     let up = if along[1] < 0.0 { -1.0 } else { 1.0 };
-    // Not −0.
+    // The subtraction turns −0 into 0.
     (0.0 - up * along[0]).atan2(up * along[1])
 }
 
-/// Adds a notch to the edge nearest to a point; returns whether one is near enough.
+/// Adds a notch to the nearest of `edges` to `at`. Returns whether an edge is near enough.
 pub(crate) fn add_notch(edges: &mut [Edge], at: [f64; 2]) -> bool {
     let finite = edges.iter().enumerate().filter(|(_, edge)| edge.is_finite());
     let nearest = finite.map(|(k, edge)| (k, edge.nearest(at)));
-    let Some((number, [along, off])) = nearest.min_by(|a, b| a.1[1].total_cmp(&b.1[1])) else {
+    let Some((number, [along, gap])) = nearest.min_by(|a, b| a.1[1].total_cmp(&b.1[1])) else {
         return false;
     };
-    if off > NOTCH {
+    if gap > NOTCH {
         return false;
     }
     let notches = &mut edges[number].notches;
@@ -38,40 +39,70 @@ pub(crate) fn add_notch(edges: &mut [Edge], at: [f64; 2]) -> bool {
     true
 }
 
-/// Reflects an outline in its edges that lie on a line, and returns the name of the first of them;
-/// `None` if no edge does, or if there are others between them.
-pub(crate) fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
-    let length = distance(from, to);
-    let along = difference(to, from).map(|x| x / length);
-    let off = |p: [f64; 2]| {
-        let arm = difference(p, from);
-        along[0] * arm[1] - along[1] * arm[0]
-    };
-    let is_on = |e: &Edge| {
-        e.curve == Curve::Line && off(e.start).abs() < ON_LINE && off(e.end).abs() < ON_LINE
-    };
-    let count = edges.iter().filter(|edge| is_on(edge)).count();
-    let before = |k: usize| &edges[(k + edges.len() - 1) % edges.len()];
-    let first = (0..edges.len()).find(|&k| is_on(&edges[k]) && !is_on(before(k)))?;
-    let in_a_row = (0..count).all(|k| is_on(&edges[(first + k) % edges.len()]));
+/// Straight line that an outline is reflected in.
+struct FoldLine {
+    from: [f64; 2],
+    /// Unit vector.
+    along: [f64; 2],
+}
+
+impl FoldLine {
+    /// Returns the line through `from` and `to`.
+    fn new([from, to]: [[f64; 2]; 2]) -> Self {
+        let length = distance(from, to);
+        Self { from, along: difference(to, from).map(|x| x / length) }
+    }
+
+    /// Returns the signed distance of `p` from the line, in m.
+    fn distance(&self, p: [f64; 2]) -> f64 {
+        cross(self.along, difference(p, self.from))
+    }
+
+    /// Returns the mirror image of `p`.
+    fn reflect(&self, p: [f64; 2]) -> [f64; 2] {
+        let twice = 2.0 * self.distance(p);
+        [p[0] + twice * self.along[1], p[1] - twice * self.along[0]]
+    }
+
+    /// Returns whether `edge` is straight and lies on the line.
+    fn has(&self, edge: &Edge) -> bool {
+        edge.curve == Curve::Line
+            && self.distance(edge.start).abs() < ON_LINE
+            && self.distance(edge.end).abs() < ON_LINE
+    }
+}
+
+/// Reflects the outline `edges` in its edges that lie on the line through both points of `line`,
+/// and returns the name of the first of them; `None` if no edge does, or if there are other edges
+/// between them.
+pub(crate) fn unfold(edges: &mut Vec<Edge>, line: [[f64; 2]; 2]) -> Option<String> {
+    let line = FoldLine::new(line);
+    let count = edges.iter().filter(|edge| line.has(edge)).count();
+    let first = (0..edges.len()).find(|&k| {
+        let before = &edges[(k + edges.len() - 1) % edges.len()];
+        line.has(&edges[k]) && !line.has(before)
+    })?;
+    let in_a_row = (0..count).all(|k| line.has(&edges[(first + k) % edges.len()]));
     if !in_a_row || count == edges.len() {
         return None;
     }
-    let mirror = |p: [f64; 2]| {
-        let twice = 2.0 * off(p);
-        [p[0] + twice * along[1], p[1] - twice * along[0]]
-    };
+
     edges.rotate_left(first);
     let name = edges.drain(..count).next()?.name;
-    let other: Vec<Edge> = edges.iter().rev().map(|e| e.reversed().mapped(true, mirror)).collect();
-    edges.extend(other.into_iter().map(|e| Edge { name: format!("{} mirrored", e.name), ..e }));
+    let mirrored: Vec<Edge> = edges
+        .iter()
+        .rev()
+        .map(|edge| edge.reversed().mapped(true, |p| line.reflect(p)))
+        .map(|edge| Edge { name: format!("{} mirrored", edge.name), ..edge })
+        .collect();
+    edges.extend(mirrored);
     Some(name)
 }
 
-/// Reflects an outline in its straight edge that runs along a line, no farther from the line than a
-/// distance in m, and returns the name of the edge; `None` if no edge does.
+/// Reflects the outline `edges` in its straight edge that is parallel to `line`, no farther from it
+/// than `reach`, in m, and returns the name of the edge; `None` if there is no such edge.
 ///
-/// A line that says where the fold is may be drawn beside it.
+/// Drawings may draw the line that says where the fold is beside the fold.
 pub(crate) fn unfold_beside(
     edges: &mut Vec<Edge>,
     line: [[f64; 2]; 2],
@@ -79,21 +110,20 @@ pub(crate) fn unfold_beside(
 ) -> Option<String> {
     let middle = [0, 1].map(|k| 0.5 * (line[0][k] + line[1][k]));
     let along = difference(line[1], line[0]);
-    let turn = |chord: [f64; 2]| {
-        let [cross, dot] =
-            [chord[0] * along[1] - chord[1] * along[0], chord[0] * along[0] + chord[1] * along[1]];
-        cross.abs().atan2(dot.abs())
-    };
-    let beside = edges
-        .iter()
-        .filter(|edge| edge.curve == Curve::Line && turn(difference(edge.end, edge.start)) < ALONG);
-    let off = |edge: &&Edge| distance_from_segment(middle, [edge.start, edge.end]);
-    let nearest = beside.min_by(|a, b| off(a).total_cmp(&off(b)))?;
-    let fold = [nearest.start, nearest.end];
-    (distance_from_segment(middle, fold) <= reach).then(|| unfold(edges, fold)).flatten()
+    let parallel = edges.iter().filter(|edge| {
+        let chord = difference(edge.end, edge.start);
+        edge.curve == Curve::Line
+            && cross(chord, along).abs().atan2(dot(chord, along).abs()) < ALONG
+    });
+    let distances = parallel.map(|edge| {
+        let fold = [edge.start, edge.end];
+        (fold, distance_from_segment(middle, fold))
+    });
+    let (fold, gap) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    if gap <= reach { unfold(edges, fold) } else { None }
 }
 
-/// Words by which a part says that it is cut on the fold, in small letters.
+/// Words that say that a part is cut on the fold, in small letters.
 const ON_FOLD: [&str; 19] = [
     "on fold",
     "on the fold",
@@ -116,7 +146,7 @@ const ON_FOLD: [&str; 19] = [
     "わに裁",
 ];
 
-/// Returns whether a text says that a part is cut on the fold.
+/// Returns whether `text` says that a part is cut on the fold.
 pub(crate) fn says_on_fold(text: &str) -> bool {
     let words = text.to_lowercase();
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -130,8 +160,8 @@ pub(crate) struct Outline {
     pub(crate) edges: Vec<Edge>,
     /// Line of the file.
     pub(crate) line: Option<usize>,
-    /// Origin of its frame, if the file says it.
-    pub(crate) own: Option<[f64; 2]>,
+    /// Origin of its frame, if this project wrote the file. The outline then is a panel.
+    pub(crate) origin: Option<[f64; 2]>,
     /// Names of its edges, if the file says them.
     pub(crate) names: Vec<String>,
 }
@@ -139,12 +169,13 @@ pub(crate) struct Outline {
 /// Size below which a closed shape is a mark, in m.
 const MARK: f64 = 0.02;
 
-/// Share of the area of an outline from which on another one in it is its sewing line.
+/// Least share of the area of an outline that an inner outline has if it is its sewing line.
 const SEWING: f64 = 0.6;
 
-/// Returns those outlines that are panels, each under a name of its own. Small ones are marks; one
-/// that lies in another is its sewing line if it is nearly as large, and else a mark or a hole.
-pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline> {
+/// Returns the panels among `all`, each under another name. Small outlines are marks. An
+/// outline inside another one is its sewing line if it is nearly as large, and else a mark or a
+/// hole. Adds `notes` on the outlines that are left out.
+pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<PatternNote>) -> Vec<Outline> {
     struct Measured {
         number: usize,
         outline: Outline,
@@ -156,27 +187,31 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
     for (number, outline) in all.into_iter().enumerate() {
         let polygon: Vec<[f64; 2]> = outline.edges.iter().flat_map(Edge::polyline).collect();
         let area = outline.edges.iter().map(Edge::area).sum::<f64>().abs();
-        // What is not finite is answered where the panel is made.
-        if size(&polygon) < MARK && outline.own.is_none() {
+        // Outlines that are not finite are answered where the panel is made.
+        if size(&polygon) < MARK && outline.origin.is_none() {
             small += 1;
         } else {
             measured.push(Measured { number, outline, polygon, area });
         }
     }
+
     if small > 0 {
         let reason = "marks, not panels".into();
-        notes.push(Note::LeftOut { part: format!("{small} closed shapes under 20 mm"), reason });
+        let part = format!("{small} closed shapes under 20 mm");
+        notes.push(PatternNote::LeftOut { part, reason });
     }
+
+    // The larger of two outlines comes first, so that it is known when the inner one is looked at.
     measured.sort_by(|a, b| b.area.total_cmp(&a.area));
     let mut kept: Vec<Measured> = Vec::new();
     for inner in measured {
-        let lies_in = |outer: &Measured| {
-            outer.outline.own.is_none()
-                && inner.outline.own.is_none()
+        let index = kept.iter().position(|outer| {
+            outer.outline.origin.is_none()
+                && inner.outline.origin.is_none()
                 && inner.area < outer.area
-                && sample(&inner.polygon).all(|p| inside(&outer.polygon, p))
-        };
-        let Some(index) = kept.iter().position(lies_in) else {
+                && sample(&inner.polygon).all(|p| contains(&outer.polygon, p))
+        });
+        let Some(index) = index else {
             kept.push(inner);
             continue;
         };
@@ -188,19 +223,26 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
             );
             let reason =
                 format!("the other, \"{}\", runs round it and is the cut line", outer.outline.name);
-            notes.push(Note::Taken { taken, reason });
+            notes.push(PatternNote::Taken { taken, reason });
             *outer = inner;
         } else {
             let part = format!("a closed shape \"{}\"", inner.outline.name);
             let reason = format!("it lies in panel {}: a hole or a mark", outer.outline.name);
-            notes.push(Note::LeftOut { part, reason });
+            notes.push(PatternNote::LeftOut { part, reason });
         }
     }
+
     // In the order of the file.
-    kept.sort_by_key(|one| one.number);
+    kept.sort_by_key(|outline| outline.number);
+    let mut kept: Vec<Outline> = kept.into_iter().map(|measured| measured.outline).collect();
+    number_repeated_names(&mut kept);
+    kept
+}
+
+/// Adds a number to names that an earlier one of `outlines` has.
+fn number_repeated_names(outlines: &mut [Outline]) {
     let mut names: Vec<String> = Vec::new();
-    let mut kept: Vec<Outline> = kept.into_iter().map(|one| one.outline).collect();
-    for outline in &mut kept {
+    for outline in outlines {
         let wanted = outline.name.clone();
         let mut number = 1;
         while names.contains(&outline.name) {
@@ -209,34 +251,21 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
         }
         names.push(outline.name.clone());
     }
-    kept
 }
 
-/// Returns some points of a polygon.
+/// Returns at most 64 corners of `polygon`, evenly spaced.
 fn sample(polygon: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
     polygon.iter().copied().step_by(polygon.len() / 64 + 1)
 }
 
-/// Larger side of the bounding box of points.
+/// Larger side of the bounding box of `points`.
 fn size(points: &[[f64; 2]]) -> f64 {
-    let side = |axis: usize| {
-        let all = points.iter().map(|p| p[axis]);
-        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
-    };
-    side(0).max(side(1))
+    let [width, height] =
+        [0, 1].map(|axis| range(points.iter().map(|p| p[axis]))).map(|[low, high]| high - low);
+    width.max(height)
 }
 
-/// Low corner of the bounding box of points.
+/// Low corner of the bounding box of `points`.
 pub(crate) fn low_corner(points: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|axis| points.iter().map(|p| p[axis]).fold(f64::MAX, f64::min))
-}
-
-/// Returns whether a point lies in a polygon.
-pub(crate) fn inside(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
-    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    let crosses = |(a, b): &(&[f64; 2], &[f64; 2])| {
-        (a[1] > p[1]) != (b[1] > p[1])
-            && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-    };
-    sides.filter(crosses).count() % 2 == 1
 }

@@ -1,4 +1,5 @@
-//! Seams as files and scenes state them: edges by name, added to a pattern or in place of its own.
+//! Seams as files and scenes state them: edges by name. They are added to a pattern, or replace its
+//! seams.
 
 use std::collections::BTreeMap;
 
@@ -46,56 +47,65 @@ pub struct SeamKeys {
     pub allowance: Given<Length>,
 }
 
-/// Place of a table with seams and panels in a file.
+/// Table of a file that states seams and panels.
 #[derive(Debug, Clone, Copy)]
-pub struct Place<'a> {
-    /// File that states them.
+pub struct PatternTable<'a> {
+    /// File with the table.
     pub document: &'a Document,
     /// Key of the table, with a dot at its end; empty at the top of the file.
     pub prefix: &'a str,
-    /// Unit of its lengths, in m; NaN if it is not known.
+    /// Unit of lengths in the table, in m; NaN if it is not known.
     pub unit: f64,
 }
 
-impl Place<'_> {
-    /// Returns a mistake at a key of the table.
+impl PatternTable<'_> {
+    /// Returns the mistake `message`, with the remedy `help`, at `key` of the table.
     pub(crate) fn at(&self, key: &str, message: impl Into<String>, help: &str) -> Diagnostic {
         self.document.at(&format!("{}{key}", self.prefix), message).help(help)
     }
 
-    /// Returns the mistake of an angle of a fold or a seam, in degrees.
-    pub(crate) fn angle(&self, key: &str, angle: Given<Angle>) -> Option<Diagnostic> {
+    /// Returns the mistake of `angle`, the angle of a fold or a seam at `key`, if it is out of
+    /// range.
+    pub(crate) fn angle_mistake(&self, key: &str, angle: Given<Angle>) -> Option<Diagnostic> {
         let angle = angle.value();
-        let message = || format!("{} is not between -140 and 140", figure(angle));
-        let help = "degrees towards the right side of the cloth; 0 is flat";
-        (!(angle.abs() <= ANGLE_MAX)).then(|| self.at(key, message(), help))
+        if angle.abs() <= ANGLE_MAX {
+            return None;
+        }
+        let message = format!("{} is not between -140 and 140", figure(angle));
+        Some(self.at(key, message, "degrees towards the right side of the cloth; 0 is flat"))
     }
 
-    /// Returns the change of a value of the table, in TOML, or its removal.
-    pub(crate) fn edit(&self, key: &str, new: Option<&str>) -> Option<Edit> {
-        self.document.edit(&format!("{}{key}", self.prefix), new)
+    /// Returns the edit that sets `key` of the table to `value`, in TOML, or removes it.
+    pub(crate) fn edit(&self, key: &str, value: Option<&str>) -> Option<Edit> {
+        self.document.edit(&format!("{}{key}", self.prefix), value)
     }
 
-    /// Returns the mistake of the width of an allowance or a hem.
-    pub(crate) fn width(&self, key: &str, width: Given<Length>) -> Option<Diagnostic> {
+    /// Returns the mistake of `width`, the width of an allowance or a hem at `key`, if it is out of
+    /// range.
+    pub(crate) fn width_mistake(&self, key: &str, width: Given<Length>) -> Option<Diagnostic> {
         let metres = width * self.unit;
-        // Without a unit nothing can be said.
-        let right = (0.0..=WIDTH_MAX).contains(&metres)
+        // Without a unit, a finite width cannot be judged.
+        let is_right = (0.0..=WIDTH_MAX).contains(&metres)
             || self.unit.is_nan() && metres.is_nan() && !width.number().is_nan();
-        let message = || format!("{} is not between 0 and 300 mm", Millimetres(metres));
-        let help = "is the unit right? 0 is none";
-        (!right).then(|| self.at(key, message(), help))
+        if is_right {
+            return None;
+        }
+        let message = format!("{} is not between 0 and 300 mm", Millimetres(metres));
+        Some(self.at(key, message, "is the unit right? 0 is none"))
     }
 }
 
-/// Panels that seams can name; `None` for those with mistakes.
-pub(crate) type Known<'a> = Vec<(&'a str, Option<&'a Panel>)>;
+/// Panels that seams can name; `None` for panels with mistakes.
+pub(crate) type KnownPanels<'a> = Vec<(&'a str, Option<&'a Panel>)>;
 
-/// Returns the seams that a file states, or all mistakes of their keys.
+/// Returns the seams that `keys` state in `table`, between panels of `known`.
+///
+/// # Errors
+/// All mistakes of `keys`.
 pub(crate) fn seams(
-    place: &Place<'_>,
+    table: &PatternTable<'_>,
     keys: &BTreeMap<String, SeamKeys>,
-    known: &Known<'_>,
+    known: &KnownPanels<'_>,
 ) -> Result<Vec<Seam>, Vec<Diagnostic>> {
     let mut mistakes = Vec::new();
     let mut seams = Vec::new();
@@ -105,52 +115,57 @@ pub(crate) fn seams(
             let mut ids = Vec::new();
             for (number, word) in seam.sides[side].iter().enumerate() {
                 let key = format!("{key}.sides[{side}][{number}]");
-                match edges(word, known) {
-                    // Against the outline, the parts of an edge that darts divide come the other way.
-                    Ok(mut parts) => {
-                        if side == 1 && !seam.reversed {
-                            parts.reverse();
-                        }
-                        ids.extend(parts);
-                    }
-                    Err(WrongWord { message, help, meant }) => {
+                match named_edges(word, known) {
+                    Ok(parts) => ids.extend(in_seam_order(parts, side, seam.reversed)),
+                    Err(UnknownEdge { message, help, meant }) => {
                         let edit =
-                            meant.and_then(|meant| place.edit(&key, Some(&toml_string(&meant))));
-                        mistakes.push(place.at(&key, message, &help).with_edits(edit));
+                            meant.and_then(|meant| table.edit(&key, Some(&toml_string(&meant))));
+                        mistakes.push(table.at(&key, message, &help).with_edits(edit));
                     }
                 }
             }
             ids
         });
-        mistakes.extend(place.angle(&format!("{key}.angle"), seam.angle));
-        mistakes.extend(place.width(&format!("{key}.allowance"), seam.allowance));
+
+        mistakes.extend(table.angle_mistake(&format!("{key}.angle"), seam.angle));
+        mistakes.extend(table.width_mistake(&format!("{key}.allowance"), seam.allowance));
         seams.push(Seam {
             name: name.clone(),
             sides,
             reversed: seam.reversed,
             max_ease: seam.max_ease.unwrap_or(DEFAULT_EASE),
             angle: seam.angle.value().to_radians(),
-            allowance: seam.allowance * place.unit,
+            allowance: seam.allowance * table.unit,
         });
     }
     if mistakes.is_empty() { Ok(seams) } else { Err(mistakes) }
 }
 
-/// Word of a seam that names no edge.
-struct WrongWord {
+/// Returns `parts`, the parts of an edge that darts divide, in the order in which a seam runs on
+/// `side`, 0 or 1. The second side of a seam that is not `reversed` runs against the outline.
+pub(crate) fn in_seam_order(mut parts: Vec<EdgeId>, side: usize, reversed: bool) -> Vec<EdgeId> {
+    if side == 1 && !reversed {
+        parts.reverse();
+    }
+    parts
+}
+
+/// Mistake of a word that names no edge.
+struct UnknownEdge {
     message: String,
     help: String,
     /// Word that was probably meant.
     meant: Option<String>,
 }
 
-/// Returns the edges that a word such as `front.side` names: one, the parts of one that darts divide,
-/// or none if its panel has mistakes.
-fn edges(word: &str, known: &Known<'_>) -> Result<Vec<EdgeId>, WrongWord> {
+/// Returns the edges that `word` names, such as `front.side`: one edge, or the parts of an edge
+/// that darts divide, or none if the panel has mistakes.
+fn named_edges(word: &str, known: &KnownPanels<'_>) -> Result<Vec<EdgeId>, UnknownEdge> {
     // Names of panels and edges may have dots: the longest panel counts that the word begins with.
-    let rest = |name: &str| word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
-    let panels =
-        known.iter().enumerate().filter_map(|(k, (name, _))| Some((k, *name, rest(name)?)));
+    let panels = known.iter().enumerate().filter_map(|(k, (name, _))| {
+        let edge = word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'))?;
+        Some((k, *name, edge))
+    });
     let Some((panel, name, edge)) = panels.max_by_key(|(_, name, _)| name.len()) else {
         let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
@@ -161,14 +176,15 @@ fn edges(word: &str, known: &Known<'_>) -> Result<Vec<EdgeId>, WrongWord> {
             None => format!("write panel.edge; the panels are: {}", names.join(", ")),
         };
         let message = format!("\"{word}\": there is no panel \"{panel}\"");
-        return Err(WrongWord { message, help, meant });
+        return Err(UnknownEdge { message, help, meant });
     };
-    let Some(own) = known[panel].1 else { return Ok(Vec::new()) };
-    let numbers = own.edges_named(edge);
+    let Some(known_panel) = known[panel].1 else { return Ok(Vec::new()) };
+    let numbers = known_panel.edges_named(edge);
     if !numbers.is_empty() {
         return Ok(numbers.into_iter().map(|edge| EdgeId { panel, edge }).collect());
     }
-    let edges: Vec<&str> = own.edges().map(|own| own.name.as_str()).collect();
+
+    let edges: Vec<&str> = known_panel.edges().map(|edge| edge.name.as_str()).collect();
     let similar = closest(edge, edges.iter().copied());
     let meant = similar.map(|similar| format!("{name}.{similar}"));
     let help = match &meant {
@@ -176,23 +192,23 @@ fn edges(word: &str, known: &Known<'_>) -> Result<Vec<EdgeId>, WrongWord> {
         None => format!("its edges are: {}", edges.join(", ")),
     };
     let message = format!("panel {name} has no edge \"{edge}\"");
-    Err(WrongWord { message, help, meant })
+    Err(UnknownEdge { message, help, meant })
 }
 
-/// Returns the seams of a pattern with those of a file added, or in place of those of the same
-/// name.
-pub(crate) fn merged(mut own: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
+/// Returns `base` with the seams `added`. An added seam replaces a seam with its name.
+pub(crate) fn merged(base: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
+    let mut merged = base;
     for seam in added {
-        match own.iter_mut().find(|other| other.name == seam.name) {
-            Some(other) => *other = seam,
-            None => own.push(seam),
+        match merged.iter_mut().find(|existing| existing.name == seam.name) {
+            Some(existing) => *existing = seam,
+            None => merged.push(seam),
         }
     }
-    own
+    merged
 }
 
-/// Returns the answer to a mistake of a pattern whose seams or panels a file states.
-pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
+/// Returns `mistake` at the key of `table` that states its subject.
+pub(crate) fn located(table: &PatternTable<'_>, mistake: &Mistake) -> Diagnostic {
     let subject = mistake.subject();
     let key = match &subject {
         Some(Subject::Edge { panel, .. } | Subject::Panel(panel)) => {
@@ -201,21 +217,21 @@ pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
         Some(Subject::Seam(seam)) => format!("seam.{}.sides", toml_key(seam)),
         _ => String::new(),
     };
-    let located = place.at(&key, mistake.to_string(), &mistake.help());
+    let located = table.at(&key, mistake.to_string(), &mistake.help());
     let ease = mistake.enough_ease().zip(key.strip_suffix(".sides"));
     let edit = ease.and_then(|(enough, seam)| {
-        place.edit(&format!("{seam}.max_ease"), Some(&enough.to_string()))
+        table.edit(&format!("{seam}.max_ease"), Some(&enough.to_string()))
     });
     Diagnostic { subject, ..located }.with_edits(edit)
 }
 
-/// Returns the answer to a mistake of a pattern to which a file adds seams.
-pub(crate) fn answer(
-    place: &Place<'_>,
+/// Returns `mistake` of a pattern to which `table` adds `seams`, at the key of its subject.
+pub(crate) fn seam_diagnostic(
+    table: &PatternTable<'_>,
     mistake: &Mistake,
     seams: &BTreeMap<String, SeamKeys>,
 ) -> Diagnostic {
-    let located = located(place, mistake);
+    let located = located(table, mistake);
     match mistake {
         Mistake::SewnTwice { first, .. } if !seams.contains_key(first) => {
             let key = toml_key(first);
@@ -229,24 +245,25 @@ pub(crate) fn answer(
 }
 
 impl Pattern {
-    /// Returns the pattern with the seams that a table of a file states; one with the name of a
-    /// seam of the pattern takes its place.
+    /// Returns the pattern with the seams `seams`, which `table` of a file states. A seam with the
+    /// name of a seam of the pattern replaces it.
     ///
     /// # Errors
-    /// All mistakes of the seams, each with its place and a remedy.
+    /// All mistakes of `seams`, each with its place and a remedy.
     pub fn with_seams(
         self,
         seams: &BTreeMap<String, SeamKeys>,
-        place: &Place<'_>,
+        table: &PatternTable<'_>,
     ) -> Result<Self, Diagnostics> {
         let known = self.panels().iter().map(|panel| (panel.name(), Some(panel)));
-        let added = self::seams(place, seams, &known.collect()).map_err(Diagnostics)?;
+        let added = self::seams(table, seams, &known.collect()).map_err(Diagnostics)?;
         let all = merged(self.seams().to_vec(), added);
-        let notes = self.reader_notes();
+        let notes = self.file_notes();
         match Self::new(self.panels().to_vec(), all) {
             Ok(pattern) => Ok(pattern.with_notes(notes)),
             Err(mistakes) => {
-                let mistakes = mistakes.iter().map(|mistake| answer(place, mistake, seams));
+                let mistakes =
+                    mistakes.iter().map(|mistake| seam_diagnostic(table, mistake, seams));
                 Err(Diagnostics(mistakes.collect()))
             }
         }

@@ -7,14 +7,16 @@ use crate::edge::{Curve, Edge, distance};
 use crate::mistake::Mistake;
 use crate::panel::Panel;
 
-/// Largest distance of the Bézier curves of an elliptical arc from it, over its larger radius.
+/// Largest distance between an elliptical arc and its Bézier curves, over its larger radius.
 const ELLIPSE: f64 = 1e-6;
 
 impl Panel {
-    /// Returns a panel whose outline is the data of one closed SVG path, in a unit in m.
+    /// Returns the panel `name` whose outline is `data`, the data of one closed SVG path, in a unit
+    /// of `unit`, in m.
     ///
-    /// The y axis of the path points down, that of the panel up. All commands are read; edges are
-    /// numbered from 1. Circular arcs stay arcs, elliptical ones become Bézier curves.
+    /// The y axis of the path points down, the y axis of the panel points up. All commands are
+    /// read. Edges are numbered from 1. Circular arcs stay arcs, elliptical arcs become Bézier
+    /// curves.
     ///
     /// # Errors
     /// The first mistake of the grammar, or all mistakes of the outline.
@@ -23,20 +25,22 @@ impl Panel {
     }
 }
 
-/// State of drawing a path, in its own unit.
+/// State of drawing a path, in the unit of the path.
 #[derive(Default)]
 struct Pen {
     edges: Vec<Edge>,
-    /// Number of edges of the part that are drawn already.
+    /// Number of edges of the subpath that are drawn already.
     number: usize,
+    /// Point where the subpath begins.
     start: [f64; 2],
+    /// Current point.
     at: [f64; 2],
     /// Last control point of a curve of degree two, and of degree three.
     control: [Option<[f64; 2]>; 2],
 }
 
 impl Pen {
-    /// Draws an edge to a point.
+    /// Draws an edge with `curve` from the current point to `end`.
     fn to(&mut self, end: [f64; 2], curve: Curve) {
         // SVG drops arcs without length; drawing programs also write lines without length.
         if end != self.at {
@@ -46,28 +50,29 @@ impl Pen {
         self.at = end;
     }
 
-    /// Returns the last control point, reflected in the current point.
+    /// Returns the last control point of a curve of degree two (`degree` 0) or three (1), reflected
+    /// in the current point.
     fn reflected(&self, degree: usize) -> [f64; 2] {
         let control = self.control[degree].unwrap_or(self.at);
         [2.0 * self.at[0] - control[0], 2.0 * self.at[1] - control[1]]
     }
 
-    /// Draws an arc to a point.
+    /// Draws the arc `arc` from the current point to `end`.
     fn arc(&mut self, end: [f64; 2], arc: &SvgArc) {
         let line = Edge::line("", self.at, end);
         match Arc::from_svg_arc(arc) {
             None => self.to(end, Curve::Line),
             Some(_) if arc.radii.x.abs() == arc.radii.y.abs() => {
-                // A positive angle runs anticlockwise where y points up, and clockwise here.
+                // A positive angle runs anticlockwise if y points up. In a path y points down.
                 let sweep = line.arc_sweep(arc.radii.x, arc.large_arc, arc.sweep);
                 self.to(end, Curve::Arc { sweep });
             }
             Some(whole) => {
                 let tolerance = ELLIPSE * arc.radii.x.abs().max(arc.radii.y.abs());
-                let pair = |p: Point| [p.x, p.y];
                 for part in whole.append_iter(tolerance) {
                     if let PathEl::CurveTo(first, second, to) = part {
-                        self.to(pair(to), Curve::Cubic([pair(first), pair(second)]));
+                        let [first, second, to] = [first, second, to].map(|p| [p.x, p.y]);
+                        self.to(to, Curve::Cubic([first, second]));
                     }
                 }
                 // Rounding may have moved the last point.
@@ -80,17 +85,21 @@ impl Pen {
     }
 }
 
-/// Part of a path: a chain of edges, in the path's unit with y down.
+/// Subpath: a chain of edges, in the unit of the path with y down.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Subpath {
     pub(crate) edges: Vec<Edge>,
-    /// Whether it ends with Z.
+    /// Whether the subpath ends with Z.
     pub(crate) closed: bool,
     /// Number of its first command, from 1.
     command: usize,
 }
 
-/// Returns the edges of a path, in m, with y up.
+/// Returns the edges of the path `data` of the panel with the name `panel`, in m, with y up. `unit`
+/// is the unit of the path, in m.
+///
+/// # Errors
+/// A command cannot be read, or the path has several subpaths.
 pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mistake> {
     let parts =
         subpaths(data).map_err(|command| Mistake::PathSyntax { panel: panel.into(), command })?;
@@ -106,18 +115,22 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
 }
 
 impl Subpath {
-    /// Returns its edges, in m, without a closing edge that is the rounding of the digits.
+    /// Returns the edges, in m, without a closing edge that comes from the rounding of the digits.
     pub(crate) fn settled(mut self) -> Vec<Edge> {
-        let shut =
-            |edge: &Edge| edge.curve == Curve::Line && distance(edge.start, edge.end) <= 1e-5;
-        if self.closed && self.edges.len() > 1 && self.edges.last().is_some_and(shut) {
+        let is_rounding = self.edges.last().is_some_and(|edge| {
+            edge.curve == Curve::Line && distance(edge.start, edge.end) <= 1e-5
+        });
+        if self.closed && self.edges.len() > 1 && is_rounding {
             self.edges.pop();
         }
         self.edges
     }
 }
 
-/// Returns the parts of a path, or the number of the first command that cannot be read.
+/// Returns the subpaths of the path `data`.
+///
+/// # Errors
+/// The number of the first command that cannot be read, from 1.
 pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, usize> {
     let mut pen = Pen::default();
     let mut parts: Vec<Subpath> = Vec::new();
@@ -127,11 +140,12 @@ pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, usize> {
         let segment = segment.map_err(|_| command)?;
         let begins = matches!(segment, PathSegment::MoveTo { .. });
         if begins || !open {
-            // After Z a path goes on from the start of the part that it closed.
+            // After Z a path goes on from the start of the subpath that it closed.
             (pen.edges, pen.number) = (Vec::new(), 0);
             parts.push(Subpath { edges: Vec::new(), closed: false, command });
             open = true;
         }
+
         let origin = if segment.is_abs() { [0.0; 2] } else { pen.at };
         let point = |x: f64, y: f64| [origin[0] + x, origin[1] + y];
         let mut control = [None; 2];
@@ -170,17 +184,17 @@ pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, usize> {
                 rx, ry, x_axis_rotation, large_arc, sweep, x, y, ..
             } => {
                 let end = point(x, y);
-                let kurbo = |p: [f64; 2]| Point::new(p[0], p[1]);
                 let arc = SvgArc {
-                    from: kurbo(pen.at),
-                    to: kurbo(end),
+                    from: Point::new(pen.at[0], pen.at[1]),
+                    to: Point::new(end[0], end[1]),
                     radii: Vec2::new(rx, ry),
                     x_rotation: x_axis_rotation.to_radians(),
                     large_arc,
                     sweep,
                 };
-                let finite = [rx, ry, x_axis_rotation].into_iter().chain(end).all(f64::is_finite);
-                if !finite {
+                let is_finite =
+                    [rx, ry, x_axis_rotation].into_iter().chain(end).all(f64::is_finite);
+                if !is_finite {
                     return Err(command);
                 }
                 pen.arc(end, &arc);
@@ -190,6 +204,7 @@ pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, usize> {
                 open = false;
             }
         }
+
         pen.control = control;
         if let Some(part) = parts.last_mut() {
             part.closed = !open;

@@ -23,7 +23,7 @@ impl Unit {
         "a unit is \"mm\", \"cm\", \"m\", \"in\", \"pt\" (1/72 in) or \"px\" (1/96 in)";
 
     /// Units in which people measure cloth.
-    pub(crate) const OF_FILES: [Self; 4] = [UNITS[0], UNITS[1], UNITS[2], UNITS[3]];
+    pub(crate) const OF_CLOTH: [Self; 4] = [UNITS[0], UNITS[1], UNITS[2], UNITS[3]];
 
     /// Units of drawings.
     pub(crate) const ALL: [Self; 6] = UNITS;
@@ -37,14 +37,14 @@ impl Unit {
     /// Pixel, 1/96 in.
     pub(crate) const PIXEL: Self = UNITS[5];
 
-    /// Returns the unit of a word: mm, cm, m, in, pt or px.
+    /// Returns the unit with the word `word`: mm, cm, m, in, pt or px.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
         UNITS.into_iter().find(|unit| unit.word == word)
     }
 
-    /// Returns the unit of a length in m, if there is one.
-    pub(crate) fn of_length(metres: f64) -> Option<Self> {
+    /// Returns the unit with a length of `metres`, if there is one.
+    pub(crate) fn from_length(metres: f64) -> Option<Self> {
         UNITS.into_iter().find(|unit| (metres / unit.metres - 1.0).abs() < 1e-3)
     }
 
@@ -60,8 +60,8 @@ impl Unit {
         self.word
     }
 
-    /// Returns whether people measure cloth in it.
-    pub(crate) fn is_of_files(&self) -> bool {
+    /// Returns whether people measure cloth in the unit.
+    pub(crate) fn measures_cloth(&self) -> bool {
         !matches!(self.word, "pt" | "px")
     }
 }

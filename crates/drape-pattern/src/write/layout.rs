@@ -7,17 +7,18 @@ pub(crate) type Extent = [[f64; 2]; 2];
 pub(crate) struct Rows {
     /// Width and height of the sheet.
     pub(crate) size: [f64; 2],
-    /// Place of the origin of each panel's frame, with y down.
+    /// Position of the origin of each panel's frame, with y down.
     pub(crate) origins: Vec<[f64; 2]>,
 }
 
 impl Rows {
-    /// Returns the layout of panels with a gap between them and round them. A row ends before it is
-    /// wider than a limit, if it has a panel.
+    /// Returns the layout of panels with the bounding boxes `extents`, with `gap` between them and
+    /// around them. A row ends before it is wider than `limit`, if it has a panel.
     pub(crate) fn new(extents: &[Extent], gap: f64, limit: f64) -> Self {
-        let height = |k: usize| extents[k][1][1] - extents[k][0][1];
+        let heights: Vec<f64> = extents.iter().map(|[low, high]| high[1] - low[1]).collect();
         let mut order: Vec<usize> = (0..extents.len()).collect();
-        order.sort_by(|&a, &b| height(b).total_cmp(&height(a)).then(a.cmp(&b)));
+        order.sort_by(|&a, &b| heights[b].total_cmp(&heights[a]).then(a.cmp(&b)));
+
         let (mut x, mut y, mut tallest, mut width) = (gap, gap, 0.0_f64, 0.0_f64);
         let mut origins = vec![[0.0; 2]; extents.len()];
         for k in order {
@@ -28,7 +29,7 @@ impl Rows {
             }
             origins[k] = [x - low[0], y + high[1]];
             x += across + gap;
-            tallest = tallest.max(height(k));
+            tallest = tallest.max(heights[k]);
             width = width.max(x);
         }
         Self { size: [width, y + tallest + gap], origins }

@@ -1,16 +1,16 @@
-//! Drawing of a pattern on pages of paper, at true scale, to be laid over each other and glued.
+//! Drawing of a pattern on pages of paper, at true scale. The pages overlap, to be glued together.
 
 use std::fmt::Write;
 
-use super::number::decimal;
-use super::svg::{STYLE, Sheet};
+use super::number::{decimal, letters};
+use super::svg::{PatternSheet, STYLE};
 use super::xml::escape;
 use crate::pattern::Pattern;
 
 /// Border of a page that printers leave white, in mm.
 const MARGIN: f64 = 10.0;
 
-/// Width in which neighbouring pages show the same, in mm.
+/// Width of the strip that neighbouring pages both show, in mm.
 const OVERLAP: f64 = 15.0;
 
 /// Paper of a printer: width and height of a page, in mm.
@@ -21,8 +21,8 @@ pub struct Paper {
 }
 
 impl Paper {
-    /// Returns the paper of a name: a4, a3, a2, a1, a0, letter, legal, tabloid, or a size such as
-    /// 210x297 in mm.
+    /// Returns the paper with the name `word`: a4, a3, a2, a1, a0, letter, legal, tabloid, or a
+    /// size such as 210x297 in mm.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
         let size = match word.to_ascii_lowercase().as_str() {
@@ -34,38 +34,37 @@ impl Paper {
             "letter" => [215.9, 279.4],
             "legal" => [215.9, 355.6],
             "tabloid" => [279.4, 431.8],
-            other => {
-                let (width, height) = other.split_once('x')?;
+            size => {
+                let (width, height) = size.split_once('x')?;
                 [width.parse().ok()?, height.parse().ok()?]
             }
         };
-        let right = |x: f64| (100.0..=10_000.0).contains(&x);
-        size.into_iter().all(right).then_some(Self { size })
+        let is_paper = size.iter().all(|side| (100.0..=10_000.0).contains(side));
+        is_paper.then_some(Self { size })
     }
 }
 
 /// Page of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Page {
-    /// Its letter of the row and number of the column, such as `B3`.
+    /// Letter of the row and number of the column, such as `B3`.
     pub name: String,
     /// The page in SVG.
     pub svg: String,
 }
 
 impl Pattern {
-    /// Returns a drawing of the pattern on pages of paper, by rows; pages with nothing on them are
-    /// left out.
+    /// Returns a drawing of the pattern on pages of `paper`, row by row. Empty pages are left out.
     ///
-    /// Neighbouring pages show the same in a strip of 15 mm, with crosses that come to lie on each
-    /// other. Each page says where it belongs, and has a line of 50 mm by which the scale of the
+    /// Neighbouring pages show the same drawing in a strip of 15 mm, with crosses that come to lie
+    /// on each other. Each page has its position, and a line of 50 mm by which the scale of the
     /// print is checked.
     #[must_use]
     pub fn to_pages(&self, paper: Paper) -> Vec<Page> {
         let room = paper.size.map(|x| x - 2.0 * MARGIN);
         let step = room.map(|x| x - OVERLAP);
         // Rows of panels end where columns of pages do.
-        let sheet = Sheet::new(self, Some(step[0] * 5.0 + OVERLAP));
+        let sheet = PatternSheet::new(self, Some(step[0] * 5.0 + OVERLAP));
         let count = [0, 1].map(|k| ((sheet.size[k] - OVERLAP) / step[k]).ceil().max(1.0) as usize);
         let mut pages = Vec::new();
         for row in 0..count[1] {
@@ -75,36 +74,37 @@ impl Pattern {
                     .groups
                     .iter()
                     .filter(|([low, high], _)| {
-                        let meets = |k: usize| low[k] < corner[k] + room[k] && high[k] > corner[k];
-                        meets(0) && meets(1)
+                        (0..2).all(|k| low[k] < corner[k] + room[k] && high[k] > corner[k])
                     })
                     .map(|(_, group)| group.as_str())
                     .collect();
                 if shown.is_empty() {
                     continue;
                 }
-                let name = format!("{}{}", row_letters(row), column + 1);
-                let place = Place { name: &name, corner, room, count };
-                pages.push(Page { svg: page(paper, &place, &shown), name });
+                let name = format!("{}{}", letters(row), column + 1);
+                let window = PageWindow { name: &name, corner, room, count };
+                pages.push(Page { svg: page(paper, &window, &shown), name });
             }
         }
         pages
     }
 }
 
-/// Part of the sheet on a page. Lengths are in mm.
-struct Place<'a> {
+/// Part of the sheet that a page shows. Lengths are in mm.
+struct PageWindow<'a> {
     name: &'a str,
+    /// Upper left corner on the sheet.
     corner: [f64; 2],
+    /// Width and height.
     room: [f64; 2],
     /// Number of columns and of rows.
     count: [usize; 2],
 }
 
-/// Returns a page with groups of panels.
-fn page(paper: Paper, place: &Place<'_>, groups: &[&str]) -> String {
+/// Returns the page of `paper` that shows `groups`, groups of panels, within `window`.
+fn page(paper: Paper, window: &PageWindow<'_>, groups: &[&str]) -> String {
     let [width, height] = paper.size;
-    let Place { name, corner, room, count } = place;
+    let PageWindow { name, corner, room, count } = window;
     // The clip is in the frame of the sheet, as the group is.
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
@@ -148,10 +148,4 @@ fn page(paper: Paper, place: &Place<'_>, groups: &[&str]) -> String {
         width - MARGIN - 50.0
     );
     svg
-}
-
-/// Returns the letters of a row: A to Z, AA, AB and so on.
-fn row_letters(row: usize) -> String {
-    let last = char::from(b'A' + (row % 26) as u8).to_string();
-    if row < 26 { last } else { row_letters(row / 26 - 1) + &last }
 }

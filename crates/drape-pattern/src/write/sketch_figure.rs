@@ -1,47 +1,51 @@
-//! Drawing of a sketch as SVG: the lines of a pattern file, with what is wrong in red.
+//! Drawing of a sketch as SVG: the lines of a pattern file, with its faults in red.
 
 use std::fmt::Write;
 
 use drape_input::{Diagnostic, Subject};
 
 use super::layout::Rows;
-use super::xml::escape;
+use super::xml::{escape, text_anchor};
 use crate::edge::{Edge, difference};
-use crate::sketch::{Sketch, SketchPanel, Wrong};
+use crate::sketch::{Sketch, SketchFault, SketchPanel};
 
 /// Approximate ratio of the width of the drawing to its height.
 const SHAPE: f64 = 2.2;
 
-/// Colours of what is wrong and of the rest.
+/// Colour of faults.
 const RED: &str = "#d11a1a";
+
+/// Colour of lines without a fault.
 const BLACK: &str = "#222222";
 
-/// Largest number of mistakes that are written below the panels, and of letters of one.
-const MISTAKES: usize = 8;
-const LETTERS: usize = 160;
+/// Largest number of mistakes that are written below the panels.
+const MOST_MISTAKES: usize = 8;
+
+/// Largest number of letters of a mistake.
+const MOST_LETTERS: usize = 160;
 
 /// Drawing of one sketch. Lengths are in mm.
-struct Drawing<'a> {
+struct SketchDrawing<'a> {
     sketch: &'a Sketch,
-    wrong: &'a [Wrong],
+    faults: &'a [SketchFault],
     /// Size of letters.
     letter: f64,
     svg: String,
 }
 
-/// Panel at its place in the drawing.
-struct Placed<'a> {
+/// Panel at its position in the drawing.
+struct PlacedPanel<'a> {
     panel: &'a SketchPanel,
     origin: [f64; 2],
 }
 
-impl Placed<'_> {
+impl PlacedPanel<'_> {
     /// Returns a point of the panel, given in m, in the drawing.
     fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + 1000.0 * x, self.origin[1] - 1000.0 * y]
     }
 
-    /// Returns an edge as path data.
+    /// Returns `edge` as path data.
     fn path(&self, edge: &Edge) -> String {
         let mut path = String::new();
         for (k, p) in edge.polyline().into_iter().chain([edge.end]).enumerate() {
@@ -53,22 +57,24 @@ impl Placed<'_> {
 }
 
 impl Sketch {
-    /// Returns a drawing of the panels, side by side, as SVG in mm, with what is wrong in red: edges,
-    /// panels and seams, places, gaps between edges, and edges that cross. The mistakes are written
-    /// below.
+    /// Returns a drawing of the panels, side by side, as SVG in mm. Red are the `faults`, with
+    /// edges, panels, seams and points, and also gaps between edges and edges that cross. The first
+    /// `mistakes` are written below.
     #[must_use]
-    pub fn figure(&self, wrong: &[Wrong], mistakes: &[Diagnostic]) -> String {
+    pub fn figure(&self, faults: &[SketchFault], mistakes: &[Diagnostic]) -> String {
         let extents: Vec<[[f64; 2]; 2]> = self.panels.iter().map(extent).collect();
         let area: f64 =
             extents.iter().map(|[low, high]| difference(*high, *low)).map(|[x, y]| x * y).sum();
         let row = (SHAPE * area).sqrt().max(100.0);
         let letter = 0.014 * row;
         let Rows { size, origins } = Rows::new(&extents, 3.0 * letter, 1.15 * row);
-        let lines = mistakes.len().min(MISTAKES);
-        let width = size[0].max(0.6 * letter * LETTERS as f64);
+
+        // The mistakes take a line each, below the panels.
+        let lines = mistakes.len().min(MOST_MISTAKES);
+        let width = size[0].max(0.6 * letter * MOST_LETTERS as f64);
         let height = size[1] + 1.6 * letter * (lines as f64 + 1.0);
-        let mut drawing = Drawing { sketch: self, wrong, letter, svg: String::new() };
         let [width, height] = [width, height].map(|x| x.ceil().max(1.0));
+        let mut drawing = SketchDrawing { sketch: self, faults, letter, svg: String::new() };
         // Writing to a string cannot fail.
         let _ = writeln!(
             drawing.svg,
@@ -78,32 +84,39 @@ impl Sketch {
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>"
         );
         for (panel, origin) in self.panels.iter().zip(origins) {
-            drawing.panel(&Placed { panel, origin });
+            drawing.panel(&PlacedPanel { panel, origin });
         }
-        for (line, mistake) in mistakes.iter().take(MISTAKES).enumerate() {
+        for (line, mistake) in mistakes.iter().take(MOST_MISTAKES).enumerate() {
             let at = [letter, size[1] + 1.6 * letter * (line as f64 + 1.0)];
-            let mut text: String = mistake.message.chars().take(LETTERS).collect();
+            let mut text: String = mistake.message.chars().take(MOST_LETTERS).collect();
             if text.len() < mistake.message.len() {
                 text.push('…');
             }
-            drawing.text(&text, at, (RED, "start"));
+            drawing.text(&text, at, TextStyle { colour: RED, anchor: "start" });
         }
         drawing.svg + "</svg>\n"
     }
 }
 
-impl Drawing<'_> {
+/// Colour of a text, and whether it starts, ends or is centred at its point (`text-anchor` of SVG).
+struct TextStyle {
+    colour: &'static str,
+    anchor: &'static str,
+}
+
+impl SketchDrawing<'_> {
     /// Draws a panel.
-    fn panel(&mut self, placed: &Placed<'_>) {
-        let Placed { panel, .. } = placed;
+    fn panel(&mut self, placed: &PlacedPanel<'_>) {
+        let PlacedPanel { panel, .. } = placed;
         let (crossed, crossings) = panel.crossings();
-        // What is wrong lies on the rest.
+
+        // Edges with a fault are one path, which is drawn over the other edges.
         let mut red = String::new();
         let all = panel.outline.iter().chain(panel.holes.iter().flatten());
         for (number, edge) in all.enumerate() {
             let path = placed.path(edge);
             let is_wrong =
-                self.sketch.is_wrong(panel, edge, self.wrong) || crossed.contains(&number);
+                self.sketch.is_wrong(panel, edge, self.faults) || crossed.contains(&number);
             if is_wrong {
                 red.push_str(&path);
             } else {
@@ -115,6 +128,7 @@ impl Drawing<'_> {
             }
             self.edge_name(placed, edge, if is_wrong { RED } else { BLACK });
         }
+
         let width = 0.35 * self.letter;
         if !red.is_empty() {
             let _ = writeln!(
@@ -137,23 +151,24 @@ impl Drawing<'_> {
             );
             self.circle([0, 1].map(|k| 0.5 * (a[k] + b[k])));
         }
-        self.places(placed, crossings);
+        self.fault_points(placed, crossings);
         let middle = self.middle(placed);
-        self.text(&panel.name, middle, (BLACK, "middle"));
+        self.text(&panel.name, middle, TextStyle { colour: BLACK, anchor: "middle" });
     }
 
-    /// Draws circles about the places of mistakes and about crossings.
-    fn places(&mut self, placed: &Placed<'_>, crossings: Vec<[f64; 2]>) {
-        let own = self.wrong.iter().filter(|wrong| match &wrong.subject {
+    /// Draws circles about the points of faults and about `crossings`, which are in m.
+    fn fault_points(&mut self, placed: &PlacedPanel<'_>, crossings: Vec<[f64; 2]>) {
+        let faults = self.faults.iter().filter(|fault| match &fault.subject {
             Subject::Panel(name) | Subject::Edge { panel: name, .. } => *name == placed.panel.name,
             _ => false,
         });
-        let places: Vec<[f64; 2]> = own.filter_map(|wrong| wrong.at).chain(crossings).collect();
-        for at in places.into_iter().filter(|at| at.iter().all(|x| x.is_finite())) {
+        let points: Vec<[f64; 2]> = faults.filter_map(|fault| fault.at).chain(crossings).collect();
+        for at in points.into_iter().filter(|at| at.iter().all(|x| x.is_finite())) {
             self.circle(placed.point(at));
         }
     }
 
+    /// Draws a circle about a point of the drawing.
     fn circle(&mut self, [x, y]: [f64; 2]) {
         let _ = writeln!(
             self.svg,
@@ -164,29 +179,26 @@ impl Drawing<'_> {
         );
     }
 
-    /// Writes the name of an edge beside its middle, inside.
-    fn edge_name(&mut self, placed: &Placed<'_>, edge: &Edge, colour: &str) {
+    /// Writes the name of `edge` beside its middle, inside.
+    fn edge_name(&mut self, placed: &PlacedPanel<'_>, edge: &Edge, colour: &'static str) {
         let [from, to] = [0.49, 0.51].map(|fraction| placed.point(edge.at(fraction)));
         let [x, y] = difference(to, from);
         let length = x.hypot(y).max(f64::MIN_POSITIVE);
         let inward = [y / length, -x / length];
-        let anchor = match inward[0] {
-            0.5.. => "start",
-            ..-0.5 => "end",
-            _ => "middle",
-        };
+        let anchor = text_anchor(inward[0]);
         let at = [0, 1].map(|k| 0.5 * (from[k] + to[k]) + 0.9 * self.letter * inward[k]);
-        self.text(&edge.name, at, (colour, anchor));
+        self.text(&edge.name, at, TextStyle { colour, anchor });
     }
 
     /// Returns the middle of the bounding box of a panel in the drawing.
-    fn middle(&self, placed: &Placed<'_>) -> [f64; 2] {
+    fn middle(&self, placed: &PlacedPanel<'_>) -> [f64; 2] {
         let [low, high] = extent(placed.panel);
         placed.point([0, 1].map(|k| 0.0005 * (low[k] + high[k])))
     }
 
-    /// Writes a text in a colour, anchored at a point, on a white halo.
-    fn text(&mut self, text: &str, [x, y]: [f64; 2], (colour, anchor): (&str, &str)) {
+    /// Writes `text` at a point of the drawing, on a white halo.
+    fn text(&mut self, text: &str, [x, y]: [f64; 2], style: TextStyle) {
+        let TextStyle { colour, anchor } = style;
         let letter = self.letter;
         let _ = writeln!(
             self.svg,
@@ -199,7 +211,7 @@ impl Drawing<'_> {
     }
 }
 
-/// Returns the low and the high corner of the bounding box of a panel, in mm.
+/// Returns the low and the high corner of the bounding box of `panel`, in mm.
 fn extent(panel: &SketchPanel) -> [[f64; 2]; 2] {
     let edges = panel.outline.iter().chain(panel.holes.iter().flatten());
     let points = edges.flat_map(|edge| edge.polyline().into_iter().chain([edge.end]));

@@ -1,22 +1,21 @@
 //! Drawing of a pattern in SVG, at true scale in mm.
 //!
-//! Every panel is a group with its outline as one path, grain line, name, notches, folds, and a
-//! letter with the name at each edge that is sewn: the sides of a seam have the same letter, a dot
-//! at its first stitch, and ticks that meet. What a drawing cannot show, places in space and
-//! numbers of seams, is in its `metadata` in the project's own format, so that the drawing can be
-//! read again.
+//! Every panel is a group with its outline as one path, grain line, name, notches and folds. At
+//! each edge that is sewn stands a letter with the name of the edge. The sides of a seam have the
+//! same letter, a dot at the first stitch, and ticks that meet. The drawing cannot show placements
+//! in space and numbers of seams. They are in its `metadata`, in the project's format, so that the
+//! drawing can be read again.
 
 use std::fmt::Write;
 
 use drape_input::{toml_key, toml_string};
 
 use super::layout::{Extent, Rows};
-use super::marks::Drawn;
+use super::marks::PanelMarks;
 use super::number::{decimal, millimetres};
-use super::toml_text::{darts, degrees, placement};
+use super::toml_text::{degrees, write_darts, write_placement};
 use super::xml::escape;
 use crate::edge::{Curve, Edge, distance};
-
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 
@@ -26,39 +25,40 @@ pub(crate) const NAMESPACE: &str = "urn:drape:pattern";
 /// Gap between panels, in mm.
 const GAP: f64 = 15.0;
 
-/// Ratio of the width of a sheet to its height that is aimed at where no width is given.
+/// Ratio of the width of a sheet to its height if no width is given.
 const SHAPE: f64 = 1.5;
 
 /// Panels drawn on one sheet.
-pub(crate) struct Sheet {
+pub(crate) struct PatternSheet {
     /// Width and height, in mm.
     pub(crate) size: [f64; 2],
     /// Group of each panel with its bounding box on the sheet, in mm with y down.
     pub(crate) groups: Vec<(Extent, String)>,
 }
 
-impl Sheet {
-    /// Returns the panels of a pattern on a sheet no wider than a width in mm, if they fit it.
+impl PatternSheet {
+    /// Returns the panels of `pattern` on a sheet no wider than `width`, in mm, if every panel
+    /// fits.
     pub(crate) fn new(pattern: &Pattern, width: Option<f64>) -> Self {
         let extents: Vec<Extent> = pattern.panels().iter().map(extent).collect();
-        let across = |[low, high]: &Extent| high[0] - low[0];
-        let area: f64 = extents.iter().map(|e| across(e) * (e[1][1] - e[0][1])).sum();
-        let limit = width.map(|w| w - GAP).unwrap_or((SHAPE * area).sqrt());
+        let area: f64 =
+            extents.iter().map(|[low, high]| (high[0] - low[0]) * (high[1] - low[1])).sum();
+        let limit = width.map_or((SHAPE * area).sqrt(), |width| width - GAP);
         let Rows { size, origins } = Rows::new(&extents, GAP, limit);
         let groups = pattern.panels().iter().zip(extents.iter().zip(&origins));
         let groups = groups.map(|(panel, ([low, high], origin))| {
             let origin = origin.map(|x| x.ceil());
-            let place = [
+            let extent = [
                 [origin[0] + low[0], origin[1] - high[1]],
                 [origin[0] + high[0], origin[1] - low[1]],
             ];
-            (place, group(pattern, panel, origin))
+            (extent, group(pattern, panel, origin))
         });
         Self { size: size.map(|x| x.ceil() + 1.0), groups: groups.collect() }
     }
 }
 
-/// Returns the bounding box of a panel, in mm with y up.
+/// Returns the bounding box of `panel`, in mm with y up.
 fn extent(panel: &Panel) -> Extent {
     let points = panel.outline().iter().flat_map(Edge::polyline);
     let start = [[f64::MAX; 2], [f64::MIN; 2]];
@@ -72,10 +72,10 @@ impl Pattern {
     /// Returns a drawing of the pattern in SVG, at true scale in mm: for a plotter, or a program
     /// that draws.
     ///
-    /// The sheet is no wider than the width, in mm, where every panel is narrower.
+    /// The sheet is no wider than `width`, in mm, if every panel is narrower.
     #[must_use]
     pub fn to_svg(&self, width: Option<f64>) -> String {
-        let sheet = Sheet::new(self, width);
+        let sheet = PatternSheet::new(self, width);
         let [width, height] = sheet.size;
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
@@ -93,7 +93,7 @@ impl Pattern {
 pub(crate) const STYLE: &str = "font-family=\"sans-serif\" font-size=\"5\" fill=\"none\" \
                                 stroke=\"#000000\" stroke-width=\"0.3\" stroke-linejoin=\"round\"";
 
-/// Returns the group of a panel whose frame has its origin at a point of the sheet, in mm.
+/// Returns the group of `panel`. The origin of its frame is at `origin` on the sheet, in mm.
 fn group(pattern: &Pattern, panel: &Panel, origin: [f64; 2]) -> String {
     let on_sheet = |[x, y]: [f64; 2]| [origin[0] + 1e3 * x, origin[1] - 1e3 * y];
     let names: Vec<String> = panel.outline().iter().map(|edge| listed(&edge.name)).collect();
@@ -110,30 +110,28 @@ fn group(pattern: &Pattern, panel: &Panel, origin: [f64; 2]) -> String {
         let data = closed_line(hole, &on_sheet);
         let _ = writeln!(svg, "<path class=\"dart\" stroke-width=\"0.5\" d=\"{data}\"/>");
     }
-    let drawn = Drawn { pattern, panel, on_sheet: &on_sheet };
-    drawn.write(&mut svg);
+    PanelMarks { pattern, panel, on_sheet: &on_sheet }.write(&mut svg);
     svg.push_str("</g>\n");
     svg
 }
 
-/// Returns a closed line of a panel as path data.
+/// Returns the closed line `edges` of a panel as path data. `on_sheet` maps points to the sheet.
 fn closed_line(edges: &[Edge], on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> String {
-    let pair = |p: [f64; 2]| {
-        let [x, y] = on_sheet(p).map(|x| decimal(x, 1e4));
-        format!("{x} {y}")
-    };
-    let mut data = format!("M{}", pair(edges[0].start));
+    let mut data = format!("M{}", pair(on_sheet(edges[0].start)));
     for edge in edges {
-        let end = pair(edge.end);
+        let end = pair(on_sheet(edge.end));
         let _ = match edge.curve {
             Curve::Line => write!(data, "L{end}"),
-            Curve::Quadratic(control) => write!(data, "Q{} {end}", pair(control)),
-            Curve::Cubic([first, second]) => {
-                write!(data, "C{} {} {end}", pair(first), pair(second))
+            Curve::Quadratic(control) => write!(data, "Q{} {end}", pair(on_sheet(control))),
+            Curve::Cubic(controls) => {
+                let [first, second] = controls.map(|control| pair(on_sheet(control)));
+                write!(data, "C{first} {second} {end}")
             }
             Curve::Arc { sweep } => {
-                let rounded = |p| on_sheet(p).map(|x| (1e4 * x).round() / 1e4);
-                let half = 0.5 * distance(rounded(edge.start), rounded(edge.end));
+                // The radius belongs to the ends as they are written.
+                let [start, end_point] =
+                    [edge.start, edge.end].map(|p| on_sheet(p).map(|x| (1e4 * x).round() / 1e4));
+                let half = 0.5 * distance(start, end_point);
                 let radius = half / (0.5 * sweep.abs()).sin();
                 let large = u8::from(sweep.abs() > std::f64::consts::PI);
                 // On the sheet, where y is down, a positive angle turns right.
@@ -145,7 +143,13 @@ fn closed_line(edges: &[Edge], on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> Stri
     data + "Z"
 }
 
-/// Returns what the drawing does not show, in the project's own format.
+/// Returns a point of the sheet as it stands in path data.
+fn pair(point: [f64; 2]) -> String {
+    let [x, y] = point.map(|x| decimal(x, 1e4));
+    format!("{x} {y}")
+}
+
+/// Returns the facts about `pattern` that the drawing does not show, in the project's format.
 fn metadata(pattern: &Pattern) -> String {
     let mut text = String::from("length = \"mm\"\n");
     for panel in pattern.panels() {
@@ -154,14 +158,18 @@ fn metadata(pattern: &Pattern) -> String {
         if let Some(fabric) = panel.fabric() {
             let _ = writeln!(text, "fabric = {}", toml_string(fabric));
         }
-        placement(panel, &mut text);
-        let hems = panel.outline().iter().filter(|edge| edge.hem != 0.0);
-        let hem = |edge: &Edge| format!("{} = {}", toml_key(&edge.name), millimetres(edge.hem));
-        let hems: Vec<String> = hems.map(hem).collect();
+        write_placement(panel, &mut text);
+
+        let hems: Vec<String> = panel
+            .outline()
+            .iter()
+            .filter(|edge| edge.hem != 0.0)
+            .map(|edge| format!("{} = {}", toml_key(&edge.name), millimetres(edge.hem)))
+            .collect();
         if !hems.is_empty() {
             let _ = writeln!(text, "hems = {{ {} }}", hems.join(", "));
         }
-        darts(panel, &mut text);
+        write_darts(panel, &mut text);
         for fold in panel.folds() {
             let [from, to] = fold.ends.map(|end| super::number::point(&end));
             let angle = degrees(fold.angle);
@@ -169,12 +177,13 @@ fn metadata(pattern: &Pattern) -> String {
                 writeln!(text, "[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}");
         }
     }
+
     let seams = pattern.seams().iter().filter(|seam| !pattern.is_dart(seam));
     seams.for_each(|seam| pattern.seam(seam, &mut text));
     text
 }
 
-/// Returns a name as an entry of a list that bars divide.
+/// Returns `name` as an entry of a list that bars divide.
 pub(crate) fn listed(name: &str) -> String {
     name.replace('%', "%25").replace('|', "%7C")
 }

@@ -1,4 +1,4 @@
-//! Pattern as text in the project's own format.
+//! Pattern as text in the project's format.
 
 use std::fmt::Write;
 
@@ -7,13 +7,13 @@ use drape_input::{toml_key, toml_string};
 use super::number::{as_written, decimal, millimetres, point};
 use crate::ease::{DEFAULT_EASE, MAX_EASE};
 use crate::edge::{Curve, Edge, distance};
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
-use crate::pattern::seam::{EdgeId, Seam};
+use crate::pattern::seam::Seam;
 
 impl Pattern {
-    /// Returns the pattern in the project's own format, in mm, with a heading and its notes as
+    /// Returns the pattern in the project's format, in mm, with `heading` and its notes as
     /// comments.
     ///
     /// ```
@@ -47,18 +47,20 @@ impl Pattern {
         text
     }
 
+    /// Writes the table of `panel` to `text`.
     fn panel(&self, panel: &Panel, text: &mut String) {
         let key = toml_key(panel.name());
         let _ = writeln!(text, "\n[panel.{key}]");
-        let assumed = self.notes().iter().any(|note| match note {
-            Note::NoGrain { panels } => panels.iter().any(|name| name == panel.name()),
+        let is_assumed = self.notes().iter().any(|note| match note {
+            PatternNote::NoGrain { panels } => panels.iter().any(|name| name == panel.name()),
             _ => false,
         });
-        let remark = if assumed { "    # assumed" } else { "" };
+        let remark = if is_assumed { "    # assumed" } else { "" };
         let _ = writeln!(text, "grain = {}{remark}", degrees(panel.grain()));
         if let Some(fabric) = panel.fabric() {
             let _ = writeln!(text, "fabric = {}", toml_string(fabric));
         }
+
         let outline = panel.outline();
         let _ = writeln!(text, "start = {}", point(&outline[0].start));
         text.push_str("outline = [\n");
@@ -71,8 +73,9 @@ impl Pattern {
             let _ = writeln!(text, "    {},    # {length} mm{remark}", edge_text(edge));
         }
         text.push_str("]\n");
-        placement(panel, text);
-        darts(panel, text);
+
+        write_placement(panel, text);
+        write_darts(panel, text);
         for fold in panel.folds() {
             let [from, to] = fold.ends.map(|end| point(&end));
             let angle = degrees(fold.angle);
@@ -81,42 +84,35 @@ impl Pattern {
         }
     }
 
-    /// Returns the seam that an edge is sewn in.
+    /// Returns the seam that sews `edge` of `panel`.
     fn seam_of(&self, panel: &Panel, edge: &Edge) -> Option<&Seam> {
-        let own = |id: &&EdgeId| {
-            self.panels()[id.panel].name() == panel.name() && self.edge(**id).name == edge.name
-        };
-        self.seams().iter().find(|seam| seam.sides.iter().flatten().any(|id| own(&id)))
+        let mut seams = self.seams().iter();
+        seams.find(|seam| seam.sides.iter().flatten().any(|&id| self.is_edge_of(id, panel, edge)))
     }
 
-    /// Writes a seam.
+    /// Writes the table of `seam` to `text`.
     pub(crate) fn seam(&self, seam: &Seam, text: &mut String) {
-        let side = |side: &[EdgeId]| {
-            let word = |id: &EdgeId| {
-                let panel = self.panels()[id.panel].name();
-                toml_string(&format!("{panel}.{}", self.edge(*id).name))
-            };
-            side.iter().map(word).collect::<Vec<_>>().join(", ")
-        };
-        let [first, second] = &seam.sides;
-        let lengths = [first, second].map(|s| decimal(1e3 * self.side_length(s), 10.0));
+        let sides = seam.sides.each_ref().map(|side| {
+            let words = side.iter().map(|&id| toml_string(&self.edge_word(id)));
+            words.collect::<Vec<_>>().join(", ")
+        });
+        let lengths = seam.sides.each_ref().map(|side| decimal(1e3 * self.side_length(side), 10.0));
         let _ = writeln!(
             text,
             "\n[seam.{}]\nsides = [[{}], [{}]]    # {} mm on {} mm",
             toml_key(&seam.name),
-            side(first),
-            side(second),
+            sides[0],
+            sides[1],
             lengths[0],
             lengths[1]
         );
+        // A key is left out if it has its default.
         if seam.reversed {
             text.push_str("reversed = true\n");
         }
         if seam.max_ease != DEFAULT_EASE {
-            let remark = match seam.max_ease == MAX_EASE {
-                true => "    # the most that can be cut",
-                false => "",
-            };
+            let is_most = seam.max_ease == MAX_EASE;
+            let remark = if is_most { "    # the most that can be cut" } else { "" };
             let _ = writeln!(text, "max_ease = {}{remark}", seam.max_ease);
         }
         if seam.angle != 0.0 {
@@ -128,8 +124,9 @@ impl Pattern {
     }
 }
 
-/// Writes the closed darts of a panel; those of edges are part of its outline, with their seams.
-pub(crate) fn darts(panel: &Panel, text: &mut String) {
+/// Writes the closed darts of `panel` to `text`. Legs of open darts are edges of the outline, and
+/// their seams are written as seams.
+pub(crate) fn write_darts(panel: &Panel, text: &mut String) {
     let key = toml_key(panel.name());
     for dart in panel.darts().iter().filter(|dart| !dart.hole().is_empty()) {
         let legs = dart.leg_edges();
@@ -137,7 +134,7 @@ pub(crate) fn darts(panel: &Panel, text: &mut String) {
         let name = toml_string(&dart.name);
         let _ = writeln!(text, "\n[[panel.{key}.dart]]\nname = {name}\nfrom = {from}");
         for (side, leg) in ["left", "right"].iter().zip(&legs) {
-            // The edges of legs are named after the dart.
+            // The legs have no names: reading names their edges after the dart.
             let edges: Vec<String> =
                 leg.iter().map(|edge| format!("{{ {} }}", shape(edge))).collect();
             let _ = writeln!(text, "{side} = [{}]", edges.join(", "));
@@ -145,8 +142,8 @@ pub(crate) fn darts(panel: &Panel, text: &mut String) {
     }
 }
 
-/// Writes the place of a panel in space.
-pub(crate) fn placement(panel: &Panel, text: &mut String) {
+/// Writes the placement of `panel` in space to `text`.
+pub(crate) fn write_placement(panel: &Panel, text: &mut String) {
     let Some(placement) = panel.placement() else { return };
     let turn = placement.angles().map(degrees).join(", ");
     let _ = writeln!(text, "origin = {}\nturn = [{turn}]", point(&placement.translation));
@@ -155,7 +152,7 @@ pub(crate) fn placement(panel: &Panel, text: &mut String) {
     }
 }
 
-/// Returns an edge as an inline table.
+/// Returns `edge` as an inline table.
 fn edge_text(edge: &Edge) -> String {
     let mut text = format!("{{ name = {}, {}", toml_string(&edge.name), shape(edge));
     if edge.hem != 0.0 {
@@ -164,14 +161,14 @@ fn edge_text(edge: &Edge) -> String {
     if !edge.notches.is_empty() {
         // A notch at the very end stays within the edge, whose ends are rounded.
         let length = edge.mapped(false, |p| p.map(as_written)).length();
-        let inside = |at: &f64| millimetres((at.min(length) - 1e-7).max(0.0));
-        let all: Vec<String> = edge.notches.iter().map(inside).collect();
+        let inside = edge.notches.iter().map(|at| (at.min(length) - 1e-7).max(0.0));
+        let all: Vec<String> = inside.map(millimetres).collect();
         let _ = write!(text, ", notches = [{}]", all.join(", "));
     }
     text + " }"
 }
 
-/// Returns the end and the curve of an edge, as keys of an inline table.
+/// Returns the end and the curve of `edge`, as keys of an inline table.
 fn shape(edge: &Edge) -> String {
     let mut text = format!("to = {}", point(&edge.end));
     let _ = match edge.curve {
@@ -181,10 +178,10 @@ fn shape(edge: &Edge) -> String {
             write!(text, ", cubic = [{}, {}]", point(&first), point(&second))
         }
         Curve::Arc { sweep } => {
-            // Of the rounded ends, in full: near a half circle little in the radius is much in the
-            // arc.
-            let rounded = |p: [f64; 2]| p.map(|x| (1e7 * x).round() / 1e7);
-            let half = 0.5e3 * distance(rounded(edge.start), rounded(edge.end));
+            // The radius belongs to the rounded ends. It has all its digits, because near a half
+            // circle a small change of the radius is a large change of the arc.
+            let [start, end] = [edge.start, edge.end].map(|p| p.map(|x| (1e7 * x).round() / 1e7));
+            let half = 0.5e3 * distance(start, end);
             let radius = half / (0.5 * sweep).sin();
             let large = if sweep.abs() > std::f64::consts::PI { ", large = true" } else { "" };
             // The sine of half a negative angle is negative: the arc turns right.
@@ -194,17 +191,17 @@ fn shape(edge: &Edge) -> String {
     text
 }
 
-/// Returns an angle in rad as a number of degrees.
+/// Returns `angle`, in rad, as a number of degrees.
 pub(crate) fn degrees(angle: f64) -> String {
     decimal(angle.to_degrees(), 1e6)
 }
 
-/// Returns a name without the letters that would end a comment.
+/// Returns `name` without the letters that would end a comment.
 fn plain(name: &str) -> String {
     name.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
 
-/// Writes a line of a comment.
+/// Writes `line` as a line of a comment to `text`.
 fn comment(text: &mut String, line: &str) {
     text.push_str("# ");
     text.push_str(&plain(line));

@@ -1,6 +1,6 @@
 //! Texts in XML.
 
-/// Returns a text as the content of an element or an attribute.
+/// Returns `text` as the content of an element or an attribute.
 pub(crate) fn escape(text: &str) -> String {
     let mut clean = String::new();
     for letter in text.chars() {
@@ -18,4 +18,14 @@ pub(crate) fn escape(text: &str) -> String {
         }
     }
     clean
+}
+
+/// Returns the `text-anchor` of a text beside a line, so that the text does not run over the line.
+/// `inward` is the x component of the unit vector from the line to the text.
+pub(crate) fn text_anchor(inward: f64) -> &'static str {
+    match inward {
+        0.5.. => "start",
+        ..-0.5 => "end",
+        _ => "middle",
+    }
 }

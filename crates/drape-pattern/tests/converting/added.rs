@@ -1,7 +1,7 @@
 //! Files that add to patterns of other formats.
 
 use drape_input::Document;
-use drape_pattern::{EdgeId, Note, Pattern};
+use drape_pattern::{EdgeId, Pattern, PatternNote};
 
 use crate::noted;
 
@@ -125,6 +125,8 @@ fn a_seam_takes_the_place_of_that_of_its_name() {
     let less =
         read(&format!("[panel.{}]\nomit = true\n", plain.panels()[0].name())).expect("it is right");
     assert!(
-        less.notes().iter().any(|n| matches!(n, Note::SeamsLeftOut { seams } if !seams.is_empty()))
+        less.notes()
+            .iter()
+            .any(|n| matches!(n, PatternNote::SeamsLeftOut { seams } if !seams.is_empty()))
     );
 }

@@ -1,7 +1,7 @@
 //! Shipped garments, cut at several spacings.
 
 use drape_input::Document;
-use drape_pattern::{CutPattern, Cutter, Note, Panel, Pattern, Quality};
+use drape_pattern::{CutPattern, Cutter, Panel, Pattern, PatternNote, Quality};
 
 use crate::invariants;
 
@@ -17,7 +17,7 @@ const GARMENTS: [&str; 4] = ["shirt.json", "skirt.json", "trousers.json", "teaga
 pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
     let cut = Cutter::new(spacing).cut(pattern).unwrap_or_else(|error| panic!("{error}"));
     invariants::check(pattern, &cut);
-    assert!(cut.notes.iter().all(|n| !matches!(n, Note::Thin { .. })), "{:?}", cut.notes);
+    assert!(cut.notes.iter().all(|n| !matches!(n, PatternNote::Thin { .. })), "{:?}", cut.notes);
     for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
         let quality = Quality::new(panel, cut, spacing);
         let name = panel.name();
@@ -29,7 +29,7 @@ pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
         assert!(quality.area_error.abs() <= area, "{name} at {spacing}: {quality:?}");
         assert!(quality.deviation <= 0.1 * spacing, "{name} at {spacing}: {quality:?}");
     }
-    (cut.particles(), cut)
+    (cut.particle_count(), cut)
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn garments_are_cut_well_at_all_spacings() {
 fn an_edge_between_two_seams_that_is_too_short_becomes_one_particle() {
     let (particles, cut) = cut(&shipped("shirt.json"), 0.02);
     let merged = cut.notes.iter().filter_map(|note| match note {
-        Note::Merged { panel, edge, length, .. } => {
+        PatternNote::Merged { panel, edge, length, .. } => {
             assert!((length - 0.0075).abs() < 1e-4, "{note}");
             Some(format!("{panel}.{edge}"))
         }

@@ -1,7 +1,8 @@
 //! Outlines of any shape, and what is refused.
 
 use drape_pattern::{
-    Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Note, Panel, Pattern, Quality, Seam,
+    Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Panel, Pattern, PatternNote, Quality,
+    Seam,
 };
 use proptest::prelude::*;
 
@@ -96,7 +97,11 @@ fn a_digitised_outline_of_many_short_edges_is_cut_like_a_smooth_one() {
     );
     let n = cut.panels[0].outline.len();
     assert!((62..=64).contains(&n), "{n} nodes on 62.8 spacings");
-    assert!(matches!(cut.notes[0], Note::Dissolved { ends: 4990..5000, .. }), "{:?}", cut.notes);
+    assert!(
+        matches!(cut.notes[0], PatternNote::Dissolved { ends: 4990..5000, .. }),
+        "{:?}",
+        cut.notes
+    );
 }
 
 #[test]

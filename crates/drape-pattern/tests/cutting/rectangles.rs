@@ -95,7 +95,7 @@ fn the_longer_side_of_a_gather_has_a_whole_number_of_arcs_for_each_of_the_shorte
         }
         assert_eq!(cut.notes, []);
         let nodes: usize = cut.panels.iter().map(|cut| cut.positions.len()).sum();
-        assert_eq!(cut.particles(), nodes - (arcs * fullness + 1), "{long}");
+        assert_eq!(cut.particle_count(), nodes - (arcs * fullness + 1), "{long}");
         // Whole ratios keep the spacing on both sides, and with it the lattice.
         let grid = [0.42, 0.45, 0.6, 1.2].contains(&long);
         let gather = fullness > 1;

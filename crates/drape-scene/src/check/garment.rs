@@ -14,7 +14,7 @@ use std::path::Path;
 
 use drape_cloth::Tie;
 use drape_input::{Diagnostic, Diagnostics, Document, excerpt, figure_below, toml_key};
-use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, Place};
+use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, PatternTable};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::fabrics::check_thickness;
@@ -146,7 +146,7 @@ fn changed(
         return None;
     }
     let prefix = format!("{key}.");
-    let place = Place { document: checker.document(), prefix: &prefix, unit: checker.unit };
+    let place = PatternTable { document: checker.document(), prefix: &prefix, unit: checker.unit };
     match pattern.with_seams(&entry.seam, &place) {
         Ok(pattern) => Some(pattern),
         Err(mistakes) => {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::input::{Diagnostic, Diagnostics};
-use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, Sketch, Wrong, figure};
+use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, Sketch, SketchFault, figure};
 
 use crate::input;
 
@@ -29,9 +29,9 @@ impl Refused {
         };
         let sketch = sketch.filter(|sketch| !sketch.is_empty());
         let subject = |mistake: &Diagnostic| {
-            mistake.subject.clone().map(|subject| Wrong { subject, at: None })
+            mistake.subject.clone().map(|subject| SketchFault { subject, at: None })
         };
-        let wrong: Vec<Wrong> = mistakes.0.iter().filter_map(subject).collect();
+        let wrong: Vec<SketchFault> = mistakes.0.iter().filter_map(subject).collect();
         let figure = sketch.map(|sketch| sketch.figure(&wrong, &mistakes.0));
         Self { mistakes, figure }
     }
@@ -58,10 +58,11 @@ impl CutOut {
         match Cutter::new(spacing).cut(&pattern) {
             Ok(cut) => Ok(Self { pattern, cut }),
             Err(Error::Pattern(all)) => {
-                let wrong: Vec<Wrong> = all.iter().filter_map(Wrong::of).collect();
+                let wrong: Vec<SketchFault> =
+                    all.iter().filter_map(SketchFault::from_mistake).collect();
                 let mistakes = all.iter().map(|mistake| mistake.diagnostic(shown)).collect();
                 let mistakes = Diagnostics(mistakes);
-                let figure = Some(Sketch::of(&pattern).figure(&wrong, &mistakes.0));
+                let figure = Some(Sketch::from_pattern(&pattern).figure(&wrong, &mistakes.0));
                 Err(Refused { mistakes, figure })
             }
             Err(other) => {
@@ -78,7 +79,7 @@ impl CutOut {
             "pattern, {} panels, {} stitches, {} particles at {} mm when sewn\n",
             pattern.panels().len(),
             pattern.seams().len(),
-            cut.particles(),
+            cut.particle_count(),
             1e3 * cut.spacing
         );
         for (panel, own) in pattern.panels().iter().zip(&cut.panels) {

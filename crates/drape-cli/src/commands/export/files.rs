@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape::export::{
-    Clip, Field, Fields, Listed, PatternMap, PolyData, Surface, write_obj, write_pvd,
+    Clip, CollectionFile, Field, Fields, PatternMap, PolyData, Surface, write_obj, write_pvd,
     write_rest_obj, write_svg, write_vtp,
 };
 use drape::frames::{Frame, Recording};
@@ -69,7 +69,7 @@ impl Files<'_> {
     pub(super) fn sequence(&self, clip: &Clip) -> Result<(), Failure> {
         let first = clip.frames()[0];
         let path = |index: usize| self.beside(&format!("-{:05}.obj", first + index));
-        let paths: Vec<PathBuf> = (0..clip.count()).map(path).collect();
+        let paths: Vec<PathBuf> = (0..clip.frame_count()).map(path).collect();
         self.free(paths.iter().map(PathBuf::as_path))?;
         for (path, number) in paths.iter().zip(clip.frames()) {
             let frame = clip.recording().frame(*number)?;
@@ -78,7 +78,7 @@ impl Files<'_> {
                 write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
             })?;
         }
-        self.remove_following((clip.count()..).map(path))
+        self.remove_following((clip.frame_count()..).map(path))
     }
 
     /// Removes the files of a longer sequence that was there, where files may be replaced.
@@ -141,7 +141,11 @@ impl Files<'_> {
         for (number, &time) in clip.frames().iter().zip(clip.times()) {
             let cloth = format!("cloth-{number:05}.vtp");
             vtp(&folder.join(&cloth), *number, Surface::Cloth)?;
-            listed.push(Listed { time, file: format!("{name}/{cloth}"), surface: Surface::Cloth });
+            listed.push(CollectionFile {
+                time,
+                file: format!("{name}/{cloth}"),
+                surface: Surface::Cloth,
+            });
             if has_bodies {
                 let source = recording.frame(*number)?.bodies_file;
                 let file = match bodies.take().filter(|(before, _)| *before == source) {
@@ -154,7 +158,7 @@ impl Files<'_> {
                 };
                 bodies = Some((source, file.clone()));
                 let file = format!("{name}/{file}");
-                listed.push(Listed { time, file, surface: Surface::Bodies });
+                listed.push(CollectionFile { time, file, surface: Surface::Bodies });
             }
         }
         file::write_by(&list, |to| write_pvd(&listed, to).map_err(Failure::from))

@@ -32,7 +32,7 @@ impl<'a> ClipPictures<'a> {
     ) -> Result<ClipPictures<'a>, Failure> {
         let look = look.look(clip.recording(), size)?;
         let [width, height] = look.size;
-        let count = clip.count();
+        let count = clip.frame_count();
         if count as u64 * u64::from(width) * u64::from(height) > PIXELS_MAX {
             let most = PIXELS_MAX / (u64::from(width) * u64::from(height));
             return Err(Failure::Usage(format!(
@@ -64,16 +64,16 @@ impl<'a> ClipPictures<'a> {
     /// Writes a file for each picture, with its number; of one picture the output itself.
     pub(super) fn sequence(&self, files: &Files<'_>) -> Result<(), Failure> {
         let first = self.clip.frames()[0];
-        let path = |index: usize| match self.clip.count() {
+        let path = |index: usize| match self.clip.frame_count() {
             1 => files.output.to_owned(),
             _ => files.beside(&format!("-{:05}.png", first + index)),
         };
-        let paths: Vec<PathBuf> = (0..self.clip.count()).map(path).collect();
+        let paths: Vec<PathBuf> = (0..self.clip.frame_count()).map(path).collect();
         files.free(paths.iter().map(PathBuf::as_path))?;
         self.each(|index, picture| {
             Ok(file::write(&paths[index], picture.png().map_err(Failure::of_picture)?)?)
         })?;
-        match self.clip.count() {
+        match self.clip.frame_count() {
             1 => Ok(()),
             count => files.remove_following((count..).map(path)),
         }
@@ -84,7 +84,7 @@ impl<'a> ClipPictures<'a> {
         files.free([files.output as &Path])?;
         let times = self.clip.times();
         file::write_by(files.output, |to| {
-            let count = self.clip.count() as u32;
+            let count = self.clip.frame_count() as u32;
             let mut animation =
                 Animation::new(to, count, self.look.size).map_err(Failure::of_picture)?;
             self.each(|index, picture| {

@@ -8,7 +8,7 @@ use crate::edge::{Curve, Edge};
 /// Largest coordinate, in the unit of the file; beyond it the file is damaged.
 const FARTHEST: f64 = 1e9;
 
-/// Drawn thing on a layer.
+/// Drawn entity on a layer.
 #[derive(Debug, Clone)]
 pub(crate) struct Entity {
     pub(crate) layer: String,
@@ -22,7 +22,7 @@ pub(crate) enum Form {
     Chain(Vec<Edge>),
     Point([f64; 2]),
     Text(String),
-    /// Kind that is not read.
+    /// Entity of a kind that is not read.
     Other(String),
 }
 
@@ -41,22 +41,26 @@ pub(crate) struct Contents {
     pub(crate) blocks: Vec<Block>,
     /// Entities outside of blocks.
     pub(crate) loose: Block,
-    /// Number that the header has for the unit, and whether it is metric.
+    /// Number of the unit in the header.
     pub(crate) insunits: Option<i32>,
 }
 
-/// Entity that is being read.
-struct Open<'a> {
+/// Entity whose pairs are being collected.
+struct OpenEntity<'a> {
     kind: &'a str,
     pairs: Vec<Pair<'a>>,
     vertices: Vec<Vec<Pair<'a>>>,
 }
 
-/// Returns the contents of the pairs of a file.
+/// Returns the contents of `document`, whose pairs are `pairs`.
+///
+/// # Errors
+/// A number that no piece can have.
 pub(crate) fn contents(document: &Document, pairs: &[Pair<'_>]) -> Result<Contents, Diagnostics> {
     let mut contents = Contents::default();
     let mut block: Option<Block> = None;
-    let mut open: Option<Open<'_>> = None;
+    let mut open: Option<OpenEntity<'_>> = None;
+    // Section that is being read, and variable of the header whose value comes next.
     let mut section = "";
     let mut variable = "";
     for (index, pair) in pairs.iter().enumerate() {
@@ -84,7 +88,7 @@ pub(crate) fn contents(document: &Document, pairs: &[Pair<'_>]) -> Result<Conten
                     "ENDBLK" => contents.blocks.extend(block.take()),
                     "ENDSEC" | "EOF" | "SEQEND" => {}
                     _ if matches!(section, "BLOCKS" | "ENTITIES") => {
-                        open = Some(Open { kind, pairs: Vec::new(), vertices: Vec::new() });
+                        open = Some(OpenEntity { kind, pairs: Vec::new(), vertices: Vec::new() });
                     }
                     _ => {}
                 }
@@ -105,7 +109,7 @@ pub(crate) fn contents(document: &Document, pairs: &[Pair<'_>]) -> Result<Conten
     Ok(contents)
 }
 
-/// Returns the number of a pair.
+/// Returns the number that `pair` has as its value.
 fn number(document: &Document, pair: &Pair<'_>) -> Result<f64, Diagnostics> {
     match pair.value.replace(',', ".").parse::<f64>() {
         Ok(value) if value.abs() < FARTHEST => Ok(value),
@@ -120,12 +124,21 @@ fn number(document: &Document, pair: &Pair<'_>) -> Result<f64, Diagnostics> {
     }
 }
 
-/// Returns an entity.
-fn entity(document: &Document, open: &Open<'_>) -> Result<Entity, Diagnostics> {
+/// Returns the value of the first of `pairs` with the group code `code`, as a number; 0 if there is
+/// none.
+fn number_of(document: &Document, pairs: &[Pair<'_>], code: i32) -> Result<f64, Diagnostics> {
+    let pair = pairs.iter().find(|pair| pair.code == code);
+    pair.map_or(Ok(0.0), |pair| number(document, pair))
+}
+
+/// Returns the entity of the pairs of `open`.
+fn entity(document: &Document, open: &OpenEntity<'_>) -> Result<Entity, Diagnostics> {
     let value = |code: i32| open.pairs.iter().find(|pair| pair.code == code);
-    let get = |code: i32| value(code).map_or(Ok(0.0), |pair| number(document, pair));
+    let get = |code: i32| number_of(document, &open.pairs, code);
     let flag = value(70).and_then(|pair| pair.value.parse::<i32>().ok()).unwrap_or(0);
     let layer = value(8).map(|pair| pair.value.to_owned()).unwrap_or_default();
+
+    // Group codes: 10, 20 and 11, 21 are points, 40 a radius, 50 and 51 angles, 42 a bulge.
     let form = match open.kind {
         "LINE" => {
             let (start, end) = ([get(10)?, get(20)?], [get(11)?, get(21)?]);
@@ -139,21 +152,18 @@ fn entity(document: &Document, open: &Open<'_>) -> Result<Entity, Diagnostics> {
         "ARC" => {
             let (centre, radius) = ([get(10)?, get(20)?], get(40)?);
             let (from, to) = (get(50)?.to_radians(), get(51)?.to_radians());
-            let at =
-                |angle: f64| [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()];
+            let [start, end] = [from, to]
+                .map(|angle| [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()]);
             let sweep = (to - from).rem_euclid(std::f64::consts::TAU);
-            let arc = Edge::line("", at(from), at(to)).curved(Curve::Arc { sweep });
+            let arc = Edge::line("", start, end).curved(Curve::Arc { sweep });
             let edges = if arc.start == arc.end { Vec::new() } else { vec![arc] };
             Form::Chain(edges)
         }
         "POLYLINE" => {
             let mut corners = Vec::new();
             for vertex in &open.vertices {
-                let of = |code: i32| {
-                    let pair = vertex.iter().find(|pair| pair.code == code);
-                    pair.map_or(Ok(0.0), |pair| number(document, pair))
-                };
-                corners.push(Corner { at: [of(10)?, of(20)?], bulge: of(42)? });
+                let [x, y, bulge] = [10, 20, 42].map(|code| number_of(document, vertex, code));
+                corners.push(Corner { at: [x?, y?], bulge: bulge? });
             }
             chain(&corners, flag & 1 == 1)
         }
@@ -171,18 +181,19 @@ fn entity(document: &Document, open: &Open<'_>) -> Result<Entity, Diagnostics> {
             }
             chain(&corners, flag & 1 == 1)
         }
-        other => Form::Other(other.into()),
+        kind => Form::Other(kind.into()),
     };
     Ok(Entity { layer, form })
 }
 
-/// Corner of a polyline, with the tangent of a quarter of the angle of the arc that begins there.
+/// Corner of a polyline. `bulge` is the tangent of a quarter of the angle of the arc that begins
+/// there.
 struct Corner {
     at: [f64; 2],
     bulge: f64,
 }
 
-/// Returns the chain of a polyline.
+/// Returns the chain of a polyline with `corners`.
 fn chain(corners: &[Corner], closed: bool) -> Form {
     let mut edges = Vec::new();
     let next = corners.iter().cycle().skip(1);
@@ -200,13 +211,13 @@ fn chain(corners: &[Corner], closed: bool) -> Form {
     Form::Chain(edges)
 }
 
-/// Returns the number of a layer.
+/// Returns the number of the layer `name`.
 pub(crate) fn layer(name: &str) -> Option<u32> {
     let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
     digits.parse().ok()
 }
 
-/// Returns the texts of a block.
+/// Returns the texts of `block`.
 pub(crate) fn texts(block: &Block) -> impl Iterator<Item = &str> {
     block.entities.iter().filter_map(|entity| match &entity.form {
         Form::Text(text) => Some(text.as_str()),
@@ -214,7 +225,8 @@ pub(crate) fn texts(block: &Block) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Returns the value of a text such as `Piece Name: FRONT` among the entities of a block.
+/// Returns the value of the text `key` among the entities of `block`. Such a text is `Piece Name:
+/// FRONT`.
 pub(crate) fn field(block: &Block, key: &str) -> Option<String> {
     let mut values = texts(block).filter_map(|text| {
         let (name, value) = text.split_once(':')?;

@@ -11,16 +11,21 @@ pub(crate) struct Pair<'a> {
     pub(crate) line: usize,
 }
 
-/// Returns the pairs of a file.
+/// Returns the pairs of `document`.
+///
+/// # Errors
+/// The file is binary, or a line is no group code.
 pub(crate) fn pairs(document: &Document) -> Result<Vec<Pair<'_>>, Diagnostics> {
     let help = "export the pattern as DXF-AAMA or DXF-ASTM, in ASCII";
     let text = document.text();
     if text.starts_with("AutoCAD Binary DXF") {
         return Err(Diagnostic::new(document.path(), "the file is binary DXF").help(help).into());
     }
+
     let mut pairs = Vec::new();
     let mut lines = text.lines().enumerate();
     while let Some((index, code)) = lines.next() {
+        // An empty last line is no group code.
         if code.trim().is_empty() && text.lines().count() <= index + 1 {
             break;
         }

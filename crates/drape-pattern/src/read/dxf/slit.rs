@@ -1,10 +1,11 @@
-//! Notches that are drawn as part of a cut line: slits that run in and back, and small teeth. And
+//! Notches that are drawn as part of a cut line: slits that run in and back, and small teeth. Also
 //! steps so small that they come from rounding.
 //!
-//! A cutter follows the line into the cloth and out again. As an outline the line would touch itself
-//! there, so that it is closed over the mouth, whose middle becomes a notch.
+//! A cutter follows the line into the cloth and out again. As an outline the line would touch
+//! itself there. The line is therefore closed over the mouth, and the middle of the mouth becomes a
+//! notch.
 
-use crate::edge::{Curve, Edge, difference, distance};
+use crate::edge::{Curve, Edge, difference, distance, turning_angle};
 use crate::read::fit::distance_from_segment;
 
 /// Widest mouth of a slit, in m.
@@ -16,22 +17,24 @@ const DEPTHS: std::ops::RangeInclusive<f64> = 1.5e-3..=0.02;
 /// Widest mouth of a tooth, in m: notches are cut up to a quarter of an inch wide.
 const TOOTH: f64 = 7e-3;
 
-/// Depths of teeth, in m; and the least depth over the width of the mouth.
+/// Depths of teeth, in m.
 const TOOTH_DEPTHS: std::ops::RangeInclusive<f64> = 2e-3..=0.01;
+
+/// Least depth of a tooth over the width of its mouth.
 const STEEP: f64 = 0.5;
 
-/// Largest turn between the mouth of a tooth and the line on either side of it, in rad: the line goes
-/// on behind a notch as it came.
+/// Largest turn between the mouth of a tooth and the line on either side of it, in rad. Behind a
+/// notch the line continues in its direction before the notch.
 const THROUGH: f64 = 0.5;
 
 /// Largest number of chords of a slit or a tooth.
 const CHORDS: usize = 4;
 
-/// Length of a chord below which it is no part of the form, in m: ends that should meet are as far
-/// apart, and programs step back by as much.
+/// Length of a chord below which it is no part of the shape, in m. Ends that should meet are this
+/// far apart, and programs step back by this length.
 const SPECK: f64 = 1e-4;
 
-/// Leaves out the chords of a closed line that are as short as its rounding.
+/// Removes the chords of the closed line `line` that are as short as its rounding.
 pub(crate) fn drop_specks(line: &mut Vec<Edge>) {
     let mut k = 0;
     while line.len() > 3 && k < line.len() {
@@ -46,14 +49,14 @@ pub(crate) fn drop_specks(line: &mut Vec<Edge>) {
     }
 }
 
-/// Closes the slits and teeth of a closed line, and returns the middles of their mouths.
+/// Closes the slits and teeth of the closed line `line`, and returns the middles of their mouths.
 pub(crate) fn close_slits(line: &mut Vec<Edge>) -> Vec<[f64; 2]> {
     let mut notches = Vec::new();
     let mut start = 0;
     while start < line.len() {
         match (2..=CHORDS).find(|&count| line.len() > count + 2 && is_notch(line, start, count)) {
             Some(count) => {
-                let mouth = close(line, start, count);
+                let mouth = close_mouth(line, start, count);
                 notches.push([0, 1].map(|k| 0.5 * (mouth[0][k] + mouth[1][k])));
                 start = 0;
             }
@@ -63,7 +66,7 @@ pub(crate) fn close_slits(line: &mut Vec<Edge>) -> Vec<[f64; 2]> {
     notches
 }
 
-/// Returns whether some chords from one on are a slit or a tooth.
+/// Returns whether `count` chords of `line` from the chord `start` on are a slit or a tooth.
 fn is_notch(line: &[Edge], start: usize, count: usize) -> bool {
     let edge = |k: usize| &line[(start + k) % line.len()];
     if (0..count).any(|k| edge(k).curve != Curve::Line) {
@@ -73,33 +76,32 @@ fn is_notch(line: &[Edge], start: usize, count: usize) -> bool {
     let width = distance(mouth[0], mouth[1]);
     let inner = || (1..count).map(|k| edge(k).start);
     let depth = inner().map(|p| distance_from_segment(p, mouth)).fold(0.0, f64::max);
-    // In and out again, and nothing else.
+    // The chords run in and out again, without another detour.
     let length: f64 = (0..count).map(|k| edge(k).length()).sum();
     if length > 2.2 * depth + width {
         return false;
     }
     let is_slit = width <= SLIT && DEPTHS.contains(&depth);
     let is_deep = TOOTH_DEPTHS.contains(&depth) && depth >= STEEP * width;
-    let is_through = || {
-        let along = difference(mouth[1], mouth[0]);
-        let before = line[(start + line.len() - 1) % line.len()].tangents()[1];
-        [before, edge(count).tangents()[0]].iter().all(|side| turn(*side, along) <= THROUGH)
-    };
-    is_slit || (width <= TOOTH && is_deep && is_through())
+    if is_slit || !(width <= TOOTH && is_deep) {
+        return is_slit;
+    }
+
+    // Behind a tooth the line goes on as before.
+    let along = difference(mouth[1], mouth[0]);
+    let before = line[(start + line.len() - 1) % line.len()].tangents()[1];
+    let after = edge(count).tangents()[0];
+    [before, after].iter().all(|side| turning_angle(*side, along).abs() <= THROUGH)
 }
 
-/// Puts one chord over the mouth in the place of some chords, and returns the ends of the mouth.
-fn close(line: &mut Vec<Edge>, start: usize, count: usize) -> [[f64; 2]; 2] {
+/// Replaces `count` chords of `line` from the chord `start` on by one chord over the mouth, and
+/// returns the ends of the mouth.
+fn close_mouth(line: &mut Vec<Edge>, start: usize, count: usize) -> [[f64; 2]; 2] {
     line.rotate_left(start);
     let mouth = [line[0].start, line[count - 1].end];
     let over = (mouth[0] != mouth[1]).then(|| Edge::line("", mouth[0], mouth[1]));
     line.splice(..count, over);
     mouth
-}
-
-/// Returns the angle between two directions, in rad.
-fn turn(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs()
 }
 
 #[cfg(test)]
@@ -115,8 +117,8 @@ mod tests {
 
     #[test]
     fn slits_and_teeth_are_closed_and_corners_and_darts_stay() {
-        // On the lower side: a slit without width, one of 1 mm with a square end, a tooth inwards and
-        // one outwards. Each side of the rectangle begins at a slit once.
+        // On the lower side: a slit without width, one of 1 mm with a square end, a tooth inwards
+        // and one outwards. Each side of the rectangle begins at a slit once.
         let mut points = vec![[0.0, 0.0]];
         points.extend([[40.0, 0.0], [40.0, 6.0], [40.0, 0.0]]);
         points.extend([[80.0, 0.0], [80.0, 5.0], [81.0, 5.0], [81.0, 0.0]]);

@@ -1,23 +1,24 @@
-//! Styles of a drawing, as far as they hide what is drawn: by attributes, by `style`, and by style
-//! sheets.
+//! Styles of a drawing, as far as they hide shapes: by attributes, by `style`, and by style sheets.
 //!
-//! A declaration of `style` counts before those of style sheets, the more specific rule before the
-//! less specific one, and an attribute last. `display` and `opacity` of a group hold for all in it;
-//! `visibility`, `fill` and `stroke` are inherited unless an element has its own. The rules of a
-//! style sheet are read and matched by `simplecss`.
+//! A declaration of `style` counts before declarations of style sheets, the more specific rule
+//! before the less specific rule, and an attribute last. `display` and `opacity` of a group hold
+//! for all in it. `visibility`, `fill` and `stroke` are inherited unless an element states them.
+//! `simplecss` reads and matches the rules of a style sheet.
 
 use roxmltree::Node;
-use simplecss::{AttributeOperator, DeclarationTokenizer, Element, PseudoClass, StyleSheet};
+use simplecss::{
+    AttributeOperator, Declaration, DeclarationTokenizer, Element, PseudoClass, StyleSheet,
+};
 
 /// Style sheets of a drawing.
 pub(crate) struct Styles<'a> {
     sheet: StyleSheet<'a>,
 }
 
-/// Element of a drawing, for selectors.
-struct Matched<'a, 'i>(Node<'a, 'i>);
+/// Element of a drawing, as `simplecss` matches it with selectors.
+struct StyledNode<'a, 'i>(Node<'a, 'i>);
 
-impl Element for Matched<'_, '_> {
+impl Element for StyledNode<'_, '_> {
     fn parent_element(&self) -> Option<Self> {
         self.0.parent_element().map(Self)
     }
@@ -40,7 +41,7 @@ impl Element for Matched<'_, '_> {
 }
 
 impl<'a> Styles<'a> {
-    /// Reads the style sheets of a drawing.
+    /// Returns the style sheets of the drawing `tree`.
     pub(crate) fn new(tree: &'a roxmltree::Document<'_>) -> Self {
         let mut sheet = StyleSheet::new();
         for node in tree.descendants().filter(|node| node.tag_name().name() == "style") {
@@ -49,61 +50,56 @@ impl<'a> Styles<'a> {
         Self { sheet }
     }
 
-    /// Returns whether an element is drawn: neither it nor a group round it is hidden.
+    /// Returns whether the element `node` is drawn: neither it nor a group round it is hidden.
     pub(crate) fn shows(&self, node: Node<'_, '_>) -> bool {
-        let around = || node.ancestors().filter(Node::is_element);
-        let no_display = |n: Node<'_, '_>| self.is(n, "display", |value| value == "none");
-        let no_opacity = |n: Node<'_, '_>| self.is(n, "opacity", is_zero);
-        let hidden = ["hidden", "collapse"];
-        let is_hidden = around().any(|n| no_display(n) || no_opacity(n))
-            || self.inherits(node, "visibility", |value| hidden.contains(&value));
+        let is_hidden = node.ancestors().filter(Node::is_element).any(|n| {
+            self.is(n, "display", |value| value == "none") || self.is(n, "opacity", is_zero)
+        });
+        let is_invisible =
+            self.inherits(node, "visibility", |value| matches!(value, "hidden" | "collapse"));
         let has_paint = !self.has_no_paint(node, "fill") || !self.has_no_paint(node, "stroke");
-        has_paint && !is_hidden
+        has_paint && !is_hidden && !is_invisible
     }
 
-    /// Returns whether an element is said to have no fill or no stroke.
+    /// Returns whether the styles of `node` state that it has no `paint`: `fill` or `stroke`.
     fn has_no_paint(&self, node: Node<'_, '_>, paint: &str) -> bool {
-        let none = |value: &str| matches!(value, "none" | "transparent");
-        self.inherits(node, paint, none)
+        self.inherits(node, paint, |value| matches!(value, "none" | "transparent"))
             || self.inherits(node, &format!("{paint}-opacity"), is_zero)
             || paint == "stroke" && self.inherits(node, "stroke-width", is_zero)
     }
 
-    /// Returns whether the value that an element has or inherits fulfils a condition.
+    /// Returns whether the property `key` that `node` has or inherits fulfils the condition
+    /// `holds`.
     fn inherits(&self, node: Node<'_, '_>, key: &str, holds: impl Fn(&str) -> bool) -> bool {
-        let own = node.ancestors().filter(Node::is_element).find_map(|n| self.value(n, key));
-        own.is_some_and(|value| holds(&value))
+        let value = node.ancestors().filter(Node::is_element).find_map(|n| self.value(n, key));
+        value.is_some_and(|value| holds(&value))
     }
 
-    /// Returns whether the value that an element has fulfils a condition.
+    /// Returns whether the property `key` of `node` fulfils the condition `holds`.
     fn is(&self, node: Node<'_, '_>, key: &str, holds: impl Fn(&str) -> bool) -> bool {
         self.value(node, key).is_some_and(|value| holds(&value))
     }
 
-    /// Returns the value of a property of an element, unless it is to be inherited.
+    /// Returns the value of the property `key` of `node`, unless it is to be inherited.
     fn value(&self, node: Node<'_, '_>, key: &str) -> Option<String> {
-        let sheet = || {
-            let rules = self.sheet.rules.iter();
-            rules
-                .filter(|rule| rule.selector.matches(&Matched(node)))
-                .flat_map(|rule| &rule.declarations)
-        };
-        let inline: Vec<_> =
-            DeclarationTokenizer::from(node.attribute("style").unwrap_or_default()).collect();
-        // The later of two counts, and what is important before what is not.
-        let of_key = |important: bool| {
-            let all = sheet().chain(&inline);
-            let mut own =
-                all.filter(|own| own.name.eq_ignore_ascii_case(key) && own.important == important);
-            own.next_back().map(|own| own.value)
-        };
-        let value = of_key(true).or_else(|| of_key(false)).or_else(|| node.attribute(key))?;
+        let rules = self.sheet.rules.iter().filter(|rule| rule.selector.matches(&StyledNode(node)));
+        let inline = DeclarationTokenizer::from(node.attribute("style").unwrap_or_default());
+        let declarations: Vec<Declaration<'_>> = rules
+            .flat_map(|rule| rule.declarations.iter().copied())
+            .chain(inline)
+            .filter(|declaration| declaration.name.eq_ignore_ascii_case(key))
+            .collect();
+
+        // The last declaration counts, and important ones before others.
+        let important = declarations.iter().rev().find(|declaration| declaration.important);
+        let declared = important.or(declarations.last()).map(|declaration| declaration.value);
+        let value = declared.or_else(|| node.attribute(key))?;
         let value = value.trim().to_ascii_lowercase();
         (value != "inherit").then_some(value)
     }
 }
 
-/// Returns whether a number, with a unit or not, is zero.
+/// Returns whether `value`, a number with a unit or not, is zero.
 fn is_zero(value: &str) -> bool {
     let number =
         value.trim_end_matches(|letter: char| letter == '%' || letter.is_ascii_alphabetic());

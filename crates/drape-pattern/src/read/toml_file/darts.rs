@@ -1,24 +1,27 @@
-//! Darts of a panel in the project's own format.
+//! Darts of a panel in the project's format.
 
 use drape_input::{Diagnostic, Given, Length};
 
 use super::keys::{DartKeys, EdgeKeys};
-use super::panels::{Reader, key};
+use super::panels::{ROUNDING, Reader, key};
 use crate::edge::{Edge, distance};
 use crate::length::Millimetres;
 use crate::mistake::Mistake;
 use crate::panel::Panel;
 use crate::panel::dart::{Dart, OpenDart};
 
-/// Open dart with the name of its edge.
-struct OnEdge<'a> {
+/// Open dart of a panel.
+struct DartOnEdge<'a> {
+    /// Index among the darts of the panel in the file.
+    index: usize,
+    /// Name of the edge.
     edge: &'a str,
     dart: OpenDart,
 }
 
 impl Reader<'_> {
-    /// Returns a panel with its darts: closed ones beside those that it has, and open ones cut into its
-    /// edges.
+    /// Returns `panel` with the darts of `keys`: closed darts are added, open darts are cut into
+    /// its edges.
     pub(crate) fn darted(&mut self, panel: Panel, keys: &[DartKeys]) -> Option<Panel> {
         if keys.is_empty() {
             return Some(panel);
@@ -31,11 +34,12 @@ impl Reader<'_> {
             let name = keys.name.clone().unwrap_or_else(|| format!("dart {}", index + 1));
             match (&keys.edge, keys.from) {
                 (Some(edge), None) => {
-                    let dart = self.open(&key, (&panel, edge), keys, name);
-                    open.extend(dart.map(|dart| (index, OnEdge { edge, dart })));
+                    let dart = self.open_dart(&key, (&panel, edge), keys, name);
+                    open.extend(dart.map(|dart| DartOnEdge { index, edge, dart }));
                 }
                 (None, Some(from)) => {
-                    closed.extend(self.closed(&key, from, keys, name).map(|dart| (index, dart)));
+                    let dart = self.closed_dart(&key, from, keys, name);
+                    closed.extend(dart.map(|dart| (index, dart)));
                 }
                 _ => {
                     let help = "a closed dart has from and to, its two tips; an open one has edge and at, where its \
@@ -50,28 +54,27 @@ impl Reader<'_> {
             return None;
         }
         let mut panel = panel;
-        // The darts of one edge together: their places are counted from its start.
-        open.sort_by(|a, b| {
-            let order = |own: &OnEdge<'_>| own.dart.mouth[0];
-            a.1.edge.cmp(b.1.edge).then(order(&a.1).total_cmp(&order(&b.1)))
-        });
-        for darts in open.chunk_by(|a, b| a.1.edge == b.1.edge) {
-            let own: Vec<OpenDart> = darts.iter().map(|(_, own)| own.dart.clone()).collect();
-            let divided = panel.clone().with_open_darts(darts[0].1.edge, &own);
+
+        // All darts of an edge are cut together: their positions are counted from its start.
+        open.sort_by(|a, b| a.edge.cmp(b.edge).then(a.dart.mouth[0].total_cmp(&b.dart.mouth[0])));
+        for darts in open.chunk_by(|a, b| a.edge == b.edge) {
+            let open_darts: Vec<OpenDart> =
+                darts.iter().map(|on_edge| on_edge.dart.clone()).collect();
+            let divided = panel.clone().with_open_darts(darts[0].edge, &open_darts);
             panel = self.sound(divided, &table, |name| {
-                darts.iter().find(|(_, own)| own.dart.name == name).map(|(index, _)| *index)
+                darts.iter().find(|on_edge| on_edge.dart.name == name).map(|on_edge| on_edge.index)
             })?;
         }
         for (index, dart) in closed {
             self.sketch.add_hole(panel.name(), dart.hole());
-            let with = panel.clone().with_darts(vec![dart]);
-            panel = self.sound(with, &table, |_| Some(index))?;
+            let darted = panel.clone().with_darts(vec![dart]);
+            panel = self.sound(darted, &table, |_| Some(index))?;
         }
         Some(panel)
     }
 
-    /// Returns a panel that could be made; adds the mistakes of another one at its darts, whose numbers
-    /// a function knows by their names.
+    /// Returns `panel` if it could be made. Adds its mistakes otherwise, at the keys of its darts
+    /// in `table`. `number` returns the index of a dart by its name.
     fn sound(
         &mut self,
         panel: Result<Panel, Vec<Mistake>>,
@@ -83,6 +86,7 @@ impl Reader<'_> {
             Err(mistakes) => mistakes,
         };
         for mistake in &mistakes {
+            // A mistake of the whole outline is at the only dart, if there is one.
             let dart = match mistake {
                 Mistake::DartMeets { dart, .. }
                 | Mistake::DartOutside { dart, .. }
@@ -100,48 +104,25 @@ impl Reader<'_> {
         None
     }
 
-    /// Returns a closed dart.
-    fn closed(
+    /// Returns the closed dart `name` that `keys` state at `key`, with its first tip at `from`.
+    fn closed_dart(
         &mut self,
         key: &str,
         from: [Given<Length>; 2],
         keys: &DartKeys,
         name: String,
     ) -> Option<Dart> {
-        let metres = self.metres;
-        let scaled = |p: [Given<Length>; 2]| p.map(|x| x * metres);
-        for (own, is_given) in [("at", keys.at.is_some()), ("depth", keys.depth.is_some())] {
+        for (key_of_open, is_given) in [("at", keys.at.is_some()), ("depth", keys.depth.is_some())]
+        {
             if is_given {
                 let help = "remove it, or give edge in place of from";
-                self.fail(&format!("{key}.{own}"), "belongs to an open dart", help);
+                self.fail(&format!("{key}.{key_of_open}"), "belongs to an open dart", help);
                 return None;
             }
         }
+
         match (keys.width, &keys.left, &keys.right) {
-            (Some(width), None, None) => {
-                let Some(to) = keys.to else {
-                    self.fail(key, "to is missing", "add to = [x, y], the other tip");
-                    return None;
-                };
-                let tips = [scaled(from), scaled(to)];
-                let length = distance(tips[0], tips[1]);
-                let width = width * metres;
-                let widest = keys.widest.map_or(0.5 * length, |widest| widest * metres);
-                if !(width > 0.0 && length > 0.0) {
-                    let help =
-                        "width is the greatest width of the dart, above 0, and its tips are apart";
-                    self.fail(&format!("{key}.width"), "gives the dart no area", help);
-                    return None;
-                }
-                if !(0.0 < widest && widest < length) {
-                    let length = Millimetres(length);
-                    let message = "is not between the tips".to_owned();
-                    let help = format!("a distance from `from`, between 0 and {length}");
-                    self.fail(&format!("{key}.widest"), message, help);
-                    return None;
-                }
-                Some(Dart::diamond(name, tips, width, widest))
-            }
+            (Some(width), None, None) => self.diamond(key, (from, width), keys, name),
             (None, Some(left), Some(right)) => {
                 if keys.widest.is_some() {
                     self.fail(&format!("{key}.widest"), "belongs to width", "remove it");
@@ -149,21 +130,7 @@ impl Reader<'_> {
                 }
                 let left = self.leg(&format!("{key}.left"), from, left)?;
                 let right = self.leg(&format!("{key}.right"), from, right)?;
-                let (Some(one), Some(other)) = (left.last(), right.last()) else {
-                    self.fail(
-                        key,
-                        "a leg has no edge",
-                        "give each leg one edge or more, from tip to tip",
-                    );
-                    return None;
-                };
-                let tip = keys.to.map_or(one.end, scaled);
-                if distance(one.end, tip).max(distance(other.end, tip)) > ROUNDING {
-                    let help = "let the last edge of both legs end at the other tip";
-                    self.fail(key, "its legs do not end in one tip", help);
-                    return None;
-                }
-                Some(Dart::closed(name, [left, right]))
+                self.closed_by_legs(key, [left, right], keys, name)
             }
             _ => {
                 let help = "give width for straight legs, or both left and right";
@@ -173,7 +140,61 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the edges of a leg.
+    /// Returns the closed dart `name` with straight legs from `from` and the width `width`.
+    fn diamond(
+        &mut self,
+        key: &str,
+        (from, width): ([Given<Length>; 2], Given<Length>),
+        keys: &DartKeys,
+        name: String,
+    ) -> Option<Dart> {
+        let Some(to) = keys.to else {
+            self.fail(key, "to is missing", "add to = [x, y], the other tip");
+            return None;
+        };
+        let tips = [self.scaled(from), self.scaled(to)];
+        let length = distance(tips[0], tips[1]);
+        let width = width * self.metres;
+        let widest = keys.widest.map_or(0.5 * length, |widest| widest * self.metres);
+        if !(width > 0.0 && length > 0.0) {
+            let help = "width is the greatest width of the dart, above 0, and its tips are apart";
+            self.fail(&format!("{key}.width"), "gives the dart no area", help);
+            return None;
+        }
+        if !(0.0 < widest && widest < length) {
+            let length = Millimetres(length);
+            let help = format!("a distance from `from`, between 0 and {length}");
+            self.fail(&format!("{key}.widest"), "is not between the tips", help);
+            return None;
+        }
+        Some(Dart::diamond(name, tips, width, widest))
+    }
+
+    /// Returns the closed dart `name` with the edges of both legs, which must end in one tip.
+    fn closed_by_legs(
+        &mut self,
+        key: &str,
+        legs: [Vec<Edge>; 2],
+        keys: &DartKeys,
+        name: String,
+    ) -> Option<Dart> {
+        let [Some(left_end), Some(right_end)] =
+            legs.each_ref().map(|leg| leg.last().map(|edge| edge.end))
+        else {
+            let help = "give each leg one edge or more, from tip to tip";
+            self.fail(key, "a leg has no edge", help);
+            return None;
+        };
+        let tip = keys.to.map_or(left_end, |to| self.scaled(to));
+        if distance(left_end, tip).max(distance(right_end, tip)) > ROUNDING {
+            let help = "let the last edge of both legs end at the other tip";
+            self.fail(key, "its legs do not end in one tip", help);
+            return None;
+        }
+        Some(Dart::closed(name, legs))
+    }
+
+    /// Returns the edges of a leg, which `keys` state at `key`, from the point `from` on.
     fn leg(&mut self, key: &str, from: [Given<Length>; 2], keys: &[EdgeKeys]) -> Option<Vec<Edge>> {
         for (index, edge) in keys.iter().enumerate() {
             if edge.hem.number() != 0.0 || !edge.notches.is_empty() || edge.name.is_some() {
@@ -186,8 +207,8 @@ impl Reader<'_> {
         self.chain(key, from, keys)
     }
 
-    /// Returns an open dart.
-    fn open(
+    /// Returns the open dart `name` that `keys` state at `key`, on the edge `edge` of `panel`.
+    fn open_dart(
         &mut self,
         key: &str,
         (panel, edge): (&Panel, &str),
@@ -195,26 +216,27 @@ impl Reader<'_> {
         name: String,
     ) -> Option<OpenDart> {
         let metres = self.metres;
-        let others = [
+        let keys_of_closed = [
             ("widest", keys.widest.is_some()),
             ("left", keys.left.is_some()),
             ("right", keys.right.is_some()),
         ];
-        if let Some((own, _)) = others.into_iter().find(|(_, is_given)| *is_given) {
+        if let Some((given, _)) = keys_of_closed.into_iter().find(|(_, is_given)| *is_given) {
             let help = "remove it: the legs of an open dart are straight";
-            self.fail(&format!("{key}.{own}"), "belongs to a closed dart", help);
+            self.fail(&format!("{key}.{given}"), "belongs to a closed dart", help);
             return None;
         }
+
         let (Some(at), Some(width)) = (keys.at, keys.width) else {
             let help = "add at, the distance of the middle of its mouth from the start of the edge, and width";
             self.fail(key, format!("dart {name} has no mouth"), help);
             return None;
         };
-        let own = self.edge(panel, &format!("{key}.edge"), edge)?;
+        let edge = self.edge(panel, &format!("{key}.edge"), edge)?;
         let (at, width) = (at * metres, width * metres);
         let tip = match (keys.to, keys.depth) {
-            (Some(to), None) => to.map(|x| x * metres),
-            (None, Some(depth)) => inward(own, at, depth * metres),
+            (Some(to), None) => self.scaled(to),
+            (None, Some(depth)) => inward(edge, at, depth * metres),
             _ => {
                 let help = "give its tip, by to = [x, y] or by depth, the distance from the edge";
                 self.fail(key, format!("dart {name} has no single tip"), help);
@@ -225,15 +247,13 @@ impl Reader<'_> {
     }
 }
 
-/// Distance of two tips that are one, in m.
-const ROUNDING: f64 = 1e-6;
-
-/// Returns the point at a distance from an edge, inside of the panel, at a right angle to the edge.
+/// Returns the point inside of the panel at the distance `depth` from `edge`, at a right angle to
+/// it, in m. `along` is the distance from the start of the edge to the foot, in m.
 fn inward(edge: &Edge, along: f64, depth: f64) -> [f64; 2] {
     let length = edge.length();
-    let at = |along: f64| edge.at((along / length).clamp(0.0, 1.0));
     let step = 1e-4 * length;
-    let (before, point, after) = (at(along - step), at(along), at(along + step));
+    let [before, point, after] =
+        [along - step, along, along + step].map(|along| edge.at((along / length).clamp(0.0, 1.0)));
     let chord = [after[0] - before[0], after[1] - before[1]];
     let size = chord[0].hypot(chord[1]).max(f64::MIN_POSITIVE);
     // The cloth is on the left of an edge.

@@ -1,4 +1,5 @@
-//! Keys of a pattern in the project's own format.
+//! Keys of a pattern in the project's format. The comments of fields stand in the schema and the
+//! guide.
 
 use std::collections::BTreeMap;
 
@@ -34,7 +35,7 @@ pub(crate) struct PatternKeys {
 pub(crate) struct FromKeys {
     /// Its file, relative to the folder of this one.
     pub(crate) file: String,
-    /// Unit of a drawing that states none; that of the drawing if missing.
+    /// Unit of a drawing that states none; the unit of the drawing if missing.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["mm", "cm", "m", "in", "pt", "px"])))]
     pub(crate) unit: Option<String>,
     /// Size of a graded drawing; its only one if missing.
@@ -76,15 +77,15 @@ pub(crate) struct PanelKeys {
     /// Widths of hems, by the names of edges.
     #[serde(default)]
     pub(crate) hems: BTreeMap<String, Given<Length>>,
-    /// Fabric; that of the garment if missing.
+    /// Fabric; the fabric of the garment if missing.
     pub(crate) fabric: Option<String>,
-    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; 0, with a note, or that
-    /// of the other file if missing.
+    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; 0, with a note, or
+    /// the grain in the other file if missing.
     pub(crate) grain: Option<Given<Angle>>,
-    /// Place of the panel's point (0, 0) in the scene; that of the other file if missing.
+    /// Place of the panel's point (0, 0) in the scene; the place in the other file if missing.
     pub(crate) origin: Option<[Given<Length>; 3]>,
-    /// Rotations about x, y and z, one after the other, in degrees; those of the other file, or
-    /// none, if missing.
+    /// Rotations about x, y and z, one after the other, in degrees; the rotations in the
+    /// other file, or none, if missing.
     pub(crate) turn: Option<[Given<Angle>; 3]>,
     /// Radius of the cylinder, upright and behind x = 0, that the panel is bent to; in front of it
     /// if negative; flat if missing.
@@ -98,7 +99,7 @@ pub(crate) struct PanelKeys {
 }
 
 impl PanelKeys {
-    /// Returns whether the panel has a shape of its own here.
+    /// Returns whether the keys give the panel a shape.
     pub(crate) fn has_shape(&self) -> bool {
         self.outline.is_some()
             || self.rectangle.is_some()
@@ -123,9 +124,10 @@ pub(crate) struct FoldKeys {
 
 /// Dart: closed, between two tips inside the panel, or open at an edge.
 ///
-/// A closed one has `from` and `to`, with `width` or with `left` and `right`; an open one has `edge`,
-/// `at` and `width`, with `to` or `depth`. Its seam is called `PANEL.NAME`. An edge with open darts is
-/// named as before in seams, which run on over the mouths; its parts are `EDGE 1`, `EDGE 2` and so on.
+/// A closed one has `from` and `to`, with `width` or with `left` and `right`; an open one has
+/// `edge`, `at` and `width`, with `to` or `depth`. Its seam is called `PANEL.NAME`. An edge with
+/// open darts is named as before in seams, which run on over the mouths; its parts are `EDGE 1`,
+/// `EDGE 2` and so on.
 #[derive(Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -134,10 +136,10 @@ pub(crate) struct DartKeys {
     pub(crate) name: Option<String>,
     /// One tip of a closed dart; the dart is open if missing.
     pub(crate) from: Option<Point>,
-    /// The other tip, or the tip of an open dart; that at `depth` if missing.
+    /// The other tip, or the tip of an open dart; the tip at `depth` if missing.
     pub(crate) to: Option<Point>,
-    /// Greatest width of a closed dart with straight legs, or width of the mouth of an open one; that
-    /// of `left` and `right` if missing.
+    /// Greatest width of a closed dart with straight legs, or width of the mouth of an open one;
+    /// the width of `left` and `right` if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) width: Option<Given<Length>>,
     /// Distance of the greatest width from `from`; the middle if missing.
@@ -152,8 +154,8 @@ pub(crate) struct DartKeys {
     /// Distance of the middle of the mouth from the start of that edge; no open dart if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) at: Option<Given<Length>>,
-    /// Distance of the tip of an open dart from the edge, at a right angle to the edge; that of `to` if
-    /// missing.
+    /// Distance of the tip of an open dart from the edge, at a right angle to the edge; the
+    /// distance of `to` if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) depth: Option<Given<Length>>,
 }
@@ -186,7 +188,7 @@ pub(crate) struct EdgeKeys {
     pub(crate) notches: Vec<Given<Length>>,
 }
 
-/// Returns the JSON Schema of patterns.
+/// Returns the JSON Schema of patterns in the project's format.
 #[cfg(feature = "schema")]
 #[must_use]
 pub fn pattern_schema() -> serde_json::Value {

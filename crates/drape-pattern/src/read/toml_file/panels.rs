@@ -1,5 +1,7 @@
-//! Panels of a pattern in the project's own format: a shape of their own, or changes of another
-//! panel.
+//! Panels of a pattern in the project's format: with a shape from the file, or as changes of
+//! another panel.
+
+use std::collections::BTreeMap;
 
 use drape_input::{
     Diagnostic, Document, Edit, Faults, Given, Length, closest, figures, toml_key, toml_string,
@@ -9,48 +11,54 @@ use super::keys::{EdgeKeys, FoldKeys, PanelKeys};
 use crate::edge::{Curve, Edge};
 use crate::length::Millimetres;
 use crate::mistake::Mistake;
-use crate::note::Note;
+use crate::note::PatternNote;
 use crate::panel::placement::Placement;
 use crate::panel::{Fold, Panel};
-use crate::read::seams::{Place, located};
+use crate::read::seams::{PatternTable, located};
 use crate::read::size::{Doubt, wrong_size};
 use crate::read::svg_path;
 use crate::sketch::Sketch;
 
-/// Distance beyond the end of an edge at which a notch is still on it, in m: the ends of the edge are
-/// rounded to a ten-thousandth of a millimetre where a program writes them.
-const ROUNDING: f64 = 1e-6;
+/// Distance of two points that are one but for rounding, in m. Programs round points to a
+/// ten-thousandth of a millimetre. A notch may lie beyond the end of an edge by this distance.
+pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// Reader of the panels of one document, with the mistakes and notes so far.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
-    /// Mistakes of spelling and type, and what they leave unknown.
+    /// Mistakes of spelling and type, and the keys whose values they leave unknown.
     pub(crate) faults: &'a Faults,
     pub(crate) sketch: &'a mut Sketch,
     pub(crate) mistakes: Vec<Diagnostic>,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: Vec<PatternNote>,
     /// Unit of lengths of the file, in m; NaN if it is not known.
     pub(crate) metres: f64,
 }
 
 impl<'a> Reader<'a> {
-    /// Creates the reader of a document with faults, before its unit is known.
+    /// Returns the reader of `document`, with `faults` of its decoding, before its unit is known.
     pub(crate) fn new(document: &'a Document, faults: &'a Faults, sketch: &'a mut Sketch) -> Self {
         let (mistakes, notes) = (Vec::new(), Vec::new());
         Self { document, faults, sketch, mistakes, notes, metres: f64::NAN }
     }
 
-    /// Place of the tables of the file.
-    pub(crate) fn place(&self) -> Place<'a> {
-        Place { document: self.document, prefix: "", unit: self.metres }
+    /// Top of the file as a table with panels and seams.
+    pub(crate) fn table(&self) -> PatternTable<'a> {
+        PatternTable { document: self.document, prefix: "", unit: self.metres }
     }
 
-    /// Adds a mistake at a key. Of a value that could not be read nothing more is said.
+    /// Returns a point of the file in m.
+    pub(crate) fn scaled(&self, point: [Given<Length>; 2]) -> [f64; 2] {
+        point.map(|x| x * self.metres)
+    }
+
+    /// Adds the mistake `message` with the remedy `help` at `key`, unless its value could not be
+    /// read, which is a mistake already.
     pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.fail_with(key, message, help, Vec::new());
     }
 
-    /// Adds a mistake at a key, with the changes that remedy it.
+    /// Adds a mistake as [`Reader::fail`] does, with `edits` that remedy it.
     pub(crate) fn fail_with(
         &mut self,
         key: &str,
@@ -63,7 +71,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Returns whether the outline of a panel depends on values that could not be read.
+    /// Returns whether the outline of the panel `name` depends on values that could not be read.
     pub(crate) fn is_shapeless(&self, name: &str, keys: &PanelKeys) -> bool {
         const OF_SHAPES: [&str; 8] =
             ["start", "rectangle", "path", "edges", "copy_of", "mirrored", "shift", "split"];
@@ -72,17 +80,17 @@ impl<'a> Reader<'a> {
             return false;
         }
         let key = key(name);
-        let unknown = |path: &str| self.faults.cover(&format!("{key}.{path}"));
+        let is_unknown = |path: &str| self.faults.cover(&format!("{key}.{path}"));
         let edges = keys.outline.as_ref().map(Vec::len);
-        OF_SHAPES.into_iter().any(unknown)
-            || edges.is_none() && unknown("outline")
+        OF_SHAPES.into_iter().any(is_unknown)
+            || edges.is_none() && is_unknown("outline")
             || (0..edges.unwrap_or(0)).any(|index| {
-                OF_EDGES.into_iter().any(|own| unknown(&format!("outline[{index}].{own}")))
+                OF_EDGES.into_iter().any(|edge| is_unknown(&format!("outline[{index}].{edge}")))
             })
     }
 
-    /// Checks the keys of a panel that do not need its outline.
-    pub(crate) fn check_loose(&mut self, name: &str, keys: &PanelKeys) {
+    /// Checks the keys of the panel `name` that do not need its outline.
+    pub(crate) fn check_without_outline(&mut self, name: &str, keys: &PanelKeys) {
         let key = key(name);
         for (edge, width) in &keys.hems {
             self.check_width(&format!("{key}.hems.{}", toml_key(edge)), *width);
@@ -96,40 +104,41 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Adds the mistake that the grain of the panel at `key` is not finite.
     fn fail_grain(&mut self, key: &str, keys: &PanelKeys) {
         let grain = keys.grain.map_or(f64::NAN, Given::value);
         let help = "degrees from the panel's y axis to its warp, anticlockwise";
         self.fail(&format!("{key}.grain"), format!("is {grain}"), help);
     }
 
-    /// Checks the width of a hem.
+    /// Checks `width`, the width of a hem at `key`.
     fn check_width(&mut self, key: &str, width: Given<Length>) {
-        let mistake = self.place().width(key, width);
+        let mistake = self.table().width_mistake(key, width);
         self.mistakes.extend(mistake.filter(|_| !self.faults.cover(key)));
     }
 
-    /// Checks the angles of folds.
+    /// Checks the angles of `folds`, folds of the panel at `key`.
     fn check_angles(&mut self, key: &str, folds: &[FoldKeys]) {
         for (index, fold) in folds.iter().enumerate() {
             let key = format!("{key}.fold[{index}].angle");
-            let mistake = self.place().angle(&key, fold.angle);
+            let mistake = self.table().angle_mistake(&key, fold.angle);
             self.mistakes.extend(mistake.filter(|_| !self.faults.cover(&key)));
         }
     }
 
-    /// Adds a mistake of the pattern at the key of its subject.
+    /// Adds `mistake`, a mistake of the pattern, at the key of its subject.
     pub(crate) fn mistake(&mut self, mistake: &Mistake) {
-        self.mistakes.push(located(&self.place(), mistake));
+        self.mistakes.push(located(&self.table(), mistake));
     }
 
-    /// Returns a panel whose shape the file gives.
-    pub(crate) fn own(&mut self, name: &str, keys: &PanelKeys) -> Option<Panel> {
+    /// Returns the panel `name`, whose shape `keys` give.
+    pub(crate) fn shaped(&mut self, name: &str, keys: &PanelKeys) -> Option<Panel> {
         if keys.mirrored {
             let help = "remove it, or name the panel that this one mirrors: copy_of = \"…\"";
             self.fail(&format!("{}.mirrored", key(name)), "belongs to copy_of", help);
         }
         let edges = self.edges(name, keys)?;
-        self.sketch.add(name, &edges);
+        self.sketch.add_outline(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
@@ -137,28 +146,33 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
+
+        // The size of a panel may show that the unit of the file is wrong.
         if let Some(mistake) = wrong_size(&panel) {
-            let doubt = Doubt::of_file(std::slice::from_ref(&panel), self.metres);
+            let doubt = Doubt::for_file(std::slice::from_ref(&panel), self.metres);
             let unit = doubt.map(|doubt| toml_string(doubt.likely_unit()));
             let edit = unit.as_ref().and_then(|unit| self.document.edit("length", Some(unit)));
-            let mut located = located(&self.place(), &mistake).with_edits(edit);
+            let mut located = located(&self.table(), &mistake).with_edits(edit);
             if let Some(unit) = unit {
                 located.help = Some(format!("did you mean length = {unit}? {}", mistake.help()));
             }
             self.mistakes.push(located);
         }
         if panel.was_clockwise() {
-            self.notes.push(Note::Reversed { panel: name.into() });
+            self.notes.push(PatternNote::Reversed { panel: name.into() });
         }
         self.changed(panel, keys)
     }
 
-    /// Returns a panel with the grain, fabric, hems, folds and place that the file gives it.
+    /// Returns `panel` with the changes of `keys`: splits, shift, hems, darts, fabric, grain, folds
+    /// and placement.
     pub(crate) fn changed(&mut self, panel: Panel, keys: &PanelKeys) -> Option<Panel> {
         let key = key(panel.name());
+
+        // Hems and darts name edges as they are after splitting.
         let mut panel = self.split(panel, keys)?;
         if let Some(shift) = keys.shift {
-            let by = shift.map(|x| x * self.metres);
+            let by = self.scaled(shift);
             match panel.shifted(by) {
                 Some(moved) => panel = moved,
                 None => {
@@ -168,7 +182,7 @@ impl<'a> Reader<'a> {
                 }
             }
         }
-        self.sketch.put(&panel);
+        self.sketch.add_panel(&panel);
         self.check_hems(&panel, keys)?;
         let metres = self.metres;
         if !keys.hems.is_empty() {
@@ -178,7 +192,8 @@ impl<'a> Reader<'a> {
             });
         }
         panel = self.darted(panel, &keys.dart)?;
-        self.sketch.put(&panel);
+        self.sketch.add_panel(&panel);
+
         if let Some(fabric) = &keys.fabric {
             panel = panel.with_fabric(fabric);
         }
@@ -197,12 +212,12 @@ impl<'a> Reader<'a> {
         self.placed(panel, keys)
     }
 
-    /// Returns a panel at its place in space.
+    /// Returns `panel` at the placement that `keys` give. Parts of it that are missing stay as they
+    /// are.
     fn placed(&mut self, panel: Panel, keys: &PanelKeys) -> Option<Panel> {
         if keys.origin.is_none() && keys.turn.is_none() && keys.wrap.is_none() {
             return Some(panel);
         }
-        let key = key(panel.name());
         let given = panel.placement().copied();
         let flat = match (&keys.origin, &keys.turn, given) {
             (None, None, Some(given)) => given.with_wrap(None),
@@ -216,6 +231,8 @@ impl<'a> Reader<'a> {
         };
         let wrap = keys.wrap.map(|radius| radius * self.metres);
         let wrap = wrap.or(given.and_then(|given| given.wrap));
+
+        let key = key(panel.name());
         match panel.with_placement(flat.with_wrap(wrap)) {
             Ok(panel) => Some(panel),
             Err(mistake @ Mistake::Wrap { .. }) => {
@@ -223,45 +240,48 @@ impl<'a> Reader<'a> {
                 None
             }
             Err(_) => {
-                let wrong = |numbers: &[f64]| numbers.iter().any(|number| !number.is_finite());
-                let own = match (keys.origin, keys.turn) {
-                    (Some(origin), _) if wrong(&origin.map(Given::number)) => "origin",
-                    (_, Some(turn)) if wrong(&turn.map(Given::number)) => "turn",
+                let wrong_key = match (keys.origin, keys.turn) {
+                    (Some(origin), _) if origin.iter().any(|x| !x.number().is_finite()) => "origin",
+                    (_, Some(turn)) if turn.iter().any(|x| !x.number().is_finite()) => "turn",
                     _ => "wrap",
                 };
                 let help = "origin is three lengths, turn three angles in degrees about x, y and z, \
                             wrap a radius above 0";
-                self.fail(&format!("{key}.{own}"), "does not give the panel a place", help);
+                self.fail(&format!("{key}.{wrong_key}"), "does not give the panel a place", help);
                 None
             }
         }
     }
 
-    /// Returns a panel with some of its edges split at distances from their starts.
+    /// Returns `panel` with edges split as `keys` state.
     fn split(&mut self, panel: Panel, keys: &PanelKeys) -> Option<Panel> {
         let before = self.mistakes.len();
-        for (name, places) in &keys.split {
+        let mut distances: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+        for (name, given) in &keys.split {
             let key = format!("{}.split.{}", key(panel.name()), toml_key(name));
             let Some(edge) = self.edge(&panel, &key, name) else { continue };
             let length = edge.length();
-            let places: Vec<f64> = places.iter().map(|&at| at * self.metres).collect();
-            let rising = places.windows(2).all(|pair| pair[0] < pair[1]);
-            let inside = places.iter().all(|at| 0.0 < *at && *at < length);
-            if !(rising && inside) {
+            let places: Vec<f64> = given.iter().map(|&at| at * self.metres).collect();
+            let is_rising = places.windows(2).all(|pair| pair[0] < pair[1]);
+            let is_inside = places.iter().all(|at| 0.0 < *at && *at < length);
+            if !(is_rising && is_inside) {
                 let length = Millimetres(length);
                 let help = format!("ascending distances from its start, between 0 and {length}");
                 self.fail(&key, format!("is {}", millimetres(&places)), help);
             }
+            distances.insert(name, places);
         }
-        let metres = self.metres;
-        let cut = |edge: &Edge| match keys.split.get(&edge.name) {
-            Some(places) => edge.split(&places.iter().map(|&at| at * metres).collect::<Vec<_>>()),
+        if self.mistakes.len() > before {
+            return None;
+        }
+
+        Some(panel.with_edges(|edge| match distances.get(edge.name.as_str()) {
+            Some(places) => edge.split(places),
             None => vec![edge.clone()],
-        };
-        (self.mistakes.len() == before).then(|| panel.with_edges(cut))
+        }))
     }
 
-    /// Checks the hems of a panel that are given by the names of its edges.
+    /// Checks the hems of `panel` that `keys` give by the names of its edges.
     fn check_hems(&mut self, panel: &Panel, keys: &PanelKeys) -> Option<()> {
         let before = self.mistakes.len();
         for (name, width) in &keys.hems {
@@ -272,10 +292,10 @@ impl<'a> Reader<'a> {
         (self.mistakes.len() == before).then_some(())
     }
 
-    /// Returns the edge of a panel of a name; adds a mistake if there is none.
+    /// Returns the edge `name` of `panel`. Adds a mistake at `key` if there is none.
     pub(crate) fn edge<'p>(&mut self, panel: &'p Panel, key: &str, name: &str) -> Option<&'p Edge> {
-        let found = panel.outline().iter().find(|edge| edge.name == name);
-        if found.is_none() {
+        let edge = panel.outline().iter().find(|edge| edge.name == name);
+        if edge.is_none() {
             let known: Vec<&str> = panel.outline().iter().map(|e| e.name.as_str()).collect();
             let similar = closest(name, known.iter().copied());
             let help = match similar {
@@ -289,32 +309,30 @@ impl<'a> Reader<'a> {
             let message = format!("panel {} has no edge \"{name}\"", panel.name());
             self.fail_with(key, message, help, renamed.unwrap_or_default());
         }
-        found
+        edge
     }
 
-    /// Returns a panel with its folds.
+    /// Returns `panel` with the folds `folds`.
     fn folded(&mut self, panel: Panel, folds: &[FoldKeys]) -> Option<Panel> {
         let key = key(panel.name());
         self.check_angles(&key, folds);
-        let scaled = |p: [Given<Length>; 2]| p.map(|x| x * self.metres);
-        let fold = |fold: &FoldKeys| Fold {
-            ends: [scaled(fold.from), scaled(fold.to)],
+        let folds = folds.iter().map(|fold| Fold {
+            ends: [self.scaled(fold.from), self.scaled(fold.to)],
             angle: fold.angle.value().to_radians(),
-        };
-        let folds = folds.iter().map(fold).collect();
-        let folded = panel.with_folds(folds);
+        });
+        let folded = panel.with_folds(folds.collect());
         let help = "from and to are the ends of a line, such as [0, 10] and [40, 10]";
         let key = format!("{key}.fold");
         folded.map_err(|_| self.fail(&key, "a fold has no length, or is not finite", help)).ok()
     }
 
-    /// Returns the edges of a panel, whichever shape it is given by.
+    /// Returns the edges of the panel `name`, from the shape that `keys` give.
     fn edges(&mut self, name: &str, keys: &PanelKeys) -> Option<Vec<Edge>> {
         let key = key(name);
         let mut edges = match (&keys.outline, keys.rectangle, &keys.path) {
             (Some(outline), None, None) => self.outline(&key, keys.start, outline)?,
             (None, Some(size), None) => {
-                let [x, y] = size.map(|side| side * self.metres);
+                let [x, y] = self.scaled(size);
                 if !(x > 0.0 && y > 0.0) {
                     let message = format!("is {}", millimetres(&[x, y]));
                     let help = "width and height of the panel, both above 0";
@@ -339,9 +357,11 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
+
         if keys.start.is_some() && keys.outline.is_none() {
             self.fail(&format!("{key}.start"), "belongs to an outline", "remove it");
         }
+        // The key `edges` names the edges of a path or a rectangle.
         let Some(names) = &keys.edges else { return Some(edges) };
         if names.len() != edges.len() || keys.outline.is_some() {
             let message = format!("names {} edges of {}", names.len(), edges.len());
@@ -353,7 +373,7 @@ impl<'a> Reader<'a> {
         Some(edges)
     }
 
-    /// Returns the edges of an outline.
+    /// Returns the edges of `outline` from the point `start` on, for the panel at `key`.
     fn outline(
         &mut self,
         key: &str,
@@ -367,7 +387,7 @@ impl<'a> Reader<'a> {
         self.chain(&format!("{key}.outline"), start, outline)
     }
 
-    /// Returns edges in a row from a point on, under a key.
+    /// Returns the edges in a row that `outline` states at `key`, from the point `start` on.
     pub(crate) fn chain(
         &mut self,
         key: &str,
@@ -378,24 +398,25 @@ impl<'a> Reader<'a> {
         let before = self.mistakes.len();
         let mut edges = Vec::new();
         for (index, keys) in outline.iter().enumerate() {
-            let scaled = |p: [Given<Length>; 2]| p.map(|x| x * self.metres);
             let name = keys.name.clone().unwrap_or_else(|| (index + 1).to_string());
-            let line = Edge::line(name, scaled(at), scaled(keys.to));
+            let line = Edge::line(name, self.scaled(at), self.scaled(keys.to));
             let curve = match (keys.quadratic, keys.cubic, keys.radius) {
                 (None, None, None) => Some(Curve::Line),
-                (Some(control), None, None) => Some(Curve::Quadratic(scaled(control))),
-                (None, Some(controls), None) => Some(Curve::Cubic(controls.map(scaled))),
+                (Some(control), None, None) => Some(Curve::Quadratic(self.scaled(control))),
+                (None, Some(controls), None) => {
+                    Some(Curve::Cubic(controls.map(|control| self.scaled(control))))
+                }
                 (None, None, Some(radius)) => {
                     let (size, left) = ((radius * self.metres).abs(), radius.number() > 0.0);
                     Some(Curve::Arc { sweep: line.arc_sweep(size, keys.large, left) })
                 }
                 _ => None,
             };
-            let place = format!("{key}[{index}]");
-            self.check_width(&format!("{place}.hem"), keys.hem);
+            let edge_key = format!("{key}[{index}]");
+            self.check_width(&format!("{edge_key}.hem"), keys.hem);
             if keys.large && keys.radius.is_none() {
                 self.fail(
-                    &format!("{place}.large"),
+                    &format!("{edge_key}.large"),
                     "belongs to a radius",
                     "remove it, or add radius",
                 );
@@ -403,20 +424,21 @@ impl<'a> Reader<'a> {
             at = keys.to;
             let Some(curve) = curve else {
                 let help = "give at most one of quadratic, cubic and radius";
-                self.fail(&place, "the edge has no single curve", help);
+                self.fail(&edge_key, "the edge has no single curve", help);
                 continue;
             };
+
+            // A notch at the end of an edge may lie beyond it by the rounding of the digits.
             let mut edge = line.curved(curve).hemmed(keys.hem * self.metres);
             let length = edge.length();
             let notches = keys.notches.iter().map(|&notch| notch * self.metres);
-            // A notch at the end of an edge may lie beyond it by the rounding of the digits.
-            let end =
-                |notch: f64| if notch < length + ROUNDING { notch.min(length) } else { notch };
-            edge.notches = notches.map(end).collect();
+            edge.notches = notches
+                .map(|notch| if notch < length + ROUNDING { notch.min(length) } else { notch })
+                .collect();
             if !edge.notches.iter().all(|notch| (0.0..=length).contains(notch)) {
                 let message = format!("are {}", millimetres(&edge.notches));
                 let help = format!("distances from its start, from 0 to {}", Millimetres(length));
-                self.fail(&format!("{place}.notches"), message, help);
+                self.fail(&format!("{edge_key}.notches"), message, help);
             }
             edges.push(edge);
         }
@@ -424,13 +446,13 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Returns lengths in m as a list in mm.
+/// Returns `lengths`, in m, as a list in mm.
 fn millimetres(lengths: &[f64]) -> String {
     let lengths: Vec<f64> = lengths.iter().map(|length| 1000.0 * length).collect();
     format!("{} mm", figures(&lengths))
 }
 
-/// Returns the key of a panel.
+/// Returns the key of the panel with the name `panel`.
 pub(crate) fn key(panel: &str) -> String {
     format!("panel.{}", toml_key(panel))
 }

@@ -1,4 +1,4 @@
-//! Sheet: the places of flat panels side by side, in rows.
+//! Layout of flat panels side by side, in rows.
 
 /// Room that a panel needs, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,39 +7,39 @@ pub(super) struct Extent {
     pub(super) height: f64,
 }
 
-/// Sheet with panels.
+/// Positions of panels in rows.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Sheet {
-    /// Place of the left upper corner of each panel, in mm from that of the sheet; y is down.
+pub(super) struct PanelLayout {
+    /// Upper left corner of each panel, in mm from the upper left corner of the layout; y is down.
     pub(super) corners: Vec<[f64; 2]>,
     /// Width and height, in mm.
     pub(super) size: [f64; 2],
 }
 
-/// Width over height of a sheet, about that of a screen.
+/// Width over height of a layout, as on a screen.
 const ASPECT: f64 = 1.6;
 
-impl Sheet {
-    /// Returns a sheet with panels in their order; `gap` is the distance between them, `above` the room
-    /// for the name above each, in mm.
-    pub(super) fn new(panels: &[Extent], gap: f64, above: f64) -> Sheet {
-        let area = |panel: &Extent| (panel.width + gap) * (panel.height + gap + above);
-        let whole: f64 = panels.iter().map(area).sum();
+impl PanelLayout {
+    /// Returns a layout of `panels` in their order. `gap` is the distance between them, `above` the
+    /// room for the name above each, in mm.
+    pub(super) fn new(panels: &[Extent], gap: f64, above: f64) -> PanelLayout {
+        let areas = panels.iter().map(|panel| (panel.width + gap) * (panel.height + gap + above));
+        let whole: f64 = areas.sum();
         let widest = panels.iter().map(|panel| panel.width).fold(0.0, f64::max);
         let width_max = (ASPECT * whole).sqrt().max(widest);
+
         let (mut x, mut y, mut row_height, mut width) = (0.0, 0.0, 0.0_f64, 0.0_f64);
-        let mut place = |panel: &Extent| {
+        let mut corners = Vec::new();
+        for panel in panels {
             if x > 0.0 && x + panel.width > width_max {
                 (x, y, row_height) = (0.0, y + row_height + gap, 0.0);
             }
-            let corner = [x, y + above];
+            corners.push([x, y + above]);
             row_height = row_height.max(above + panel.height);
             width = width.max(x + panel.width);
             x += panel.width + gap;
-            corner
-        };
-        let corners = panels.iter().map(&mut place).collect();
-        Sheet { corners, size: [width, y + row_height] }
+        }
+        PanelLayout { corners, size: [width, y + row_height] }
     }
 }
 
@@ -55,7 +55,7 @@ mod tests {
         };
         let panels: Vec<Extent> = (0..11).map(extent).collect();
         let (gap, above) = (10.0, 8.0);
-        let Sheet { corners, size } = Sheet::new(&panels, gap, above);
+        let PanelLayout { corners, size } = PanelLayout::new(&panels, gap, above);
         let ends = |k: usize| {
             let [x, y] = corners[k];
             [x + panels[k].width, y + panels[k].height]
