@@ -303,9 +303,9 @@ mod tests {
         ];
         assert_eq!(table(&tables, "openings"), openings);
         let strain: [&[&str]; 3] = [
-            &["shear", "warp"],
-            &["smallest", "−23.4°", "−7.76 %"],
-            &["largest", "24.3°", "3.64 %"],
+            &["warp", "shear"],
+            &["smallest", "−7.76 %", "−23.4°"],
+            &["largest", "3.64 %", "24.3°"],
         ];
         assert_eq!(table(&tables, "strain of the garment"), strain);
         let energy = [["kinetic", "1.80 mJ"], ["gravity", "−2.25 J"]];
