@@ -16,13 +16,13 @@ const LEG_MIN: f64 = 0.3;
 const ARM_MIN: f64 = 0.01;
 
 /// Number of places along a section at which its thickness is measured.
-const STATIONS: usize = 80;
+const STATIONS: usize = 160;
 
 /// Largest width of an arm over that of the section.
 const ARM_WIDTH_MAX: f64 = 0.3;
 
 /// Thickness between an arm and the trunk over that of the arm, at most: thicker places are no joint.
-const JOINT_MAX: f64 = 0.8;
+const JOINT_MAX: f64 = 0.85;
 
 /// Straight piece of a section.
 type Piece = [[f64; 2]; 2];
