@@ -67,7 +67,7 @@ impl FrictionPath {
             self.segments.iter().map(|segment| -segment.slip / length).collect();
         lost.iter_mut().for_each(|lost| *lost = -exp_m1(*lost));
         let [mut constant, mut growing, mut constant_slope, mut growing_slope] =
-            [const { Vec::new() }; 4];
+            [(); 4].map(|()| Vec::with_capacity(self.points));
 
         let (mut c, mut g, mut c_slope, mut g_slope) = (0.0, 0.0, 0.0, 0.0);
         let inverse = 1.0 / length;
