@@ -131,5 +131,5 @@ fn open_list(text: &str, at: usize) -> Option<Range<usize>> {
     let list = &text[bracket..before.len()];
     let is_value = text[last.start..bracket].trim_end().ends_with('=');
     let is_open = list.matches('[').count() > list.matches(']').count();
-    (is_first && is_value && is_open).then(|| bracket..before.len())
+    (is_first && is_value && is_open).then_some(bracket..before.len())
 }
