@@ -5,6 +5,7 @@
 //! run have the exact numbers.
 
 mod bits;
+mod element;
 mod measures;
 mod named;
 mod quantity;
@@ -14,6 +15,7 @@ mod scene;
 use drape_frames::Error;
 use serde_json::{Value, json};
 
+use self::element::json_element;
 pub use self::named::Named;
 use self::scene::Scene;
 use crate::palette::{FabricPalette, hex};
@@ -75,13 +77,6 @@ impl View {
         let frames = scenes.into_iter().map(|scene| scene.frames).collect();
         Ok(View { html, frames })
     }
-}
-
-/// Returns the element of a page that holds a value as JSON.
-fn json_element(id: &str, value: &Value) -> String {
-    // No text can end the element that holds it.
-    let text = value.to_string().replace('<', "\\u003c");
-    format!("<script type=\"application/json\" id=\"{id}\">{text}</script>\n")
 }
 
 /// Returns text as HTML.

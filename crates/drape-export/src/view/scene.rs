@@ -4,7 +4,7 @@ use drape_frames::{EnergyTable, Error, Frame, Recording, SurfacePart};
 use serde_json::{Value, json};
 
 use super::bits::{Bounds, Differences, deflated, octet};
-use super::json_element;
+use super::element::json_element;
 use super::measures::tables;
 use super::named::Named;
 use super::samples::{Samples, ShownField, ShownSamples};
