@@ -106,12 +106,12 @@ pub(crate) fn folder(times: &[f64]) -> TempDir {
     let mut list = "number,time,growth,bodies,touched\n".to_owned();
     let mut energy = "number,time,kinetic,gravity\n".to_owned();
     for (number, time) in times.iter().enumerate() {
-        array(&folder.path().join(&format!("frame-{number:05}.npy")), &cloth(*time));
+        array(&folder.path().join(format!("frame-{number:05}.npy")), &cloth(*time));
         let touched = usize::from(number > 0);
         if touched > 0 {
             let mut pressures = [[f16::ZERO]; 7];
             pressures[2] = [f16::from_f64(pressure(number))];
-            array(&folder.path().join(&format!("pressure-{number:05}.npy")), &pressures);
+            array(&folder.path().join(format!("pressure-{number:05}.npy")), &pressures);
         }
         list += &format!("{number},{time:?},1.0,0,{touched}\n");
         energy +=

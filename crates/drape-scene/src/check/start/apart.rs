@@ -195,9 +195,9 @@ fn normal(scene: &Scene, panel: usize) -> Option<[f64; 3]> {
     for corners in own {
         let [a, b, c] = corners.map(|corner| place(scene, corner as usize));
         let (e, f) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
-        for k in 0..3 {
+        for (k, component) in sum.iter_mut().enumerate() {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            sum[k] += e[i] * f[j] - e[j] * f[i];
+            *component += e[i] * f[j] - e[j] * f[i];
         }
     }
     let normal = unit(sum)?;
