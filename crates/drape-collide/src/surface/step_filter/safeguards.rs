@@ -1,15 +1,15 @@
-//! Safeguards of the step filter, which tests take away to see that each is needed.
+//! Safeguards of the step filter. Tests switch each one off to see that it is needed.
 
-/// Safeguards of the step filter: all are on but in tests of this crate.
+/// Safeguards of the step filter, which are all on except in tests of this crate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Safeguards {
     /// Vertices of a pair with too little room do not approach.
     pub(crate) freeze: bool,
     /// No vertex drifts farther than the detected pairs allow.
     pub(crate) drift_budget: bool,
-    /// A pair has come nearer by what its vertices have drifted since it was detected.
+    /// The known distance of a pair is reduced by the drift of its vertices since detection.
     pub(crate) drift_bound: bool,
-    /// Pairs are detected along trajectories that those at hand do not include.
+    /// Pairs are detected along trajectories that the listed pairs do not cover.
     pub(crate) swept_detection: bool,
 }
 
@@ -23,7 +23,7 @@ impl Default for Safeguards {
 mod tests {
     use super::*;
     use crate::{
-        CcdFilter, ContactDistances, Detector, StepFraction, StepLimit, Surface, SurfaceParts,
+        CcdFilter, ContactDistances, Detector, FractionLimit, StepFraction, Surface, SurfaceParts,
         intersections,
     };
 
@@ -154,8 +154,8 @@ mod tests {
         let found = limit(down);
         let room = 0.9 * (apart - 2.0 * DISTANCES.min_separation);
         assert!((found.value * down - room).abs() < 1e-9, "{found:?}");
-        assert_eq!(found.limit, StepLimit::Contact);
-        assert_eq!(limit(0.5 * room), StepFraction { value: 1.0, limit: StepLimit::None });
+        assert_eq!(found.limit, FractionLimit::Contact);
+        assert_eq!(limit(0.5 * room), StepFraction { value: 1.0, limit: FractionLimit::None });
     }
 
     #[test]
