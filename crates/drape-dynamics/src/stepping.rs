@@ -20,7 +20,7 @@ pub(crate) mod saved;
 mod scheme;
 mod step_control;
 
-use drape_cloth::{SeamState, State};
+use drape_cloth::{SeamBendingState, State};
 use drape_collide::SurfaceMemory;
 use drape_implicit::{Error, ErrorEstimate, Integrator, IntegratorState, Report};
 use drape_scene::{Clock, Relaxation, SeamPairs};
@@ -70,7 +70,7 @@ struct StepStart {
     cloth: State,
     balance: Option<EnergyBalance>,
     surfaces: Option<SurfaceMemory>,
-    seams: Option<SeamState>,
+    seams: Option<SeamBendingState>,
 }
 
 impl Stepping {
