@@ -9,10 +9,10 @@
 //!
 //! Masses and connector areas follow from these areas. `lattice` is the panel. `cut` makes
 //! rectangles, discs and rings. `mesh` takes panels that were cut elsewhere (`drape-pattern`), with
-//! a rim of triangles. `graded` joins cells of a panel to larger ones, each size on its `grid`.
-//! `grain` relates the yarns to the panel's frame. `fold` and `folded` bend a panel at rest along
-//! lines. `interpolation` relates two grids of a panel. `allowance` adds mass along an outline.
-//! `clip` and `triangle` are plane geometry.
+//! a rim of triangles. `graded` joins cells of a panel to larger ones, each size on its `grid`, by
+//! a `numbering`. `grain` relates the yarns to the panel's frame. `fold` and `folded` bend a panel
+//! at rest along lines. `interpolation` relates two grids of a panel. `allowance` adds mass along
+//! an outline. `clip` and `triangle` are plane geometry.
 //!
 //! Readers of scenes make panels and pass them to `Cloth::new`. Panels do not move and have no
 //! laws.
@@ -28,4 +28,5 @@ pub(crate) mod grid;
 pub(crate) mod interpolation;
 pub(crate) mod lattice;
 pub(crate) mod mesh;
+pub(crate) mod numbering;
 pub(crate) mod triangle;

@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::panel::fold::{Fold, LineCoordinates};
 use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
+use crate::panel::numbering::Numbering;
 
 /// Largest level. A cell of level `l` has sides of `2^l` spacings.
 const LEVEL_MAX: u8 = 3;
@@ -120,7 +121,7 @@ impl Lattice {
             coordinates: Vec::new(),
             numbers: vec![None; self.coordinates.len()],
         };
-        let grids = numbering.number_grids(levels);
+        let grids = numbering.number_grids(LEVEL_MAX, |point| levels.at_point(point));
 
         // The nodes of an outline that was cut elsewhere lie on no grid.
         let in_grid = grid.particles().count();
@@ -175,65 +176,6 @@ impl Lattice {
             let LineCoordinates { along, left } = fold.coordinates(point);
             left.abs() < reach && (-reach..fold.length() + reach).contains(&along)
         })
-    }
-}
-
-/// Numbering of the particles that a graded panel keeps of a finer panel.
-struct Numbering<'a> {
-    lattice: &'a Lattice,
-    grid: &'a Grid,
-    /// Material coordinates of the kept particles, in m.
-    coordinates: Vec<[f64; 2]>,
-    /// Number of each particle of the finer panel, if it is kept.
-    numbers: Vec<Option<u32>>,
-}
-
-impl Numbering<'_> {
-    /// Keeps `node` of the finer panel and returns its new number.
-    fn keep(&mut self, node: u32) -> u32 {
-        let number = self.coordinates.len() as u32;
-        self.coordinates.push(self.lattice.coordinates[node as usize]);
-        self.numbers[node as usize] = Some(number);
-        number
-    }
-
-    /// Returns the number of `node` of the finer panel, if it is kept.
-    fn number(&self, node: u32) -> Option<u32> {
-        self.numbers[node as usize]
-    }
-
-    /// Returns the node of the finer panel at a point of its grid.
-    fn node(&self, [column, row]: [usize; 2]) -> Option<u32> {
-        self.grid.points[row * self.grid.columns + column]
-    }
-
-    /// Returns the number of the node at `point` of the finer grid, if it is kept.
-    fn at_point(&self, point: [usize; 2]) -> Option<u32> {
-        self.node(point).and_then(|node| self.number(node))
-    }
-
-    /// Keeps the nodes of the grid by their `levels`, the finest first. Returns the grid of each
-    /// level that has nodes.
-    fn number_grids(&mut self, levels: &Levels) -> Vec<Grid> {
-        let mut grids = Vec::new();
-        for level in 0..=LEVEL_MAX {
-            let step = 1 << level;
-            let columns = self.grid.columns.div_ceil(step);
-            let rows = (self.grid.points.len() / self.grid.columns).div_ceil(step);
-            let points: Vec<Option<u32>> = (0..rows)
-                .flat_map(|row| (0..columns).map(move |column| [step * column, step * row]))
-                .map(|point| {
-                    let is_kept = levels.at_point(point) == Some(level);
-                    let node = is_kept.then(|| self.node(point)).flatten();
-                    node.map(|node| self.keep(node))
-                })
-                .collect();
-            if points.iter().any(Option::is_some) {
-                let spacing = self.grid.spacing.map(|spacing| step as f64 * spacing);
-                grids.push(Grid { spacing, points, columns });
-            }
-        }
-        grids
     }
 }
 
