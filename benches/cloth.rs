@@ -8,7 +8,7 @@ use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
-use drape::cloth::{Cloth, Lattice, Reference, State, Trial, Workspace};
+use drape::cloth::{Cloth, Lattice, ReferenceCloth, State, Trial, Workspace};
 use drape::fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Buckling, ExponentialToe, Fabric, Locking, Primed,
     ProportionalFriction, SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone,
@@ -84,7 +84,7 @@ fn fabric(traction: TractionLaw) -> Fabric {
 struct Sheet {
     cloth: Cloth,
     state: State,
-    reference: Reference,
+    reference: ReferenceCloth,
     trial: Vec<f64>,
 }
 
@@ -105,7 +105,7 @@ impl Sheet {
             lattice.coordinates.iter().flat_map(fold).collect()
         };
         let mut state = cloth.state(shape(0.0)).expect("it fits");
-        let mut reference = Reference::new(&panels, cloth.sparsity(), &state);
+        let mut reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
         let rest = vec![0.0; 3 * cloth.particles()];
         for time in [0.1, 0.2] {
             cloth.commit(&mut state, &shape(time), &rest);

@@ -1,6 +1,6 @@
-//! The cloth: constant data of all panels, and what is measured on a state.
+//! The cloth: constant data of all panels, and measures of a state.
 
-use drape_fabric::{Fabric, Memories};
+use drape_fabric::Fabric;
 
 use crate::layout::connectors::BendingConnectors;
 use crate::layout::grid::{GridPanel, PanelStart, Yarns};
@@ -18,15 +18,15 @@ use crate::state::State;
 /// Cloth: particles joined by traction, shear and bending connectors. Constant in time.
 ///
 /// A connector is a measure `$s$` (a strain of a few particles) × a law `$T$` of the fabric × the
-/// area `$W$` of cloth that it stands for. Its forces are the negative derivatives of area times
-/// work density,
+/// area `$W$` of cloth that the connector stands for. Its forces are the negative derivatives of
+/// area times work density,
 ///
 /// ```math
 /// f_i = -W\,T(s)\,\frac{\partial s}{\partial x_i}
 /// ```
 ///
 /// which conserves momentum exactly and does not depend on the spacing of the particles. The forces
-/// of \[NB04, eqs. 4–5\] agree with it to first order if their lever arm is the length of a yarn
+/// of \[NB04, eqs. 4–5\] agree with them to first order if their lever arm is the length of a yarn
 /// segment.
 ///
 /// ```
@@ -62,16 +62,16 @@ pub struct Cloth {
     tangents: Vec<[YarnTangent; 2]>,
     /// First particle of each panel.
     starts: Vec<usize>,
-    /// Grids of the panels; a graded panel has several.
+    /// Grids of the panels. A graded panel has several.
     pub(crate) panels: Vec<GridPanel>,
     pub(crate) strips: Vec<Strip>,
     pub(crate) rims: Vec<Rim>,
     sparsity: Sparsity,
 }
 
-/// Areas that the connectors of each kind stand for; each is the area of the cloth.
+/// Areas of the connectors of each kind. Each is the area of the whole cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Areas {
+pub struct ConnectorAreas {
     /// Area of the segments along warp and along weft, in m².
     pub traction: [f64; 2],
     /// Area of the corners, in m².
@@ -94,7 +94,7 @@ pub struct Strains {
 }
 
 impl Cloth {
-    /// Returns a cloth of panels, each with its fabric; the particles are numbered panel by panel.
+    /// Returns a cloth of `panels`, each with its fabric. Particles are numbered panel by panel.
     #[must_use]
     pub fn new(panels: &[(&Lattice, &Fabric)]) -> Self {
         let mut cloth = Self {
@@ -111,6 +111,8 @@ impl Cloth {
             sparsity: Sparsity::default(),
         };
         panels.iter().for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
+
+        // Blocks are known once all connectors are.
         let pairs = cloth.panels.iter().flat_map(GridPanel::pairs);
         let pairs = pairs.chain(cloth.rims.iter().flat_map(Rim::pairs));
         cloth.sparsity = Sparsity::new(cloth.particles(), pairs);
@@ -122,12 +124,15 @@ impl Cloth {
         cloth
     }
 
+    /// Appends the particles and connectors of a panel of `fabric` with the shape `lattice`.
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric) {
         let first = self.particles() as u32;
         self.starts.push(first as usize);
         let areas = lattice.areas();
-        let neighbourhoods = Neighbourhoods::of(lattice);
-        let bending = BendingConnectors::of(lattice, &areas, neighbourhoods.is_some());
+
+        // Where a panel has a rim, stencils bend about nodes that are no middle of a triple.
+        let neighbourhoods = Neighbourhoods::new(lattice);
+        let bending = BendingConnectors::along_yarns(lattice, &areas, neighbourhoods.is_some());
         if let Some(neighbourhoods) = &neighbourhoods {
             let start = RimStart {
                 index: self.rims.len(),
@@ -138,13 +143,14 @@ impl Cloth {
             };
             self.rims.push(Rim::new(lattice, start, &bending, neighbourhoods));
         }
-        let tangents = yarn_tangents(&lattice.yarns(), first, areas.len());
-        self.tangents.extend(tangents);
+        self.tangents.extend(yarn_tangents(&lattice.yarns(), first, areas.len()));
+
         for grid in &lattice.grids {
             let base = self.panels.iter().map(GridPanel::length).sum();
             let start = PanelStart { particle: first, base };
             self.panels.push(GridPanel::new((lattice, grid), fabric, start, &bending));
         }
+
         let areas_of_mass = lattice.areas_of_mass(&areas);
         self.masses.extend(areas_of_mass.iter().map(|area| area * fabric.density));
         self.spacings.extend(lattice.spacings());
@@ -153,8 +159,8 @@ impl Cloth {
         self.areas.extend(areas);
     }
 
-    /// Returns the cloth with the masses of tied particles moved to the two particles that each
-    /// lies between; their sum and their centre stay.
+    /// Returns the cloth with the masses of tied particles moved to the two particles between which
+    /// each of `ties` lies. The sum and the centre of the masses stay.
     #[must_use]
     pub fn with_ties<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Self {
         for &Tie { particle, ends, fraction } in ties {
@@ -166,95 +172,103 @@ impl Cloth {
         self
     }
 
-    /// Number of particles.
+    /// Returns the number of particles, each with three coordinates in a [`State`].
     #[must_use]
     pub fn particles(&self) -> usize {
         self.masses.len()
     }
 
-    /// Masses of the particles, in kg: of their areas and of allowances.
+    /// Returns the masses of the particles, in kg, including [allowances](crate::Allowance).
     #[must_use]
     pub fn masses(&self) -> &[f64] {
         &self.masses
     }
 
-    /// Areas of the particles, in m².
+    /// Returns the areas of the particles, in m², without [allowances](crate::Allowance).
     #[must_use]
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
 
-    /// Spacings of the grids that the particles are on, in m.
+    /// Returns for each particle the spacing of its grid, in m.
     #[must_use]
     pub fn spacings(&self) -> &[f64] {
         &self.spacings
     }
 
-    /// Material coordinates of the particles (u along the weft, v along the warp), in m.
+    /// Returns the material coordinates of the particles (`u` along the weft, `v` along the warp),
+    /// in m.
     #[must_use]
     pub fn coordinates(&self) -> &[[f64; 2]] {
         &self.coordinates
     }
 
-    /// First particle of each panel.
+    /// Returns the number of the first particle of each panel.
     #[must_use]
     pub fn panel_starts(&self) -> &[usize] {
         &self.starts
     }
 
-    /// Triangles of the surface.
+    /// Returns the triangles of the surface as particle numbers.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Sparsity of the stiffness: the pairs of particles that a connector joins.
+    /// Returns the [`Sparsity`] of the stiffness: the pairs of particles that a connector joins.
     #[must_use]
     pub fn sparsity(&self) -> &Sparsity {
         &self.sparsity
     }
 
-    /// Returns the areas that the connectors of each kind stand for.
+    /// Returns the areas of the connectors of each kind as [`ConnectorAreas`].
     #[must_use]
-    pub fn connector_areas(&self) -> Areas {
-        let sum = |column: fn(&GridPanel, usize) -> &[f64], which: usize| -> f64 {
-            self.panels.iter().flat_map(|p| column(p, which)).sum()
-        };
-        let traction = |d| sum(|panel, d| &panel.yarns[d].segment_areas, d);
-        let bending = |d| sum(|panel, d| &panel.yarns[d].triple_areas, d);
+    pub fn connector_areas(&self) -> ConnectorAreas {
         let triangles: f64 = self.rims.iter().flat_map(|rim| &rim.triangles.areas).sum();
-        let stencils =
-            |d: usize| -> f64 { self.rims.iter().flat_map(|rim| &rim.stencils.areas[d]).sum() };
-        Areas {
-            traction: [0, 1].map(|d| traction(d) + triangles),
-            shear: (0..4).map(|c| sum(|panel, c| &panel.corner_areas[c], c)).sum::<f64>()
+        ConnectorAreas {
+            traction: [0, 1].map(|d| {
+                let segments: f64 =
+                    self.panels.iter().flat_map(|panel| &panel.yarns[d].segment_areas).sum();
+                segments + triangles
+            }),
+            shear: (0..4)
+                .map(|c| self.panels.iter().flat_map(|panel| &panel.corner_areas[c]).sum::<f64>())
+                .sum::<f64>()
                 + triangles,
-            bending: [0, 1].map(|d| bending(d) + stencils(d)),
+            bending: [0, 1].map(|d| {
+                let triples: f64 =
+                    self.panels.iter().flat_map(|panel| &panel.yarns[d].triple_areas).sum();
+                let stencils: f64 = self.rims.iter().flat_map(|rim| &rim.stencils.areas[d]).sum();
+                triples + stencils
+            }),
         }
     }
 
-    /// Returns the deformation of a state, from the memories of its connectors.
+    /// Returns the deformation at `state`, from the memories of its connectors, as [`Strains`].
     #[must_use]
     pub fn strains(&self, state: &State) -> Strains {
         let (mut traction, mut shear, mut curvature) = (Vec::new(), Vec::new(), Vec::new());
         let State { grid, rim, .. } = state;
+
+        // Connectors of the grids. Columns also hold places without a connector.
         for panel in &self.panels {
-            let at = |memories: &Memories, indices: &[usize], map: fn(f64) -> f64| -> Vec<f64> {
-                let positions = &memories.positions()[panel.base..];
-                indices.iter().map(|&index| map(positions[index])).collect()
-            };
             for (direction, Yarns { segments, triples, .. }) in panel.yarns.iter().enumerate() {
-                traction.extend(at(&grid.traction[direction], segments, |s| s));
-                curvature.extend(at(&grid.bending[direction], triples, f64::abs));
+                let strains = &grid.traction[direction].positions()[panel.base..];
+                traction.extend(segments.iter().map(|&index| strains[index]));
+                let curvatures = &grid.bending[direction].positions()[panel.base..];
+                curvature.extend(triples.iter().map(|&index| curvatures[index].abs()));
             }
             for memories in &grid.shear {
-                shear.extend(at(memories, &panel.cells, f64::abs));
+                let sines = &memories.positions()[panel.base..];
+                shear.extend(panel.cells.iter().map(|&index| sines[index].abs()));
             }
         }
+
+        // Connectors of the rims.
         for Rim { triangles, stencils, .. } in &self.rims {
             for direction in 0..2 {
-                let positions = &rim.traction[direction].positions()[triangles.base..];
-                traction.extend(&positions[..triangles.count]);
+                let strains = &rim.traction[direction].positions()[triangles.base..];
+                traction.extend(&strains[..triangles.count]);
                 let curvatures = rim.bending[direction].positions()[stencils.base..].iter();
                 let areas = &stencils.areas[direction];
                 let curvatures = curvatures.zip(areas).filter(|(_, area)| **area > 0.0);
@@ -263,34 +277,36 @@ impl Cloth {
             let sines = &rim.shear.positions()[triangles.base..][..triangles.count];
             shear.extend(sines.iter().map(|sine| sine.abs()));
         }
-        let [traction, shear, curvature] = [traction, shear, curvature].map(|mut values| {
+
+        for values in [&mut traction, &mut shear, &mut curvature] {
             values.sort_by(f64::total_cmp);
-            values
-        });
-        let p99 = |values: &[f64]| values[(values.len() - 1) * 99 / 100];
+        }
         Strains {
             traction_max: traction[traction.len() - 1],
-            traction_p99: p99(&traction),
+            traction_p99: percentile_99(&traction),
             shear_max: shear[shear.len() - 1].min(1.0).asin(),
-            curvature_p99: p99(&curvature),
+            curvature_p99: percentile_99(&curvature),
         }
     }
 
-    /// Returns the strains of the triangles of the surface, in their order, at positions of the
-    /// particles (three numbers each, in m).
+    /// Returns the strains of the triangles of the surface, in the order of
+    /// [`triangles`](Cloth::triangles), with the particles at `positions` (three numbers each, in
+    /// m).
     ///
     /// # Panics
-    /// If positions of some particles are missing.
+    /// Positions of some particles are missing.
     #[must_use]
     pub fn triangle_strains(&self, positions: &[f64]) -> Vec<TriangleStrain> {
-        let strain = |triangle: &[u32; 3]| {
-            let coordinates = triangle.map(|particle| self.coordinates[particle as usize]);
-            TriangleStrain::of(coordinates, triangle.map(|p| vector_at(positions, p)))
-        };
-        self.triangles.iter().map(strain).collect()
+        self.triangles
+            .iter()
+            .map(|triangle| {
+                let coordinates = triangle.map(|particle| self.coordinates[particle as usize]);
+                TriangleStrain::new(coordinates, triangle.map(|p| vector_at(positions, p)))
+            })
+            .collect()
     }
 
-    /// Computes the normals of the surface at the positions of the state.
+    /// Computes the normals of the surface at the positions of `state`, and stores them there.
     pub(crate) fn update_normals(&self, state: &mut State) {
         let positions = &state.positions;
         let normals = state.normals.chunks_exact_mut(3);
@@ -309,4 +325,9 @@ impl Cloth {
             }
         }
     }
+}
+
+/// Returns the 99th percentile of the sorted `values`.
+fn percentile_99(values: &[f64]) -> f64 {
+    values[(values.len() - 1) * 99 / 100]
 }

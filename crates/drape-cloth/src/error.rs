@@ -1,18 +1,18 @@
-//! Errors of panels, seams and states: what does not fit, with the values.
+//! Errors of panels, seams and states, with the values that do not fit.
 
 /// Reason why a cloth, or a part of it, cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Length that must be greater than 0 and is not.
+    /// A length is not greater than 0.
     #[error("{what} is {value} m; it must be greater than 0")]
     Length {
         /// Name of the length.
         what: &'static str,
-        /// Its value, in m.
+        /// Value of the length, in m.
         value: f64,
     },
-    /// Spacing of the particles that is too large for the panel.
+    /// The spacing of the particles is too large for the panel.
     #[error(
         "a spacing of {spacing} m leaves fewer than 3 particles across {size} m; use {} m or less",
         size / 2.0
@@ -23,7 +23,7 @@ pub enum Error {
         /// Smallest size of the panel, in m.
         size: f64,
     },
-    /// Number of particles beyond the range of the indices.
+    /// The number of particles is beyond the range of the indices.
     #[error("a spacing of {spacing} m makes {particles:.3e} particles, more than {limit:.0e}")]
     TooMany {
         /// Distance between particles, in m.
@@ -33,7 +33,7 @@ pub enum Error {
         /// Largest number of particles.
         limit: f64,
     },
-    /// Inconsistent part of a panel that was cut elsewhere.
+    /// A part of a panel that was cut elsewhere is inconsistent.
     #[error("{part} {index} of the panel {what}")]
     Mesh {
         /// Kind of part: node, cell or triangle.
@@ -43,7 +43,7 @@ pub enum Error {
         /// Problem with the part.
         what: &'static str,
     },
-    /// Seam that does not fit the panels.
+    /// A seam does not fit the panels.
     #[error("seam {seam}, pair {pair}: {what}")]
     Seam {
         /// Index of the seam, counted from 0.
@@ -53,13 +53,13 @@ pub enum Error {
         /// Problem with the pair.
         what: &'static str,
     },
-    /// Width of an allowance that is negative or not finite.
+    /// The width of an allowance is negative or not finite.
     #[error("an allowance is {width} m wide; give 0 or more")]
     Width {
-        /// The width, in m.
+        /// Width of the allowance, in m.
         width: f64,
     },
-    /// Fold that does not fit its panel.
+    /// A fold does not fit its panel.
     #[error("fold {fold} {what}")]
     Fold {
         /// Index of the fold of the panel, counted from 0.
@@ -67,15 +67,15 @@ pub enum Error {
         /// Problem with the fold.
         what: &'static str,
     },
-    /// Panel that cannot be graded: it is graded already.
+    /// A panel cannot be graded, because it is graded already.
     #[error("a panel that is graded already cannot be graded again")]
     Graded,
-    /// Panel with a rim of triangles in a model that has none.
+    /// A panel has a rim of triangles, but the model has none.
     #[error(
         "the model of Breen, House & Wozny has no rims: cut the panel as a rectangle or a disc"
     )]
     Rim,
-    /// Number of coordinates that does not fit the cloth.
+    /// The number of coordinates does not fit the cloth.
     #[error("{found} numbers were given for the positions of {particles} particles; give 3 each")]
     Positions {
         /// Number of coordinates given.

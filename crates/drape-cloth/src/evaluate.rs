@@ -6,16 +6,17 @@
 //!                   └───── kernel, rim: one strip or rim
 //! ```
 //!
-//! The cloth is cut into the same strips for any number of threads, each writes its own part of the
-//! output, and partial sums are added in the order of the strips:
+//! The cloth is cut into the same strips for any number of threads. Each strip writes its part of
+//! the output, and partial sums are added in the order of the strips:
 //!
 //! ```math
 //! E = \sum_{\text{strips}} E_s + \sum_{\text{rims}} E_r
 //! ```
 //!
-//! so the numbers depend neither on the threads nor on the vector instructions. `workspace` holds
-//! the buffers and is what a solver calls; `one_off` is the same for a single call. Only here
-//! threads and instructions are known; after a workspace is made nothing allocates.
+//! The numbers therefore depend neither on the threads nor on the vector instructions. `workspace`
+//! holds the buffers; a solver calls it. `one_off` does the same for a single call. Threads and
+//! vector instructions appear only in this chapter. A workspace allocates memory only when it is
+//! made.
 
 pub(crate) mod dispatch;
 pub(crate) mod one_off;

@@ -6,13 +6,14 @@
 //!   panel ──▶ layout ──▶ kernel, rim ──▶ evaluate
 //!  (Lattice)  (arrays)   (one strip)    (Cloth, Workspace)
 //!
-//!   seam, breen: beside the panels' connectors;  reference: what the kernels are held to
+//!   seam, breen: beside the panels' connectors;  reference: checks the kernels
 //! ```
 //!
-//! [`Cloth::new`] goes from left to right once; a solver calls [`Workspace`] at every trial and
-//! [`Workspace::commit`] once per accepted step. `measure` holds the formulas that all share.
+//! [`Cloth::new`] goes from left to right once. A solver calls [`Workspace`] at every trial and
+//! [`Workspace::commit`] once per accepted step. `measure` holds the formulas that all modules
+//! share.
 //!
-//! The modules are listed in layers: a module uses those of its own and of earlier layers.
+//! The modules are listed in layers: a module uses modules of its layer and of earlier layers.
 
 // Panels before deformation, and the measures of connectors.
 mod error;
@@ -35,7 +36,7 @@ mod cloth;
 mod evaluate;
 
 pub use breen::particles::Breen;
-pub use cloth::{Areas, Cloth, Strains};
+pub use cloth::{Cloth, ConnectorAreas, Strains};
 pub use error::Error;
 pub use evaluate::workspace::{Trial, Workspace};
 pub use layout::sparsity::Sparsity;
@@ -48,7 +49,7 @@ pub use panel::grain::Grain;
 pub use panel::interpolation::Interpolation;
 pub use panel::lattice::{Cell, Lattice};
 pub use panel::mesh::Mesh;
-pub use reference::cloth::Reference;
-pub use seam::bending::{SeamBending, SeamState};
+pub use reference::cloth::ReferenceCloth;
+pub use seam::bending::{SeamBending, SeamBendingState};
 pub use seam::description::{Seam, Tie};
 pub use state::State;

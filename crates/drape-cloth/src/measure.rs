@@ -1,4 +1,4 @@
-//! Measures: the scalars of a few particles that the laws depend on, with their derivatives.
+//! Measures: scalars of a few particles on which the laws depend, with their derivatives.
 //!
 //! | connector | measure `$s$` | law `$T(s)$` |
 //! |---|---|---|
@@ -6,7 +6,7 @@
 //! | corner of a cell | sine `$\hat e_{warp}\cdot\hat e_{weft}$` of the shear angle | shear, N/m |
 //! | triple of a yarn | curvature `$\kappa$` about the normal | bending, N |
 //!
-//! The sine has one sign for all four corners; the curvature comes from the second difference
+//! The sine has one sign for all four corners. The curvature comes from the second difference
 //! `$b = (x_a - 2x_c + x_b)/h^2$`.
 //!
 //! A connector of area `$W$` has the energy `$W\int T\,\mathrm{d}s$` and the forces
@@ -15,10 +15,10 @@
 //! is the segment `$h$`. In the second derivative of bending, the normal is the one at the start of
 //! the step: its rotation within the step is neglected.
 //!
-//! `vector`, `block` and `half` hold the algebra, `turning_angle` the curvature of a second
+//! `vector`, `block` and `half` hold the algebra. `turning_angle` is the curvature of a second
 //! difference, `bending` a bending connector in scalar form (used by `reference` and `seam`),
-//! `yarn_tangent` the normals, `triangle_strain` the strains that are reported. Nothing here knows
-//! a cloth.
+//! `yarn_tangent` the normals, `triangle_strain` the reported strains. This chapter does not use
+//! the cloth.
 
 pub(crate) mod bending;
 pub(crate) mod block;

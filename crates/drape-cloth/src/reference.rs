@@ -5,14 +5,15 @@
 //! K = \frac{\partial^2 E}{\partial x\,\partial x}
 //! ```
 //!
-//! written as in a textbook: a list of connectors, a loop over it, no batches. It shares with the
-//! kernels which particles a connector joins (`layout::connectors`), the weights of the fits at a
-//! rim (`rim::fits`) and the turning angle (`measure`), and nothing else.
-//! `tests/connectors/reference.rs` and `consistency.rs` hold the kernels to it: forces, potential,
-//! stiffness, dissipation, over many steps; `benches/cloth.rs` measures what the kernels save.
+//! written as in a textbook: a list of connectors, a loop over it, no batches. The reference shares
+//! with the kernels which particles a connector joins (`layout::connectors`), the weights of the
+//! fits at a rim (`rim::fits`) and the turning angle (`measure`), and nothing else.
+//! `tests/connectors/reference.rs` and `consistency.rs` compare the kernels with it over many
+//! steps: forces, potential, stiffness and dissipation. `benches/cloth.rs` measures what the
+//! kernels save.
 //!
 //! `connector` holds segments, corners and triples, `triangle` and `stencil` the connectors of a
-//! rim, `cloth` all of them. Called by tests and benches only.
+//! rim, `cloth` all of them. Only tests and benches call the reference.
 
 pub(crate) mod cloth;
 pub(crate) mod connector;

@@ -1,4 +1,4 @@
-//! State of a cloth: positions, velocities and memories, all that changes in time.
+//! State of a cloth: positions, velocities and memories. Nothing else changes in time.
 
 use drape_fabric::{Memories, Memory};
 use serde::{Deserialize, Serialize};
@@ -8,8 +8,8 @@ use crate::rim::memories::RimMemories;
 
 /// State of a cloth: positions, velocities and the memories of its connectors.
 ///
-/// It owns the accepted positions; a [`Trial`](crate::Trial) borrows it beside other positions, at
-/// which forces and stiffness are evaluated.
+/// The state holds the accepted positions. A [`Trial`](crate::Trial) borrows the state together
+/// with other positions, at which forces and stiffness are evaluated.
 ///
 /// Vectors are flat: particle `i` has the numbers `3i`, `3i + 1`, `3i + 2`. Only
 /// [`Cloth::commit`](crate::Cloth::commit) writes the memories.
@@ -28,27 +28,29 @@ pub struct State {
 }
 
 impl State {
-    /// Unit normals of the surface at the particles, along `$u \times v$`.
+    /// Returns the unit normals of the surface at the particles, along `$u \times v$`.
     #[must_use]
     pub fn normals(&self) -> &[f64] {
         &self.normals
     }
 
-    /// Returns whether this may follow another state of the same cloth: it has as many particles and
-    /// connectors, and positions, velocities and normals are finite.
+    /// Returns whether this may follow `earlier`, another state of the same cloth: it has as many
+    /// particles and connectors, and positions, velocities and normals are finite.
     #[must_use]
-    pub fn may_follow(&self, other: &Self) -> bool {
-        let vectors = |own: &Self| [&own.positions, &own.velocities, &own.normals].map(Vec::len);
+    pub fn may_follow(&self, earlier: &Self) -> bool {
         let mut numbers = self.positions.iter().chain(&self.velocities).chain(&self.normals);
-        vectors(self) == vectors(other)
+        self.positions.len() == earlier.positions.len()
+            && self.velocities.len() == earlier.velocities.len()
+            && self.normals.len() == earlier.normals.len()
             && numbers.all(|number| number.is_finite())
-            && self.grid.has_lengths_of(&other.grid)
-            && self.rim.has_lengths_of(&other.rim)
+            && self.grid.has_lengths_of(&earlier.grid)
+            && self.rim.has_lengths_of(&earlier.rim)
     }
 
-    /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where
-    /// there is no connector, as at the end of a row, the memory is that of a connector never
-    /// deformed.
+    /// Returns each [`Memory`], for hashes and comparisons, in a fixed order. Memories of rims come
+    /// last. Places without a connector, such as the end of a row, have the memory of a connector
+    /// that has never been deformed.
+
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
         let Self { grid, rim, .. } = self;
         let sets = grid.traction.iter().chain(&grid.shear).chain(&grid.bending);

@@ -1,14 +1,14 @@
 //! Two-stage barrier: the energy that keeps surfaces and particles apart.
 //!
-//! The chapters [`particle`](crate::particle) and [`surface`](crate::surface) evaluate it for each
-//! contact: [`Barrier::new`] with a parabola at small gaps for particles, [`Barrier::strict`] for
-//! surfaces, which never close their gap.
+//! The chapters [`particle`](crate::particle) and [`surface`](crate::surface) evaluate the barrier
+//! for each contact. Particles use [`Barrier::new`], with a parabola at small gaps. Surfaces never
+//! close their gap and use [`Barrier::strict`].
 
 /// Fraction of the activation distance below which the barrier is a parabola.
 ///
-/// The logarithm alone is infinite at the surface, so a trial of the solver beyond it would have
-/// no energy to compare. With a tenth, the stiffest contact is 25 times the softest, which costs
-/// the linear solver little, and a particle at rest carries up to five times the pressure
+/// The logarithm alone is infinite at the surface, so a solver's trial beyond the surface would
+/// have no energy to compare. With a tenth, the stiffest contact is 25 times the softest, which
+/// costs the linear solver little. A particle at rest then carries up to five times the pressure
 /// `$k_A \hat g$` before it sinks in. A smaller value carries more and conditions worse.
 const EXTENDED: f64 = 0.1;
 
@@ -19,11 +19,12 @@ const EXTENDED: f64 = 0.1;
 /// b = -\tfrac14 \hat g^2 (\ln(2g/\hat g) - \tfrac12)  \quad (g_0 \le g < \hat g/2)
 /// ```
 ///
-/// It is zero from `$\hat g$` on; below `$g_0$` it is its Taylor parabola at `$g_0$`, so energy and
-/// force are finite and grow with penetration. Value and slope are continuous everywhere, the
-/// second derivative everywhere but at `$\hat g$`, where it jumps from 1 to 0.
+/// The barrier is zero at gaps of `$\hat g$` and more. Below `$g_0$` it is its Taylor parabola at
+/// `$g_0$`, so energy and force are finite and grow with penetration. Value and slope are
+/// continuous everywhere. The second derivative is continuous but at `$\hat g$`, where it jumps
+/// from 1 to 0.
 ///
-/// A [`strict`](Barrier::strict) barrier has no such parabola: it is infinite from 0 down.
+/// A [`strict`](Barrier::strict) barrier has no parabola: it is infinite at gaps of 0 and less.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {
     /// Activation gap `$\hat g$`, in m.
@@ -33,17 +34,17 @@ pub(crate) struct Barrier {
 }
 
 impl Barrier {
-    /// Barrier of an activation gap, in m, with a parabola at small gaps.
+    /// Returns the barrier with the gap `activation`, in m, and with a parabola at small gaps.
     pub(crate) fn new(activation: f64) -> Barrier {
         Barrier { activation, end: EXTENDED * activation }
     }
 
-    /// Barrier of an activation gap, in m, that is infinite where the gap closes.
+    /// Returns the barrier with the gap `activation`, in m, that is infinite where the gap closes.
     pub(crate) fn strict(activation: f64) -> Barrier {
         Barrier { activation, end: 0.0 }
     }
 
-    /// Gap from which on the barrier is zero, in m.
+    /// Returns the smallest gap at which the barrier is zero, `$\hat g$`, in m.
     pub(crate) fn activation(&self) -> f64 {
         self.activation
     }
@@ -62,7 +63,7 @@ impl Barrier {
             f64::INFINITY
         } else {
             let over = gap - self.end;
-            let [energy, slope] = self.at_end();
+            let [energy, slope] = self.value_and_slope_at_end();
             energy + over * (slope + 0.5 * over * self.curvature(self.end))
         }
     }
@@ -79,12 +80,12 @@ impl Barrier {
         } else if self.end == 0.0 {
             f64::NEG_INFINITY
         } else {
-            self.at_end()[1] + (gap - self.end) * self.curvature(self.end)
+            self.value_and_slope_at_end()[1] + (gap - self.end) * self.curvature(self.end)
         }
     }
 
-    /// Returns value and slope at the upper end of the parabola.
-    fn at_end(&self) -> [f64; 2] {
+    /// Returns value and slope at the upper end `$g_0$` of the parabola.
+    fn value_and_slope_at_end(&self) -> [f64; 2] {
         let (activation, end) = (self.activation, self.end);
         [
             -0.25 * activation * activation * ((2.0 * end / activation).ln() - 0.5),

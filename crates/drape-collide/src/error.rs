@@ -11,11 +11,11 @@ pub enum Error {
     /// A length of a shape, a friction coefficient or a setting is outside its range.
     #[error("{what} is {value}, but it must be {range}")]
     OutOfRange {
-        /// The quantity, in words.
+        /// Name of the quantity, in words.
         what: String,
-        /// Its value as given.
+        /// Value as given.
         value: f64,
-        /// The values that it may take, in words.
+        /// Allowed values, in words.
         range: &'static str,
     },
 
@@ -25,7 +25,7 @@ pub enum Error {
          {limit:e} m in size (is the unit right?)"
     )]
     InvalidPosition {
-        /// Whose position, in words.
+        /// Owner of the position, in words.
         what: String,
         /// The coordinates as given, in m.
         place: [f64; 3],
@@ -41,45 +41,45 @@ pub enum Error {
     InvalidRotation {
         /// Name of the body.
         body: String,
-        /// The quaternion as given, scalar last.
+        /// Quaternion as given, scalar last.
         rotation: [f64; 4],
-        /// Its length, which should be 1.
+        /// Length of the quaternion, which should be 1.
         length: f64,
     },
 
     /// A mesh file cannot be opened or read.
     #[error("mesh file {}: {reason}; check the path and the permissions", path.display())]
     UnreadableFile {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the operating system answered.
+        /// Answer of the operating system.
         reason: String,
     },
 
-    /// A mesh file is of no known format.
+    /// The name of a mesh file ends in no known extension.
     #[error("mesh file {}: its name ends in none of .obj, .stl and .ply; export it as one of these", path.display())]
     UnknownMeshFormat {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
 
-    /// A file is longer than any that is read.
+    /// A file is longer than the limit.
     #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion, or read it with --raise-limits {times}", path.display())]
     FileTooLong {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Its length.
+        /// Length of the file, in bytes.
         bytes: u64,
-        /// The greatest length.
+        /// Greatest length that is read, in bytes.
         limit: u64,
-        /// The least number of times the usual greatest length that it fits in.
+        /// Smallest whole multiple of the usual limit that the file fits in.
         times: u64,
     },
 
     /// A mesh file is not well-formed.
     #[error("mesh file {}: {reason}; export it again", path.display())]
     MalformedFile {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Message of the parser.
         reason: String,
@@ -98,9 +98,9 @@ pub enum Error {
          (numbered from 0)"
     )]
     MissingVertex {
-        /// The triangle, from 0.
+        /// Number of the triangle, from 0.
         triangle: usize,
-        /// The vertex that it names.
+        /// Vertex number that does not exist.
         index: u32,
         /// Number of vertices.
         vertices: usize,
@@ -112,20 +112,20 @@ pub enum Error {
          dissolve it in the modeller"
     )]
     FlatTriangle {
-        /// The triangle, from 0.
+        /// Number of the triangle, from 0.
         triangle: usize,
-        /// Its first corner, in m.
+        /// First corner of the triangle, in m.
         place: [f64; 3],
-        /// Twice its area, in m².
+        /// Twice the area of the triangle, in m².
         area: f64,
     },
 
-    /// The surface has edges with a triangle on one side only.
+    /// The surface has edges with a triangle on only one side.
     #[error("the mesh is open: {edges} boundary edges, one of them at {place:?}; fill the holes")]
     OpenMesh {
         /// Number of boundary edges.
         edges: usize,
-        /// Middle of one of them, in m.
+        /// Middle of one boundary edge, in m.
         place: [f64; 3],
     },
 
@@ -135,23 +135,23 @@ pub enum Error {
          {place:?} has {triangles}; remove inner faces and doubled ones"
     )]
     NonManifoldMesh {
-        /// Number of such edges.
+        /// Number of edges with more than two triangles.
         edges: usize,
-        /// Triangles of one of them.
+        /// Number of triangles at one of these edges.
         triangles: usize,
-        /// Its middle, in m.
+        /// Middle of that edge, in m.
         place: [f64; 3],
     },
 
-    /// The surface has neighbours that disagree on which side is out.
+    /// Neighbouring triangles disagree about the outside.
     #[error(
         "the mesh has {edges} edges whose triangles do not agree on inside and outside, one of \
          them at {place:?}; make its normals consistent"
     )]
     InconsistentOrientation {
-        /// Number of such edges.
+        /// Number of edges between triangles that disagree.
         edges: usize,
-        /// Middle of one of them, in m.
+        /// Middle of one of these edges, in m.
         place: [f64; 3],
     },
 
@@ -165,40 +165,40 @@ pub enum Error {
     /// The lumped area of a particle is negative or not finite.
     #[error("the area of particle {particle} is {area}; it must be finite and not negative")]
     InvalidArea {
-        /// The particle, from 0.
+        /// Number of the particle, from 0.
         particle: usize,
-        /// The area as given, in m².
+        /// Area as given, in m².
         area: f64,
     },
 
-    /// A list does not have as many entries as the surface asks for.
+    /// A list has not the length that the surface needs.
     #[error("there are {found} {what}, but the surface needs {needed}")]
     WrongLength {
         /// Content of the list.
         what: &'static str,
-        /// Its length.
+        /// Length of the list.
         found: usize,
-        /// The length that it should have.
+        /// Length that the surface needs.
         needed: usize,
     },
 
-    /// A vertex has a group without distances.
+    /// A vertex belongs to a group for which no distances are given.
     #[error(
         "vertex {vertex} is of group {group}, but there are distances of {groups} groups (numbered from 0)"
     )]
     MissingGroup {
-        /// The vertex, from 0.
+        /// Number of the vertex, from 0.
         vertex: usize,
-        /// Its group.
+        /// Group of the vertex.
         group: u32,
-        /// Number of distances.
+        /// Number of groups with distances.
         groups: usize,
     },
 
     /// A seam refers to a vertex that does not exist.
     #[error("vertex {index} is sewn, but the surface has {vertices} vertices (numbered from 0)")]
     MissingSeamVertex {
-        /// The vertex that is named.
+        /// Vertex number that does not exist.
         index: u32,
         /// Number of vertices.
         vertices: usize,
@@ -207,9 +207,9 @@ pub enum Error {
     /// A triangle of a surface names a vertex twice.
     #[error("triangle {triangle} has the corners {corners:?}; they must differ")]
     RepeatedVertex {
-        /// The triangle, from 0.
+        /// Number of the triangle, from 0.
         triangle: usize,
-        /// Its vertices.
+        /// Vertex numbers of the triangle.
         corners: [u32; 3],
     },
 
@@ -219,9 +219,9 @@ pub enum Error {
          all free; sew panels with seam_pairs instead"
     )]
     MixedTriangle {
-        /// The triangle, from 0.
+        /// Number of the triangle, from 0.
         triangle: usize,
-        /// Its vertices.
+        /// Vertex numbers of the triangle.
         corners: [u32; 3],
     },
 
@@ -231,15 +231,15 @@ pub enum Error {
          triangle; contact needs at least {least:e} m"
     )]
     ContactAtRest {
-        /// The vertices of the two primitives.
+        /// Vertex numbers of the two primitives.
         vertices: [u32; 4],
-        /// Their distance at rest, in m.
+        /// Distance of the primitives at rest, in m.
         distance: f64,
-        /// The smallest distance that would do, in m.
+        /// Smallest distance that contact accepts, in m.
         least: f64,
     },
 
-    /// More candidate pairs were found than the list may hold.
+    /// More candidate pairs were detected than the list may hold.
     #[error(
         "more than {capacity} pairs of primitives are near each other; is the cloth crushed, or \
          the activation distance far larger than the triangles?"
@@ -249,25 +249,27 @@ pub enum Error {
         capacity: usize,
     },
 
-    /// A vertex has drifted since detection by more than the candidate pairs allow.
+    /// A vertex has moved since detection by more than the candidate pairs allow.
     #[error(
         "vertex {vertex} is {moved:e} m from where its pairs were detected, but they hold for \
          {budget:e} m only; detect again before so large a displacement"
     )]
     DriftBudgetExceeded {
-        /// The vertex, from 0.
+        /// Number of the vertex, from 0.
         vertex: usize,
-        /// Drift since detection, in m.
+        /// Distance of the vertex from its position at detection, in m.
         moved: f64,
-        /// Largest drift that the pairs allow, in m.
+        /// Largest distance that the pairs allow, in m.
         budget: f64,
     },
-    /// A state of contact that was saved has numbers that no contact has: take an earlier one.
+
+    /// A saved state of contact holds numbers that no contact produces. Take an earlier one.
     #[error("the saved state of contact has numbers that no contact has")]
     SavedContact,
 }
 
-/// Checks a number against its range.
+/// Checks that `value` is finite and that its condition `holds`. The error names `what` and
+/// `range`.
 pub(crate) fn check(
     what: impl Into<String>,
     value: f64,
@@ -280,14 +282,8 @@ pub(crate) fn check(
     Err(Error::OutOfRange { what: what.into(), value, range })
 }
 
-/// Largest coordinate that a body may have, in m.
-///
-/// At this size neighbouring numbers are 1e-10 m apart, a millionth of a usual contact gap; larger
-/// coordinates are a mistake of unit, and boxes of a tree would overflow.
-const MAX_COORDINATE: f64 = 1e6;
-
 impl Error {
-    /// Returns whether the error is a fault of a surface that [`repair`](crate::repair) may mend.
+    /// Returns whether [`repair`](crate::repair) may mend the fault, which is a fault of a surface.
     #[must_use]
     pub fn is_fault_of_surface(&self) -> bool {
         matches!(
@@ -301,16 +297,22 @@ impl Error {
     }
 }
 
-/// Checks that a position is finite and within [`MAX_COORDINATE`].
+/// Largest coordinate that a body may have, in m.
+///
+/// At this size neighbouring numbers are 1e-10 m apart, a millionth of a usual contact gap. Larger
+/// coordinates are a mistake of unit, and the boxes of a tree would overflow.
+const MAX_COORDINATE: f64 = 1e6;
+
+/// Checks that `place`, in m, is finite and within [`MAX_COORDINATE`]. The error names `what`.
 pub(crate) fn check_position(what: impl FnOnce() -> String, place: [f64; 3]) -> Result<(), Error> {
-    // Written so that NaN fails.
+    // The comparison is false for NaN, which fails the check.
     if place.iter().all(|value| value.abs() <= MAX_COORDINATE) {
         return Ok(());
     }
     Err(Error::InvalidPosition { what: what(), place, limit: MAX_COORDINATE })
 }
 
-/// Checks flat positions of three numbers each.
+/// Checks the flat `positions` of three coordinates each, in m. Errors name `what` with a number.
 pub(crate) fn check_positions(what: &str, positions: &[f64]) -> Result<(), Error> {
     for (k, place) in positions.chunks_exact(3).enumerate() {
         check_position(|| format!("{what} {k}"), [place[0], place[1], place[2]])?;

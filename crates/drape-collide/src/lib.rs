@@ -21,13 +21,14 @@ pub use mesh_io::{
     MESH_BYTES_MAX, PointCache, Triangulation, parse_mesh, read_mesh, read_mesh_within,
 };
 pub use mesh_repair::{
-    EdgeLengths, Hole, MeshInspection, Places, RepairNote, RepairSettings, Repaired, repair,
+    EdgeLengths, FaultPlaces, Hole, MeshInspection, RepairNote, RepairSettings, RepairedMesh,
+    repair,
 };
 pub use particle::{NearestParticle, ParticleContact, ParticleSettings, ParticleSummary};
 pub use surface::{
-    CandidatePairs, CcdFilter, ContactDistances, Detector, FrictionEnergy, Gap, GaussNewton,
-    Gradient, Hessian, Intersection, Pair, PairDistance, PairKind, PinchPolicy, PinchedVertices,
-    SavedContact, SeamIntersections, SewnPlacement, StepFraction, StepLimit, Surface,
+    CandidatePairs, CcdFilter, ContactDistances, Detector, FractionLimit, FrictionEnergy, Gap,
+    GaussNewton, Gradient, Hessian, Intersection, Pair, PairDistance, PairKind, PinchPolicy,
+    PinchedVertices, SavedContact, SeamIntersections, SewnPlacement, StepFraction, Surface,
     SurfaceContact, SurfaceMemory, SurfaceParts, SurfaceSettings, SurfaceStep, SurfaceSummary,
     Sweep, Truncation, equivalence_classes, intersections, segment_meets_triangle,
 };

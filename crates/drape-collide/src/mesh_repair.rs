@@ -1,13 +1,13 @@
-//! Meshes of bodies as they come from other programs: inspected, and repaired where that is safe.
+//! Meshes of bodies as other programs wrote them: inspected, and repaired where that is safe.
 //!
-//! [`MeshInspection`] says what a triangulation is: size, volume, parts, holes, edges on which its
-//! triangles do not agree, triangles without area, intersections with itself. [`repair`] merges,
-//! orients, closes small holes and thins, and says what it did ([`RepairNote`]). A body needs a
-//! closed surface ([`Mesh`](crate::Mesh)): the caller inspects what `Mesh` refuses, repairs it, and
-//! stores the repaired file.
+//! [`MeshInspection`] describes a triangulation: size, volume, parts, holes, edges on which
+//! triangles disagree, triangles without area, and self-intersections. [`repair`] merges, orients,
+//! closes small holes and thins, and reports each change as a [`RepairNote`]. A body needs a closed
+//! surface ([`Mesh`](crate::Mesh)): the caller inspects what `Mesh` refuses, repairs it, and stores
+//! the repaired file.
 //!
-//! `edges` finds the triangles on both sides of each edge; `intersection` tests edges and triangles
-//! exactly; `holes`, `orientation` and `thinning` each repair one thing. The chapter uses
+//! `edges` finds the triangles on both sides of each edge. `intersection` tests edges and triangles
+//! exactly. `holes`, `orientation` and `thinning` repair one kind of fault each. The chapter uses
 //! triangulations (`mesh_io`), closed surfaces (`body`) and the exact predicate of `surface`.
 
 mod edges;
@@ -21,5 +21,5 @@ mod repair;
 mod thinning;
 
 pub use holes::Hole;
-pub use inspection::{EdgeLengths, MeshInspection, Places};
-pub use repair::{RepairNote, RepairSettings, Repaired, repair};
+pub use inspection::{EdgeLengths, FaultPlaces, MeshInspection};
+pub use repair::{RepairNote, RepairSettings, RepairedMesh, repair};

@@ -6,12 +6,12 @@
 //! E_i = k_A A_i\, b(d_i) + F_i f_0(|u_i|)
 //! ```
 //!
-//! of the [barrier](crate::barrier) of its signed distance and of friction that is lagged: normal
-//! force and tangent plane are those at the start of the step \[Li20, eqs. 11–12 and 17\].
+//! of the [barrier](crate::barrier) of its signed distance and of friction. The friction is lagged:
+//! normal force and tangent plane are taken at the start of the step \[Li20, eqs. 11–12 and 17\].
 //!
 //! The solver calls [`ParticleContact`] in each step: `begin`, then forces, potential and stiffness
-//! at trial positions. This chapter uses [`body`](crate::body) and the barrier, and knows nothing
-//! of surfaces.
+//! at trial positions. This chapter uses [`body`](crate::body) and the barrier, and does not use
+//! surfaces.
 
 mod contact;
 mod detection;

@@ -1,7 +1,7 @@
 //! Sections of bodies by planes, and the convex hulls of sections.
 //!
-//! A garment that goes round a body is measured against the convex hull of the body's section: a
-//! string round it would not follow the hollows either.
+//! A garment around a body is measured against the convex hull of the body's section, because a
+//! string around the body would not follow its hollows either.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::equivalence_classes;
 use crate::mesh_io::Triangulation;
 use crate::vector::{Vector, cross, dot, norm, subtract};
 
-/// Plane with directions in it.
+/// Plane through a body, with two axes in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionPlane {
     middle: [f64; 3],
@@ -18,7 +18,7 @@ pub struct SectionPlane {
 }
 
 impl SectionPlane {
-    /// Returns the horizontal plane at a height, in m.
+    /// Returns the horizontal plane at `height`, in m.
     #[must_use]
     pub fn horizontal(height: f64) -> Self {
         Self {
@@ -28,15 +28,15 @@ impl SectionPlane {
         }
     }
 
-    /// Returns the plane through the middle of a closed line, across the area that it encloses, if
-    /// that is any.
+    /// Returns the plane through the mean of the corners of the closed line `points`, in m,
+    /// perpendicular to the vector area of the line. Returns `None` if that area is zero.
     #[must_use]
-    pub fn through(places: &[[f64; 3]]) -> Option<Self> {
-        let count = places.len() as f64;
-        let middle = [0, 1, 2].map(|k| places.iter().map(|place| place[k]).sum::<f64>() / count);
+    pub fn through(points: &[[f64; 3]]) -> Option<Self> {
+        let count = points.len() as f64;
+        let middle = [0, 1, 2].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count);
         let mut area = [0.0; 3];
-        for (place, next) in places.iter().zip(places.iter().cycle().skip(1)) {
-            let turn = cross(subtract(*place, middle), subtract(*next, middle));
+        for (point, next) in points.iter().zip(points.iter().cycle().skip(1)) {
+            let turn = cross(subtract(*point, middle), subtract(*next, middle));
             (0..3).for_each(|axis| area[axis] += turn[axis]);
         }
         let normal = unit(area)?;
@@ -46,47 +46,53 @@ impl SectionPlane {
         Some(Self { middle, normal, axes: [first, cross(normal, first)] })
     }
 
-    /// Returns the plane moved along its normal by a distance, in m.
+    /// Returns this plane moved along its normal by `distance`, in m.
     #[must_use]
     pub fn moved(&self, distance: f64) -> Self {
         let middle = [0, 1, 2].map(|k| self.middle[k] + distance * self.normal[k]);
         Self { middle, ..*self }
     }
 
-    /// Returns the plane moved by a shift, in m.
+    /// Returns this plane moved by the vector `shift`, in m.
     #[must_use]
     pub fn shifted(&self, shift: [f64; 3]) -> Self {
         Self { middle: [0, 1, 2].map(|k| self.middle[k] + shift[k]), ..*self }
     }
 
-    /// Returns the height of its middle, in m.
+    /// Returns the height of the plane's middle, in m.
     #[must_use]
     pub fn height(&self) -> f64 {
         self.middle[1]
     }
 
-    /// Returns the foot of a point in the plane.
+    /// Returns the coordinates of the foot of `point` along the plane's two axes, in m.
     #[must_use]
     pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
         self.axes.map(|axis| dot(axis, subtract(point, self.middle)))
     }
 
-    /// Returns the points where the plane cuts the sides of a triangle.
+    /// Returns the points where the plane cuts the sides of the triangle with `corners`, in m along
+    /// the plane's axes.
     #[must_use]
     pub fn cuts(&self, corners: [[f64; 3]; 3]) -> Vec<[f64; 2]> {
-        let heights = corners.map(|corner| dot(self.normal, subtract(corner, self.middle)));
-        let cut = |k: usize| {
-            let (a, b) = (k, (k + 1) % 3);
-            ((heights[a] < 0.0) != (heights[b] < 0.0)).then(|| {
-                let part = heights[a] / (heights[a] - heights[b]);
-                self.flat(between(corners[a], corners[b], part))
+        let heights = corners.map(|corner| self.height_of(corner));
+        (0..3)
+            .map(|k| (k, (k + 1) % 3))
+            .filter(|&(a, b)| (heights[a] < 0.0) != (heights[b] < 0.0))
+            .map(|(a, b)| {
+                let fraction = heights[a] / (heights[a] - heights[b]);
+                self.flat(between(corners[a], corners[b], fraction))
             })
-        };
-        (0..3).filter_map(cut).collect()
+            .collect()
     }
 
-    /// Returns the points in which the plane cuts a mesh, line by line: those of a closed mesh lie
-    /// on closed lines, one for each limb that it cuts.
+    /// Returns the height of `point` over the plane, in m.
+    fn height_of(&self, point: [f64; 3]) -> f64 {
+        dot(self.normal, subtract(point, self.middle))
+    }
+
+    /// Returns the points in which the plane cuts the edges of `mesh`, in m along the plane's axes,
+    /// grouped by line. A closed `mesh` gives a closed line for each limb that the plane cuts.
     #[must_use]
     pub fn lines(&self, mesh: &Triangulation) -> Vec<Vec<[f64; 2]>> {
         let MeshCut { points, class, .. } = self.cut(mesh);
@@ -112,10 +118,9 @@ impl SectionPlane {
 
     /// Returns the cut through a mesh.
     fn cut(&self, mesh: &Triangulation) -> MeshCut {
-        let height = |vertex: &[f64; 3]| dot(self.normal, subtract(*vertex, self.middle));
-        let is_below: Vec<bool> = mesh.vertices.iter().map(|v| height(v) < 0.0).collect();
+        let is_below: Vec<bool> = mesh.vertices.iter().map(|v| self.height_of(*v) < 0.0).collect();
         // Number each side of a triangle that is cut, and join the two sides of each triangle.
-        let mut sides: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+        let mut edges: BTreeMap<[u32; 2], u32> = BTreeMap::new();
         let mut pieces = Vec::new();
         for triangle in &mesh.triangles {
             let below = triangle.map(|corner| is_below[corner as usize]);
@@ -124,20 +129,20 @@ impl SectionPlane {
             }
             let cut = (0..3).filter(|&k| below[k] != below[(k + 1) % 3]).map(|k| {
                 let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
-                let next = sides.len() as u32;
-                *sides.entry([a.min(b), a.max(b)]).or_insert(next)
+                let next = edges.len() as u32;
+                *edges.entry([a.min(b), a.max(b)]).or_insert(next)
             });
             // A triangle has no or two sides that are cut.
             pieces.extend(<[u32; 2]>::try_from(&cut.collect::<Vec<u32>>()[..]));
         }
 
         // A line is a class of sides that pieces join. Points are in the order of the sides.
-        let class = equivalence_classes(sides.len(), &pieces);
-        let mut place = vec![0; sides.len()];
+        let class = equivalence_classes(edges.len(), &pieces);
+        let mut place = vec![0; edges.len()];
         let (mut points, mut classes) = (Vec::new(), Vec::new());
-        for (side, number) in sides {
-            let [a, b] = side.map(|corner| mesh.vertices[corner as usize]);
-            let (low, high) = (height(&a), height(&b));
+        for (edge, number) in edges {
+            let [a, b] = edge.map(|corner| mesh.vertices[corner as usize]);
+            let (low, high) = (self.height_of(a), self.height_of(b));
             place[number as usize] = points.len() as u32;
             points.push(self.flat(between(a, b, low / (low - high))));
             classes.push(class[number as usize]);
@@ -159,14 +164,15 @@ struct MeshCut {
 
 /// Returns the length of a closed line in a plane or in space, in m.
 #[must_use]
-pub fn perimeter<const N: usize>(places: &[[f64; N]]) -> f64 {
-    let distance = |(a, b): (&[f64; N], &[f64; N])| {
-        a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-    };
-    places.iter().zip(places.iter().cycle().skip(1)).map(distance).sum()
+pub fn perimeter<const N: usize>(points: &[[f64; N]]) -> f64 {
+    points
+        .iter()
+        .zip(points.iter().cycle().skip(1))
+        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt())
+        .sum()
 }
 
-/// Returns whether a closed line goes round a point.
+/// Returns whether the closed line `ring` goes around a point.
 #[must_use]
 pub fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let sides = ring.iter().zip(ring.iter().cycle().skip(1));
@@ -176,33 +182,35 @@ pub fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Returns the corners of the convex hull of points, in their order \[And79\].
+/// Returns the corners of the convex hull of `points`, in order around the hull \[And79\].
 #[must_use]
 pub fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
-        let mut chain: Vec<[f64; 2]> = Vec::new();
-        for &[x, y] in points {
-            while let [.., [ax, ay], [bx, by]] = chain[..]
-                && (bx - ax) * (y - ay) <= (by - ay) * (x - ax)
-            {
-                chain.pop();
-            }
-            chain.push([x, y]);
+    [convex_chain(points.iter()), convex_chain(points.iter().rev())].concat()
+}
+
+/// Returns one side of the convex hull of the sorted `points`, without its last point.
+fn convex_chain<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut chain: Vec<[f64; 2]> = Vec::new();
+    for &[x, y] in points {
+        while let [.., [ax, ay], [bx, by]] = chain[..]
+            && (bx - ax) * (y - ay) <= (by - ay) * (x - ax)
+        {
+            chain.pop();
         }
-        chain.pop();
-        chain
-    };
-    [chain(&mut points.iter()), chain(&mut points.iter().rev())].concat()
+        chain.push([x, y]);
+    }
+    chain.pop();
+    chain
 }
 
-/// Returns the point between two others at a fraction of their distance.
+/// Returns the point at `fraction` of the way from `a` to `b`.
 #[must_use]
-pub fn between<const N: usize>(a: [f64; N], b: [f64; N], part: f64) -> [f64; N] {
-    std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))
+pub fn between<const N: usize>(a: [f64; N], b: [f64; N], fraction: f64) -> [f64; N] {
+    std::array::from_fn(|axis| a[axis] + fraction * (b[axis] - a[axis]))
 }
 
-/// Returns the vector of length 1 in the direction of one that is not zero.
+/// Returns the vector of length 1 in the direction of `a`, or `None` if `a` is zero.
 fn unit(a: Vector) -> Option<Vector> {
     let length = norm(a);
     (length > 0.0).then(|| a.map(|x| x / length))

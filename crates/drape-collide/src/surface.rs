@@ -1,12 +1,12 @@
-//! Contact of triangle surfaces with each other and with bodies, which never intersect.
+//! Contact of triangle surfaces with each other and with bodies. The surfaces never intersect.
 //!
-//! Each pair of a vertex with a triangle, or of two edges, whose distance `$d$` is below the
-//! activation distance has the energy `$k A\, m\, b(d - \xi)$` of a barrier that is infinite at the
+//! A pair is a vertex with a triangle, or two edges. If its distance `$d$` is below the activation
+//! distance, the pair has the energy `$k A\, m\, b(d - \xi)$` of a barrier that is infinite at the
 //! minimum separation `$\xi$` \[Li20, Li21\], and friction. A step filter limits each step of the
 //! solver such that `$d > \xi$` throughout, and an exact test confirms it.
 //!
 //! In their order in a step:
-//! - [`geometry`]: the surface at rest, with edges, areas and what never meets,
+//! - [`geometry`]: the surface at rest, with edges, areas and exempt pairs,
 //! - [`broad_phase`]: candidate pairs, by a tree of boxes over positions or trajectories,
 //! - [`distance`], [`barrier`], [`friction`]: energies, forces and stiffness of a pair,
 //! - [`step_filter`]: continuous collision detection (CCD) of a step,
@@ -43,4 +43,4 @@ pub use exact::{Intersection, intersections};
 pub use friction::FrictionEnergy;
 pub use geometry::{ContactDistances, SurfaceParts, equivalence_classes};
 pub use pair::{Pair, PairKind};
-pub use step_filter::{CcdFilter, StepFraction, StepLimit, SurfaceStep, Truncation};
+pub use step_filter::{CcdFilter, FractionLimit, StepFraction, SurfaceStep, Truncation};

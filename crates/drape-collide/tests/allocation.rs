@@ -116,7 +116,7 @@ fn steps_of_particles_allocate_nothing() {
             contact.add_forces(&positions, &mut forces);
             assert!(contact.potential(&positions) > 0.0);
             contact.add_stiffness(&positions, true, &mut |_, _| ());
-            assert!(contact.touching_particles(&positions) > 500);
+            assert!(contact.touching_particle_count(&positions) > 500);
         });
         assert_eq!(counted, 0);
     }

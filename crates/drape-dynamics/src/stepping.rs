@@ -21,7 +21,7 @@ mod scheme;
 pub(crate) mod statistics;
 mod step_control;
 
-use drape_cloth::{SeamState, State};
+use drape_cloth::{SeamBendingState, State};
 use drape_collide::SurfaceMemory;
 use drape_implicit::{Error, ErrorEstimate, Integrator, IntegratorState, Report};
 use drape_scene::{Clock, Relaxation, SeamPairs};
@@ -71,7 +71,7 @@ struct StepStart {
     cloth: State,
     balance: Option<EnergyBalance>,
     surfaces: Option<SurfaceMemory>,
-    seams: Option<SeamState>,
+    seams: Option<SeamBendingState>,
 }
 
 impl Stepping {

@@ -56,7 +56,7 @@ pub fn distance(bytes: &[u8]) {
             distance: 0.0,
         };
         let own = pair.distance_at(points.as_flattened());
-        let square = rational::square_distance(&places, pair.first_vertices());
+        let square = rational::square_distance(&places, pair.first_vertex_count());
         let right = square.to_f64().expect("a number").sqrt();
         let miss = (own - right).abs();
         assert!(miss <= ROUNDING * scale, "{kind:?} of {points:?}: {own}, not {right}");

@@ -1,18 +1,18 @@
-//! Particles that are close in space, wherever they are in the cloth: a list kept while they move
-//! little.
+//! Particles that are close in space, wherever they are in the cloth. The list is kept while they
+//! move little.
 
 use crate::breen::well::Well;
 use crate::measure::vector::{length, subtract, vector_at};
 
-/// Distance beyond the spacing up to which pairs are listed, in spacings, so that the list stays
-/// valid while particles move.
+/// Distance beyond the spacing up to which pairs are listed, in spacings. It keeps the list valid
+/// while particles move.
 ///
-/// Larger values make the list longer, smaller ones make it anew more often; a settling cloth moves
-/// by at most a quarter of the spacing in a step.
+/// Larger values lengthen the list, smaller values renew it more often. A settling cloth moves by
+/// at most a quarter of the spacing in a step.
 const MARGIN: f64 = 0.5;
 
 /// Cell of space, by its indices along the axes.
-type Cell = [i64; 3];
+type SpaceCell = [i64; 3];
 
 /// Pairs of particles that are close in space, found by sorting the particles into the cells of a
 /// grid.
@@ -20,18 +20,18 @@ type Cell = [i64; 3];
 pub(crate) struct ClosePairs {
     /// Distance up to which pairs are listed, and side of a cell, in m.
     list_distance: f64,
-    /// Distance that a particle may move before the list is made anew, in m.
+    /// Distance that a particle may move before the list is renewed, in m.
     slack: f64,
     /// Neighbours of each particle along its yarns, which are not listed.
     neighbours: Vec<[u32; 4]>,
-    /// Positions when the list was made, in m.
+    /// Positions at which the list was made, in m.
     listed: Vec<f64>,
     pairs: Vec<[u32; 2]>,
-    cells: Vec<(Cell, u32)>,
+    cells: Vec<(SpaceCell, u32)>,
 }
 
 /// Half of the 26 neighbours of a cell, so that each pair of cells occurs once.
-const AFTER: [Cell; 13] = [
+const AFTER: [SpaceCell; 13] = [
     [0, 0, 1],
     [0, 1, -1],
     [0, 1, 0],
@@ -60,15 +60,16 @@ impl ClosePairs {
         }
     }
 
-    /// Returns all pairs nearer than the spacing, and some that are farther, in rising order.
+    /// Returns all pairs that are nearer than the spacing at `positions`, and some that are
+    /// farther, in rising order.
     ///
-    /// The order, and with it every sum over the pairs, does not depend on when the list was made:
-    /// pairs beyond the spacing contribute nothing.
+    /// The sums over the pairs do not depend on when the list was made, because the order is fixed
+    /// and pairs beyond the spacing contribute nothing.
     pub(crate) fn find(&mut self, positions: &[f64]) -> &[[u32; 2]] {
         let moved =
             self.listed.chunks_exact(3).zip(positions.chunks_exact(3)).any(|(then, now)| {
                 let moved = subtract([now[0], now[1], now[2]], [then[0], then[1], then[2]]);
-                // Not `>`, so that NaN counts as moved.
+                // Written so that NaN counts as moved.
                 !(length(moved) <= self.slack)
             });
         if moved || self.listed.len() != positions.len() {
@@ -77,37 +78,37 @@ impl ClosePairs {
         &self.pairs
     }
 
-    /// Positions when the list was made, in m; none before.
+    /// Returns the positions at which the list was made, in m, empty before the first list.
     pub(crate) fn listed(&self) -> &[f64] {
         &self.listed
     }
 
-    /// Makes the list at some positions, in m.
+    /// Makes the list at `positions`, in m.
     pub(crate) fn list(&mut self, positions: &[f64]) {
         self.listed.clear();
         self.listed.extend_from_slice(positions);
         self.pairs.clear();
         let side = self.list_distance;
-        let number = |x: f64| (x / side).floor() as i64;
         self.cells.clear();
-        let points = positions.chunks_exact(3).enumerate();
-        self.cells.extend(
-            points.map(|(particle, x)| ([0, 1, 2].map(|axis| number(x[axis])), particle as u32)),
-        );
+        self.cells.extend(positions.chunks_exact(3).enumerate().map(|(particle, x)| {
+            ([0, 1, 2].map(|axis| (x[axis] / side).floor() as i64), particle as u32)
+        }));
         self.cells.sort_unstable();
+
+        // Each run of equal cells is paired with itself and with half of the cells around it.
         let mut start = 0;
         while start < self.cells.len() {
             let cell = self.cells[start].0;
-            let end = start + self.cells[start..].partition_point(|(other, _)| *other == cell);
+            let end = start + self.cells[start..].partition_point(|(next, _)| *next == cell);
             for first in start..end {
                 for second in first + 1..end {
                     self.list_pair(first, second, positions);
                 }
             }
             for step in AFTER {
-                let other = [0, 1, 2].map(|axis| cell[axis].saturating_add(step[axis]));
-                let from = end + self.cells[end..].partition_point(|(cell, _)| *cell < other);
-                let count = self.cells[from..].partition_point(|(cell, _)| *cell == other);
+                let beside = [0, 1, 2].map(|axis| cell[axis].saturating_add(step[axis]));
+                let from = end + self.cells[end..].partition_point(|(cell, _)| *cell < beside);
+                let count = self.cells[from..].partition_point(|(cell, _)| *cell == beside);
                 for first in start..end {
                     for second in from..from + count {
                         self.list_pair(first, second, positions);
@@ -119,6 +120,8 @@ impl ClosePairs {
         self.pairs.sort_unstable();
     }
 
+    /// Lists the particles of the entries `first` and `second` of the cells if they are close and
+    /// not neighbours on a yarn.
     fn list_pair(&mut self, first: usize, second: usize, positions: &[f64]) {
         let [a, b] = [self.cells[first].1, self.cells[second].1];
         let pair = [a.min(b), a.max(b)];

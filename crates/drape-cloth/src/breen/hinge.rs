@@ -9,13 +9,13 @@ use crate::measure::vector::{Vector, add, dot, scale, subtract, vector_at};
 /// Two segments between particles, with an energy of the angle between them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hinge {
-    /// Particles, `count` of them.
+    /// Particles, of which the first `count` are used.
     particles: [u32; 4],
     /// Signs of each particle in the first and in the second segment.
     signs: [[f64; 2]; 4],
     count: usize,
     size: HingeSize,
-    measure: Measure,
+    measure: HingeMeasure,
 }
 
 /// Area and law of a hinge.
@@ -23,44 +23,45 @@ pub(crate) struct Hinge {
 pub(crate) struct HingeSize {
     /// Area of cloth, in m².
     pub(crate) area: f64,
-    /// Index of its work among those of the cloth.
+    /// Index of the hinge's work among all works of the cloth.
     pub(crate) work: u32,
 }
 
-/// Measure that the energy is a function of.
+/// Measure on which the energy depends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Measure {
-    /// Length of the difference of the directions of two segments of a spacing along a yarn.
+pub(crate) enum HingeMeasure {
+    /// Length of the difference of the directions of two segments along a yarn.
     Chord {
         /// Length of a segment at rest, in m.
         spacing: f64,
     },
-    /// Cosine of the angle of two lines that cross at right angles at rest.
+    /// Cosine of the angle between two lines that cross at right angles at rest.
     Cosine,
 }
 
-/// Directions and lengths of the segments, the difference of the directions, and its squared
-/// length.
-struct Pose {
+/// Directions and lengths of the two segments at given positions.
+struct SegmentPose {
     units: [Vector; 2],
     lengths: [f64; 2],
+    /// Difference of the directions.
     chord: Vector,
+    /// Squared length of the chord.
     square: f64,
 }
 
 impl Hinge {
-    /// Returns the hinge of three particles along a yarn.
+    /// Returns the hinge of three particles along a yarn, `before`, `middle` and `after`.
     pub(crate) fn bend([before, middle, after]: [u32; 3], size: HingeSize, spacing: f64) -> Self {
-        let measure = Measure::Chord { spacing };
+        let measure = HingeMeasure::Chord { spacing };
         Self::new([[before, middle], [middle, after]], size, measure)
     }
 
-    /// Returns the hinge of the two lines through the neighbours of a particle.
+    /// Returns the hinge of the two `lines` through the neighbours of a particle.
     pub(crate) fn trellis(lines: [[u32; 2]; 2], size: HingeSize) -> Self {
-        Self::new(lines, size, Measure::Cosine)
+        Self::new(lines, size, HingeMeasure::Cosine)
     }
 
-    fn new(segments: [[u32; 2]; 2], size: HingeSize, measure: Measure) -> Self {
+    fn new(segments: [[u32; 2]; 2], size: HingeSize, measure: HingeMeasure) -> Self {
         let (mut particles, mut signs, mut count) = ([0; 4], [[0.0; 2]; 4], 0);
         for (segment, ends) in segments.into_iter().enumerate() {
             for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
@@ -74,7 +75,7 @@ impl Hinge {
         Self { particles, signs, count, size, measure }
     }
 
-    fn pose(&self, positions: &[f64]) -> Pose {
+    fn pose(&self, positions: &[f64]) -> SegmentPose {
         let mut segments = [[0.0; 3]; 2];
         for (particle, signs) in self.particles[..self.count].iter().zip(self.signs) {
             let at = vector_at(positions, *particle);
@@ -85,39 +86,39 @@ impl Hinge {
         let lengths = segments.map(|segment| dot(segment, segment).sqrt());
         let units = [0, 1].map(|k| scale(segments[k], 1.0 / lengths[k]));
         let chord = subtract(units[1], units[0]);
-        Pose { units, lengths, chord, square: dot(chord, chord) }
+        SegmentPose { units, lengths, chord, square: dot(chord, chord) }
     }
 
-    /// Returns the energy and its derivatives with respect to the cosine `$1 - \frac12|d|^2$` of
-    /// the angle, with the difference `$d$` of the directions.
-    fn work(&self, works: &[BreenWork], pose: &Pose) -> Work {
+    /// Returns the energy at `pose` and its derivatives with respect to the cosine
+    /// `$1 - \frac12|d|^2$` of the angle, with the difference `$d$` of the directions.
+    fn work(&self, works: &[BreenWork], pose: &SegmentPose) -> Work {
         let work = &works[self.size.work as usize];
-        let found = match self.measure {
-            Measure::Chord { spacing } => {
+        let per_area = match self.measure {
+            HingeMeasure::Chord { spacing } => {
                 let chord = pose.square.sqrt();
-                let found = work.of_chord(spacing, chord);
-                let secant = secant(&found, chord);
+                let of_chord = work.of_chord(spacing, chord);
+                let secant = secant(&of_chord, chord);
                 let bend =
-                    if chord > STRAIGHT { (found.second - secant) / pose.square } else { 0.0 };
-                Work { work: found.work, first: -secant, second: bend }
+                    if chord > STRAIGHT { (of_chord.second - secant) / pose.square } else { 0.0 };
+                Work { work: of_chord.work, first: -secant, second: bend }
             }
-            Measure::Cosine => work.of_sine(1.0 - 0.5 * pose.square),
+            HingeMeasure::Cosine => work.of_sine(1.0 - 0.5 * pose.square),
         };
         Work {
-            work: found.work * self.size.area,
-            first: found.first * self.size.area,
-            second: found.second * self.size.area,
+            work: per_area.work * self.size.area,
+            first: per_area.first * self.size.area,
+            second: per_area.second * self.size.area,
         }
     }
 
     pub(crate) fn energy(&self, works: &[BreenWork], positions: &[f64]) -> f64 {
         let work = &works[self.size.work as usize];
         let square = self.pose(positions).square;
-        let found = match self.measure {
-            Measure::Chord { spacing } => work.of_chord(spacing, square.sqrt()),
-            Measure::Cosine => work.of_sine(1.0 - 0.5 * square),
+        let per_area = match self.measure {
+            HingeMeasure::Chord { spacing } => work.of_chord(spacing, square.sqrt()),
+            HingeMeasure::Cosine => work.of_sine(1.0 - 0.5 * square),
         };
-        found.work * self.size.area
+        per_area.work * self.size.area
     }
 
     pub(crate) fn add_forces(&self, works: &[BreenWork], positions: &[f64], forces: &mut [f64]) {
@@ -133,7 +134,7 @@ impl Hinge {
         }
     }
 
-    /// Passes the second derivatives to `put`, block by block: see
+    /// Passes the second derivatives at `positions` to `put`, block by block, like
     /// [`Breen::add_stiffness`](crate::Breen::add_stiffness).
     pub(crate) fn add_stiffness(
         &self,
@@ -144,17 +145,19 @@ impl Hinge {
     ) {
         let pose = self.pose(positions);
         let [first, second, mixed] = match (self.measure, definite) {
-            (Measure::Chord { spacing }, true) => {
+            (HingeMeasure::Chord { spacing }, true) => {
                 let chord = pose.square.sqrt();
-                let found = works[self.size.work as usize].of_chord(spacing, chord);
-                pose.of_chord(&found, self.size.area)
+                let work = works[self.size.work as usize].of_chord(spacing, chord);
+                pose.chord_hessian(&work, self.size.area)
             }
-            (Measure::Cosine, true) => {
-                let found = self.work(works, &pose);
-                pose.of_cosine(&Work { first: 0.0, second: found.second.max(0.0), ..found })
+            (HingeMeasure::Cosine, true) => {
+                let work = self.work(works, &pose);
+                pose.cosine_hessian(&Work { first: 0.0, second: work.second.max(0.0), ..work })
             }
-            (_, false) => pose.of_cosine(&self.work(works, &pose)),
+            (_, false) => pose.cosine_hessian(&self.work(works, &pose)),
         };
+
+        // Each particle takes the blocks of the segments with its signs.
         for i in 0..self.count {
             for j in i..self.count {
                 let ([a, b], [c, d]) = (self.signs[i], self.signs[j]);
@@ -176,24 +179,24 @@ impl Hinge {
     }
 }
 
-/// Chord below which a yarn counts as straight: the angle is then lost in the rounding of the
+/// Chord below which a yarn counts as straight. The angle is then lost in the rounding of the
 /// directions.
 const STRAIGHT: f64 = 1e-9;
 
-/// Returns the first derivative over the chord; of a straight yarn the limit.
+/// Returns the first derivative of `work` over the chord or, for a straight yarn, its limit.
 fn secant(work: &Work, chord: f64) -> f64 {
     if chord > STRAIGHT { work.first / chord } else { work.second }
 }
 
-impl Pose {
-    /// Cosine of the angle.
+impl SegmentPose {
+    /// Returns the cosine of the angle, `$1 - \frac12|d|^2$`.
     fn cosine(&self) -> f64 {
         1.0 - 0.5 * self.square
     }
 
     /// Returns the derivatives of the cosine with respect to the two segments, times their lengths:
-    /// each direction less its component along the other. For nearly straight segments they are
-    /// small, and computed without cancellation.
+    /// each of `units` less its component along the other. For nearly straight segments the
+    /// derivatives are small, and computed without cancellation.
     fn across(&self) -> [Vector; 2] {
         let half = 0.5 * self.square;
         [
@@ -202,18 +205,18 @@ impl Pose {
         ]
     }
 
-    /// Returns the derivatives of the cosine with respect to the two segments.
+    /// Returns the derivatives of the cosine with respect to the two segments, in 1/m.
     fn gradient(&self) -> [Vector; 2] {
         let across = self.across();
         [0, 1].map(|k| scale(across[k], 1.0 / self.lengths[k]))
     }
 
     /// Returns the second derivatives of a function of the cosine with respect to the first
-    /// segment, the second, and both.
-    fn of_cosine(&self, work: &Work) -> [Block; 3] {
+    /// segment, the second, and both. `work` holds the derivatives of the function.
+    fn cosine_hessian(&self, work: &Work) -> [Block; 3] {
         let gradient = self.gradient();
         let cosine = self.cosine();
-        let own = |k: usize| -> Block {
+        let single = [0, 1].map(|k| -> Block {
             let (unit, slope, inverse) = (self.units[k], gradient[k], 1.0 / self.lengths[k]);
             std::array::from_fn(|entry| {
                 let (i, j) = (entry / 3, entry % 3);
@@ -223,46 +226,48 @@ impl Pose {
                     (rotation + cosine * inverse * (identity - unit[i] * unit[j])) * inverse;
                 work.second * slope[i] * slope[j] - work.first * rotation
             })
-        };
+        });
+
+        // (1 − ppᵀ)(1 − qqᵀ) = 1 − ppᵀ − qqᵀ + c pqᵀ.
         let [a, b] = self.lengths;
         let [p, q] = self.units;
-        // (1 − ppᵀ)(1 − qqᵀ) = 1 − ppᵀ − qqᵀ + c pqᵀ.
         let mixed: Block = std::array::from_fn(|entry| {
             let (i, j) = (entry / 3, entry % 3);
             let identity = if i == j { 1.0 } else { 0.0 };
             let both = identity - p[i] * p[j] - q[i] * q[j] + cosine * p[i] * q[j];
             work.second * gradient[0][i] * gradient[1][j] + work.first * both / (a * b)
         });
-        [own(0), own(1), mixed]
+        [single[0], single[1], mixed]
     }
 
-    /// Returns the positive part of the second derivatives of a work of the chord, without the
-    /// rotation of the chord's gradient.
-    fn of_chord(&self, work: &Work, area: f64) -> [Block; 3] {
+    /// Returns the positive part of the second derivatives of a `work` of the chord times `area`,
+    /// without the rotation of the chord's gradient.
+    fn chord_hessian(&self, work: &Work, area: f64) -> [Block; 3] {
         let chord = self.square.sqrt();
         let secant = secant(work, chord);
-        let more = if chord > STRAIGHT { (work.second - secant) / self.square } else { 0.0 };
-        let (secant, more) = (area * secant, area * more);
-        // Component across the segment, over its length: the change of the direction.
-        let project = |k: usize, vector: Vector| {
-            let unit = self.units[k];
-            let rest = subtract(vector, scale(unit, dot(unit, vector)));
-            scale(rest, 1.0 / self.lengths[k])
-        };
-        let block = |k: usize, l: usize, sign: f64| -> Block {
+        let excess = if chord > STRAIGHT { (work.second - secant) / self.square } else { 0.0 };
+        let (secant, excess) = (area * secant, area * excess);
+        [(0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0)].map(|(k, l, sign)| {
             let mut block = [0.0; 9];
-            let (left, right) = (project(k, self.chord), project(l, self.chord));
+            let (left, right) = (self.turn(k, self.chord), self.turn(l, self.chord));
             for axis in 0..3 {
                 let mut column = [0.0; 3];
                 column[axis] = 1.0;
-                let image = project(k, project(l, column));
+                let image = self.turn(k, self.turn(l, column));
                 for row in 0..3 {
                     block[3 * row + axis] =
-                        sign * (secant * image[row] + more * left[row] * right[axis]);
+                        sign * (secant * image[row] + excess * left[row] * right[axis]);
                 }
             }
             block
-        };
-        [block(0, 0, 1.0), block(1, 1, 1.0), block(0, 1, -1.0)]
+        })
+    }
+
+    /// Returns the change of the direction of segment `k` when its end moves by `vector`: the
+    /// component of `vector` across the segment, over the segment's length.
+    fn turn(&self, k: usize, vector: Vector) -> Vector {
+        let unit = self.units[k];
+        let across = subtract(vector, scale(unit, dot(unit, vector)));
+        scale(across, 1.0 / self.lengths[k])
     }
 }

@@ -11,25 +11,25 @@ use crate::measure::block::Block;
 use crate::measure::vector::{Vector, add_at, length, scale, subtract, vector_at};
 use crate::panel::lattice::Lattice;
 
-/// Interacting particles of Breen, House & Wozny \[BHW94\]: no friction, no memory.
+/// Interacting particles of Breen, House & Wozny \[BHW94\], without friction and memory.
 ///
-/// Four energies act \[BHW94, eq. 3.1\]. **Stretching** holds neighbours along a yarn together, and
-/// **repulsion** keeps any two particles apart that come nearer than the spacing, wherever they are
-/// in the cloth; both rise with the fifth power \[eqs. 3.2–3.5\], so that a cloth under its own
-/// weight hardly stretches and does not intersect itself. **Bending** depends on the angle of three
-/// particles along a yarn \[eqs. 5.4, 5.5\], **trellising** on the angle between the two lines
-/// through the neighbours of a particle \[eq. 5.7\]; their curves are the first branches of the
-/// fabric's ([`BreenWork::from_laws`]).
+/// Four energies act \[BHW94, eq. 3.1\]. **Stretching** holds neighbours along a yarn together.
+/// **Repulsion** keeps any two particles apart that come nearer than the spacing, wherever they are
+/// in the cloth. Both rise with the fifth power \[eqs. 3.2–3.5\], so a cloth under its weight
+/// hardly stretches and does not intersect itself. **Bending** depends on the angle of three
+/// particles along a yarn \[eqs. 5.4, 5.5\]. **Trellising** depends on the angle between the two
+/// lines through the neighbours of a particle \[eq. 5.7\]. The curves of bending and trellising are
+/// the first branches of the fabric's curves ([`BreenWork::from_laws`]).
 ///
-/// Differences from the printed paper, besides those of [`BreenWork`]:
+/// Differences from the printed paper, besides the differences of [`BreenWork`]:
 /// * Eqs. 3.2 and 3.3 have one factor for energies of different units. With lengths in units of the
 ///   spacing both are energies, and they form one well, even about the spacing up to the fifth
 ///   order.
 /// * The factor is not published. Here the weight of a metre of the cloth stretches it by
 ///   [`Breen::WELL_STRAIN`], whatever the spacing.
-/// * In the paper every particle stands for a square of the spacing, at the hem too. Here it stands
-///   for its own area, and the line through the neighbours of a particle at the hem ends at the
-///   particle.
+/// * In the paper every particle stands for a square of the spacing, at the hem too. Here every
+///   particle stands for its exact area, and the line through the neighbours of a particle at the
+///   hem ends at the particle.
 ///
 /// The minimiser of the paper is stochastic and perturbs the grid. Here the start is perturbed, by
 /// the heights that a scene may give its particles.
@@ -37,9 +37,9 @@ use crate::panel::lattice::Lattice;
 pub struct Breen {
     edges: Vec<Edge>,
     hinges: Vec<Hinge>,
-    /// One for each direction of each panel.
+    /// Works of the hinges, one for each direction of each panel.
     works: Vec<BreenWork>,
-    /// Wells of the particles.
+    /// Well of each particle, for repulsion.
     wells: Vec<Well>,
     close_pairs: ClosePairs,
 }
@@ -52,18 +52,18 @@ struct Edge {
 }
 
 impl Breen {
-    /// Strain of the cloth under the weight of a metre of it, a ratio: "threads do not stretch
+    /// Strain of the cloth under the weight of a metre of cloth, a ratio: "threads do not stretch
     /// significantly" \[BHW94, §3\].
     ///
     /// Smaller values make the wells steeper and the steps harder to solve. On a cube the wells
     /// stretch the yarns at the corners by 2 % at most.
     pub const WELL_STRAIN: f64 = 0.01;
 
-    /// Returns the particles of a [`Cloth`](crate::Cloth) of the same panels, with the same
-    /// numbers.
+    /// Returns the model of a [`Cloth`](crate::Cloth) of the same `panels`. Particles have the
+    /// numbers of the cloth.
     ///
     /// # Errors
-    /// When a panel has a rim of triangles, or folds.
+    /// A panel has a rim of triangles, or folds.
     pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, Error> {
         if panels.iter().any(|(lattice, _)| !lattice.rim.is_empty()) {
             return Err(Error::Rim);
@@ -72,10 +72,13 @@ impl Breen {
             let what = "is unknown to the model of Breen, House & Wozny";
             return Err(Error::Fold { fold: 0, what });
         }
+
         let (mut edges, mut hinges, mut works) = (Vec::new(), Vec::new(), Vec::new());
         let mut wells = Vec::new();
         let mut neighbours = Vec::new();
+
         for (lattice, fabric) in panels {
+            // Particles repel each other with a well of their area.
             let first = wells.len() as u32;
             let depth = Well::depth(fabric.density, Self::WELL_STRAIN);
             let areas = lattice.areas();
@@ -83,6 +86,8 @@ impl Breen {
             let spacing = across.min(along);
             wells.extend(areas.iter().map(|area| Well { spacing, energy: depth * area }));
             neighbours.resize(wells.len(), [u32::MAX; 4]);
+
+            // Each yarn direction has stretching edges and bending hinges.
             let lines = lattice.yarns();
             for (direction, (laws, spacing)) in
                 [(&fabric.warp, along), (&fabric.weft, across)].into_iter().enumerate()
@@ -101,11 +106,13 @@ impl Breen {
                     hinges.push(Hinge::bend(yarn, HingeSize { area, work }, spacing));
                 }
             }
+
+            // A trellis hinge needs neighbours on both lines.
             let work = works.len() as u32 - 1;
             for (particle, area) in areas.iter().enumerate() {
-                let own = first + particle as u32;
-                let [up, right, down, left] = neighbours[own as usize]
-                    .map(|other| if other == u32::MAX { own } else { other });
+                let particle = first + particle as u32;
+                let [up, right, down, left] = neighbours[particle as usize]
+                    .map(|next| if next == u32::MAX { particle } else { next });
                 if up != down && left != right {
                     let size = HingeSize { area: *area, work };
                     hinges.push(Hinge::trellis([[left, right], [down, up]], size));
@@ -116,30 +123,34 @@ impl Breen {
         Ok(Self { edges, hinges, works, wells, close_pairs })
     }
 
-    /// Returns the pairs of particles that are close in space and no neighbours on a yarn, the
-    /// first less than the second: all that are nearer than the spacing, and some that may soon be.
+    /// Returns the pairs of particles that are close in space at `positions` and no neighbours on a
+    /// yarn, the first less than the second. All pairs nearer than the spacing are listed, and some
+    /// that may soon be.
     pub fn close_pairs(&mut self, positions: &[f64]) -> &[[u32; 2]] {
         self.close_pairs.find(positions)
     }
 
-    /// Positions at which the close pairs were listed, in m; none before they are asked for. The list
-    /// is kept while particles move little.
+    /// Returns the positions at which the close pairs were listed last, in m, empty before the
+    /// first call of [`Breen::close_pairs`]. The list is kept while particles move little.
     #[must_use]
     pub fn listed_positions(&self) -> &[f64] {
         self.close_pairs.listed()
     }
 
-    /// Lists the close pairs at some positions, in m, as if they had been asked for there.
+    /// Lists the close pairs at `positions`, in m, as [`Breen::close_pairs`] does for a first call.
     pub fn list_pairs(&mut self, positions: &[f64]) {
         self.close_pairs.list(positions);
     }
 
-    /// Returns the energy of the particles, in J; its negative derivative is [`Breen::add_forces`].
+    /// Returns the energy of the particles at `positions`, in J. Its negative derivative is
+    /// [`Breen::add_forces`].
     #[must_use]
     pub fn energy(&mut self, positions: &[f64]) -> f64 {
-        let at = |particle: u32| vector_at(positions, particle);
-        let well = |well: &Well, [a, b]: [u32; 2]| well.at(length(subtract(at(b), at(a)))).energy;
-        let stretched: f64 = self.edges.iter().map(|edge| well(&edge.well, edge.particles)).sum();
+        let stretched: f64 = self
+            .edges
+            .iter()
+            .map(|edge| edge.well.at(length(span(positions, edge.particles))).energy)
+            .sum();
         let angles = self.hinges.iter().map(|hinge| hinge.energy(&self.works, positions));
         let angles: f64 = angles.sum();
         let pairs = self.close_pairs.find(positions);
@@ -147,35 +158,30 @@ impl Breen {
             .iter()
             .map(|&[a, b]| {
                 let mean = Well::between(&self.wells[a as usize], &self.wells[b as usize]);
-                let distance = length(subtract(at(b), at(a)));
+                let distance = length(span(positions, [a, b]));
                 if distance < mean.spacing { mean.at(distance).energy } else { 0.0 }
             })
             .sum();
         stretched + angles + repelled
     }
 
-    /// Adds the forces on the particles, three numbers for each, in N.
+    /// Adds the forces on the particles at `positions` to `forces`, in N, three numbers each.
     pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
-        let pull = |well: &Well, [a, b]: [u32; 2], forces: &mut [f64]| {
-            let span = subtract(vector_at(positions, b), vector_at(positions, a));
-            let distance = length(span);
-            let pull = scale(span, well.at(distance).first / distance);
-            add_at(forces, a, pull);
-            subtract_at(forces, b, pull);
-        };
-        self.edges.iter().for_each(|edge| pull(&edge.well, edge.particles, forces));
+        for edge in &self.edges {
+            add_pair_forces(&edge.well, edge.particles, positions, forces);
+        }
         self.hinges.iter().for_each(|hinge| hinge.add_forces(&self.works, positions, forces));
         for &[a, b] in self.close_pairs.find(positions) {
             let mean = Well::between(&self.wells[a as usize], &self.wells[b as usize]);
-            if length(subtract(vector_at(positions, b), vector_at(positions, a))) < mean.spacing {
-                pull(&mean, [a, b], forces);
+            if length(span(positions, [a, b])) < mean.spacing {
+                add_pair_forces(&mean, [a, b], positions, forces);
             }
         }
     }
 
-    /// Passes the second derivatives of the energy to `put`, block by block, each with its two
-    /// particles, the first less than or equal to the second. A pair may occur several times; its
-    /// blocks add up.
+    /// Passes the second derivatives of the energy at `positions` to `put`, block by block. Each
+    /// block comes with its two particles, the first at most the second. A pair may occur several
+    /// times; its blocks add up.
     ///
     /// With `definite`, parts that make the matrix indefinite are left out: compression across a
     /// pair, and the rotation of the gradients of angles.
@@ -185,25 +191,44 @@ impl Breen {
         definite: bool,
         put: &mut dyn FnMut([u32; 2], &Block),
     ) {
-        let pair = |well: &Well, [a, b]: [u32; 2], put: &mut dyn FnMut([u32; 2], &Block)| {
-            let span = subtract(vector_at(positions, b), vector_at(positions, a));
-            let block = well.block(span, definite);
-            put([a, a], &block);
-            put([b, b], &block);
-            let against = block.map(|entry| -entry);
-            put([a.min(b), a.max(b)], &against);
-        };
-        self.edges.iter().for_each(|edge| pair(&edge.well, edge.particles, put));
+        for edge in &self.edges {
+            let block = edge.well.block(span(positions, edge.particles), definite);
+            put_pair_blocks(edge.particles, &block, put);
+        }
         for hinge in &self.hinges {
             hinge.add_stiffness(&self.works, positions, definite, put);
         }
         for &[a, b] in self.close_pairs.find(positions) {
             let mean = Well::between(&self.wells[a as usize], &self.wells[b as usize]);
-            if length(subtract(vector_at(positions, b), vector_at(positions, a))) < mean.spacing {
-                pair(&mean, [a, b], put);
+            let span = span(positions, [a, b]);
+            if length(span) < mean.spacing {
+                put_pair_blocks([a, b], &mean.block(span, definite), put);
             }
         }
     }
+}
+
+/// Returns the vector from particle `a` to particle `b`, in m.
+fn span(positions: &[f64], [a, b]: [u32; 2]) -> Vector {
+    subtract(vector_at(positions, b), vector_at(positions, a))
+}
+
+/// Adds the forces of `well` on the particles `a` and `b`, in N.
+fn add_pair_forces(well: &Well, [a, b]: [u32; 2], positions: &[f64], forces: &mut [f64]) {
+    let span = span(positions, [a, b]);
+    let distance = length(span);
+    let pull = scale(span, well.at(distance).first / distance);
+    add_at(forces, a, pull);
+    subtract_at(forces, b, pull);
+}
+
+/// Passes the blocks of the particles `a` and `b` to `put`, from the block of one end of their
+/// span.
+fn put_pair_blocks([a, b]: [u32; 2], block: &Block, put: &mut dyn FnMut([u32; 2], &Block)) {
+    put([a, a], block);
+    put([b, b], block);
+    let against = block.map(|entry| -entry);
+    put([a.min(b), a.max(b)], &against);
 }
 
 fn subtract_at(flat: &mut [f64], particle: u32, vector: Vector) {

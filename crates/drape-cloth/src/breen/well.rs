@@ -6,8 +6,8 @@ use crate::measure::vector::{Vector, length};
 /// Standard gravity, in m/s².
 const GRAVITY: f64 = 9.806_65;
 
-/// Energy well of two particles \[BHW94, eqs. 3.2 and 3.3\]: with the distance `$\rho$` in units of
-/// the spacing
+/// Energy well of two particles \[BHW94, eqs. 3.2 and 3.3\]. With the distance `$\rho$` in units of
+/// the spacing,
 ///
 /// ```math
 /// U = C_0\,(\rho - 1)^5\;(\rho > 1), \qquad U = C_0\,\frac{(1 - \rho)^5}{\rho}\;(\rho \le 1)
@@ -29,26 +29,25 @@ pub(crate) struct WellResponse {
 }
 
 impl Well {
-    /// Returns the factor per area, in J/m², for which the weight of a metre of cloth has the given
-    /// strain: the tension per width is `$5C_0\varepsilon^4$`.
+    /// Returns the factor per area, in J/m², for which the weight of a metre of cloth of `density`
+    /// has the given `strain`. The tension per width is `$5C_0\varepsilon^4$`.
     pub(crate) fn depth(density: f64, strain: f64) -> f64 {
         density * GRAVITY / (5.0 * strain.powi(4))
     }
 
-    /// Returns the well between two particles, the mean of their own.
-    pub(crate) fn between(one: &Self, other: &Self) -> Self {
-        Self {
-            spacing: 0.5 * (one.spacing + other.spacing),
-            energy: 0.5 * (one.energy + other.energy),
-        }
+    /// Returns the well between two particles: the mean of the wells `a` and `b` of both.
+    pub(crate) fn between(a: &Self, b: &Self) -> Self {
+        Self { spacing: 0.5 * (a.spacing + b.spacing), energy: 0.5 * (a.energy + b.energy) }
     }
 
-    /// Returns energy and derivatives at a distance, in m.
+    /// Returns energy and derivatives at `distance`, in m.
     pub(crate) fn at(&self, distance: f64) -> WellResponse {
         let unit = 1.0 / self.spacing;
         let ratio = distance * unit;
         let apart = ratio - 1.0;
         let cube = apart * apart * apart;
+
+        // Both branches are derivatives with respect to the ratio ρ.
         let [energy, first, second] = if apart > 0.0 {
             [cube * apart * apart, 5.0 * cube * apart, 20.0 * cube]
         } else {
@@ -69,7 +68,8 @@ impl Well {
         }
     }
 
-    /// Returns the second derivatives with respect to the vector from one particle to the other.
+    /// Returns the second derivatives with respect to `span`, the vector from one particle to the
+    /// other. With `definite`, compression across the pair is left out.
     pub(crate) fn block(&self, span: Vector, definite: bool) -> Block {
         let distance = length(span);
         let WellResponse { first, second, .. } = self.at(distance);

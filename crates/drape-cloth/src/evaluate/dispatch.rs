@@ -1,7 +1,7 @@
 //! Dispatch of the kernels to the vector instructions of the machine.
 //!
-//! Each struct is a call of one kernel. `Arch::dispatch` inlines it, with everything below, into a
-//! function that is compiled for each set of instructions.
+//! Each struct is a call of one kernel. `Arch::dispatch` inlines the kernel and all functions below
+//! it into a function that is compiled for each set of instructions.
 
 use pulp::{Simd, WithSimd};
 

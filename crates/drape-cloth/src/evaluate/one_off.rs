@@ -1,5 +1,5 @@
-//! Evaluation of a cloth by a single call, and its first state. A solver uses a `Workspace`
-//! instead.
+//! Evaluation of a cloth by a single call, and the first state of a cloth. A solver uses a
+//! `Workspace` instead.
 
 use crate::cloth::Cloth;
 use crate::error::Error;
@@ -9,11 +9,11 @@ use crate::rim::memories::RimMemories;
 use crate::state::State;
 
 impl Cloth {
-    /// Returns the state of the cloth at rest at the given positions, with no friction in any
+    /// Returns the state of the cloth at rest at `positions`, in m, without friction in any
     /// connector.
     ///
     /// # Errors
-    /// When there are not three numbers for every particle.
+    /// There are not three numbers for every particle.
     pub fn state(&self, positions: Vec<f64>) -> Result<State, Error> {
         let particles = self.particles();
         if positions.len() != 3 * particles {
@@ -31,34 +31,34 @@ impl Cloth {
         Ok(state)
     }
 
-    /// Returns trial positions of this cloth from a state, for a [`Workspace`].
+    /// Returns trial `positions` of this cloth from `state`, for a [`Workspace`].
     #[must_use]
     pub fn trial<'a>(&'a self, state: &'a State, positions: &'a [f64]) -> Trial<'a> {
         Trial { cloth: self, state, positions }
     }
 
-    /// Returns buffers for evaluating this cloth many times without allocating.
+    /// Returns a [`Workspace`], which evaluates this cloth many times without allocating memory.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
         Workspace::new(self)
     }
 
-    /// Adds the forces of all connectors at trial positions, in N. A [`Workspace`] does it many
-    /// times.
+    /// Adds the forces of all connectors at the positions `trial` to `forces`, in N. For many
+    /// evaluations use a [`Workspace`].
     pub fn add_forces(&self, state: &State, trial: &[f64], forces: &mut [f64]) {
         self.workspace().add_forces(self.trial(state, trial), forces);
     }
 
-    /// Returns the potential of the connectors within a step, in J: its negative derivative with
-    /// respect to the trial positions is [`Cloth::add_forces`]. Only differences at one state are
-    /// meaningful.
+    /// Returns the potential of the connectors within a step at the positions `trial`, in J. Its
+    /// negative derivative with respect to `trial` is [`Cloth::add_forces`]. Only differences at
+    /// one `state` are meaningful.
     #[must_use]
     pub fn potential(&self, state: &State, trial: &[f64]) -> f64 {
         self.workspace().potential(self.trial(state, trial))
     }
 
-    /// Adds the derivative of the forces with respect to the trial positions, negated, in N/m, to
-    /// the blocks of [`Cloth::sparsity`].
+    /// Adds the negative derivative of the forces with respect to `trial`, in N/m, to `values`: the
+    /// blocks of [`Cloth::sparsity`].
     ///
     /// With `definite`, parts that make the matrix indefinite are left out: compression across a
     /// segment, negative tangents, and the second derivatives of the sine of shear.
@@ -66,13 +66,14 @@ impl Cloth {
         self.workspace().add_stiffness(self.trial(state, trial), definite, values);
     }
 
-    /// Accepts a step: advances positions, velocities and all memories, which nothing else writes.
-    /// Returns the energy dissipated by the fabric's friction, in J.
+    /// Accepts a step: advances the positions, velocities and all memories of `state`. Only this
+    /// method and [`Workspace::commit`] write memories. Returns the energy dissipated by the
+    /// fabric's friction, in J.
     pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> f64 {
         self.workspace().commit(self, state, positions, velocities)
     }
 
-    /// Returns the energy that the connectors can return, in J.
+    /// Returns the energy that the connectors can return at `state`, in J.
     #[must_use]
     pub fn stored(&self, state: &State) -> f64 {
         self.workspace().stored(self, state)

@@ -1,4 +1,5 @@
-//! Workspace: evaluates a cloth many times on all threads, without allocating. Solvers call it.
+//! Workspace: evaluates a cloth many times on all threads, without allocating memory. Solvers call
+//! it.
 
 use pulp::Arch;
 
@@ -17,26 +18,26 @@ use crate::rim::connectors::{Rim, RimShape};
 use crate::rim::stiffness::RimStiffness;
 use crate::state::State;
 
-/// Buffers for evaluating one cloth many times: after it has been made, nothing allocates.
+/// Buffers for evaluating one cloth many times. Memory is allocated only by [`Cloth::workspace`].
 ///
-/// The methods are those of [`Cloth`]. They use the threads of the pool in which the workspace was
-/// made and the widest vector instructions of the machine. The numbers depend on neither, because
-/// the cloth is cut into the same strips for any number of threads, and the sums of the strips are
-/// added in their order.
+/// The methods correspond to methods of [`Cloth`]. They use the threads of the pool in which the
+/// workspace was made, and the widest vector instructions of the machine. The numbers depend on
+/// neither: the cloth is cut into the same strips for any number of threads, and the sums of the
+/// strips are added in their order.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     pool: BufferPool,
-    /// Sums of each strip and then of each rim.
+    /// Sums of each strip, then of each rim.
     sums: Vec<f64>,
     arch: Arch,
 }
 
 /// Trial positions at which a cloth is evaluated, and the state whose memory its laws start from.
 ///
-/// [`Cloth::trial`] makes it.
+/// [`Cloth::trial`] returns a trial.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
-    /// The cloth.
+    /// Cloth that is evaluated.
     pub cloth: &'a Cloth,
     /// State at the start of the step.
     pub state: &'a State,
@@ -59,8 +60,8 @@ impl<'a> Trial<'a> {
 
 impl Workspace {
     pub(crate) fn new(cloth: &Cloth) -> Self {
-        let margin = |strip: &Strip| cloth.panels[strip.panel].margin;
-        let lengths = cloth.strips.iter().map(|strip| strip.buffer_length(margin(strip)));
+        let lengths =
+            cloth.strips.iter().map(|strip| strip.buffer_length(cloth.panels[strip.panel].margin));
         let buffers = StripBuffers::new(lengths.max().unwrap_or(0));
         let threads = rayon::current_num_threads().min(cloth.strips.len());
         Self {
@@ -70,10 +71,12 @@ impl Workspace {
         }
     }
 
-    /// Adds the forces; see [`Cloth::add_forces`].
+    /// Adds the forces to `forces`, in N, like [`Cloth::add_forces`].
     pub fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
         let Trial { cloth, state, .. } = trial;
         let (arch, pool) = (self.arch, &self.pool);
+
+        // Strips write to the particles of the grids, rims to all particles of their panel.
         for_each(
             Parts { parts: &cloth.strips, pool },
             &mut *forces,
@@ -84,6 +87,7 @@ impl Workspace {
                 arch.dispatch(AddForces { buffers, trial: trial.strip(strip), forces });
             },
         );
+
         let Some(first) = cloth.rims.first() else { return };
         for_each(
             Parts { parts: &cloth.rims, pool },
@@ -98,12 +102,13 @@ impl Workspace {
         );
     }
 
-    /// Returns the potential; see [`Cloth::potential`].
+    /// Returns the potential, in J, like [`Cloth::potential`].
     #[must_use]
     pub fn potential(&mut self, trial: Trial<'_>) -> f64 {
         let Trial { cloth, state, .. } = trial;
         let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
+
         for_each(
             Parts { parts: &cloth.strips, pool },
             sums,
@@ -112,6 +117,7 @@ impl Workspace {
                 sums[0] = arch.dispatch(Potential { buffers, trial: trial.strip(strip) });
             },
         );
+
         for_each(
             Parts { parts: &cloth.rims, pool },
             rim_sums,
@@ -121,13 +127,15 @@ impl Workspace {
                 sums[0] = arch.dispatch(RimPotential { shape, memories });
             },
         );
+
         self.sums.iter().sum()
     }
 
-    /// Adds the stiffness; see [`Cloth::add_stiffness`].
+    /// Adds the stiffness to `values`, in N/m, like [`Cloth::add_stiffness`].
     pub fn add_stiffness(&mut self, trial: Trial<'_>, definite: bool, values: &mut [f64]) {
         let Trial { cloth, state, .. } = trial;
         let (arch, pool) = (self.arch, &self.pool);
+
         for_each(
             Parts { parts: &cloth.strips, pool },
             &mut *values,
@@ -137,6 +145,7 @@ impl Workspace {
                 arch.dispatch(AddStiffness { buffers, trial, definite, values });
             },
         );
+
         let Some(first) = cloth.rims.first() else { return };
         for_each(
             Parts { parts: &cloth.rims, pool },
@@ -150,7 +159,7 @@ impl Workspace {
         );
     }
 
-    /// Accepts a step and returns the energy dissipated, in J; see [`Cloth::commit`].
+    /// Accepts a step and returns the energy dissipated, in J, like [`Cloth::commit`].
     pub fn commit(
         &mut self,
         cloth: &Cloth,
@@ -161,18 +170,20 @@ impl Workspace {
         state.positions.copy_from_slice(positions);
         state.velocities.copy_from_slice(velocities);
         cloth.update_normals(state);
+
+        // Strips write the memories of the grids from the first strip on.
         let State { normals: flat_normals, grid, rim: rim_memories, .. } = state;
-        let first = |strip: &Strip| strip.offset + cloth.panels[strip.panel].margin;
-        let GridTail { memories, normals } = grid.tail_mut(first(&cloth.strips[0]));
+        let GridTail { memories, normals } = grid.tail_mut(first_index(cloth, &cloth.strips[0]));
         let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         for_each(
             Parts { parts: &cloth.strips, pool },
             (memories, sums),
             &|(memories, sums), from, to| {
-                let [memories, others] = memories.split(first(to) - first(from));
-                let (sums, more) = sums.split_at_mut(to.index - from.index);
-                ((memories, sums), (others, more))
+                let length = first_index(cloth, to) - first_index(cloth, from);
+                let [memories, later_memories] = memories.split(length);
+                let (sums, later_sums) = sums.split_at_mut(to.index - from.index);
+                ((memories, sums), (later_memories, later_sums))
             },
             &|strip, buffers, (memories, sums)| {
                 let panel = &cloth.panels[strip.panel];
@@ -180,14 +191,16 @@ impl Workspace {
                 sums[0] = arch.dispatch(Commit { buffers, commit });
             },
         );
+
+        // Rims write the memories of the rims.
         let flat_normals = flat_normals.as_slice();
         for_each(
             Parts { parts: &cloth.rims, pool },
             (rim_memories.all_mut(), rim_sums),
             &|(memories, sums), from, to| {
-                let [memories, others] = memories.split(from, to);
-                let (sums, more) = sums.split_at_mut(to.index - from.index);
-                ((memories, sums), (others, more))
+                let [memories, later_memories] = memories.split(from, to);
+                let (sums, later_sums) = sums.split_at_mut(to.index - from.index);
+                ((memories, sums), (later_memories, later_sums))
             },
             &|rim, _, (memories, sums)| {
                 let panel = &cloth.panels[rim.panel];
@@ -198,7 +211,7 @@ impl Workspace {
         self.sums.iter().sum()
     }
 
-    /// Returns the energy that the connectors can return, in J.
+    /// Returns the energy that the connectors of `cloth` can return at `state`, in J.
     #[must_use]
     pub fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
         let trial = Trial { cloth, state, positions: &state.positions };
@@ -209,7 +222,7 @@ impl Workspace {
         strips + rims.map(|rim| rim::energy::stored(&trial.rim(rim), &state.rim)).sum::<f64>()
     }
 
-    /// Writes the memories of a cloth that starts at the positions of the state without friction.
+    /// Writes the memories of `state` for a `cloth` that starts at its positions without friction.
     pub(crate) fn start(&mut self, cloth: &Cloth, state: &mut State) {
         let State { positions, normals, grid, rim: rim_memories, .. } = state;
         let buffers = self.pool.exclusive();
@@ -223,6 +236,11 @@ impl Workspace {
             rim::energy::start(&shape, rim_memories);
         }
     }
+}
+
+/// Returns the index of the first point of `strip` in the columns of `cloth`.
+fn first_index(cloth: &Cloth, strip: &Strip) -> usize {
+    strip.offset + cloth.panels[strip.panel].margin
 }
 
 #[cfg(all(test, target_arch = "x86_64"))]

@@ -7,9 +7,9 @@
 //! E_e\left(\kappa(|b - b_0 n|)\right) + E_{fr}\left(\kappa(b\cdot n)\right)
 //! ```
 //!
-//! The elastic part also resists bending in the surface, so that a yarn cannot zigzag in the plane
-//! without load; the friction depends on the signed curvature about the normal. The scalar form, to
-//! which this is held, is `measure::bending`.
+//! The elastic part also resists bending in the surface, so a yarn cannot zigzag in the plane
+//! without load. The friction depends on the signed curvature about the normal. Tests compare this
+//! code with its scalar form, `measure::bending`.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, MemoryBatch, Responses};
@@ -30,7 +30,7 @@ pub(crate) struct Curvatures {
     pub(crate) second: Lanes,
 }
 
-/// Batch of bending connectors of one direction. Those that do not exist have an area of zero.
+/// Batch of bending connectors of one direction. Connectors that do not exist have an area of zero.
 pub(crate) struct BendingLanes<'a> {
     pub(crate) yarns: &'a Yarns,
     /// Second differences, in 1/m.
@@ -43,8 +43,8 @@ pub(crate) struct BendingLanes<'a> {
     pub(crate) folds: Option<&'a Lanes>,
 }
 
-/// Secant stiffness of a backbone at a curvature, and the excess of the tangent over it divided by
-/// the squared curvature.
+/// Secant stiffness of a backbone at a curvature, and the excess of the tangent stiffness over it,
+/// divided by the squared curvature.
 #[derive(Clone, Copy)]
 struct Stiffness {
     secant: f64,
@@ -52,13 +52,13 @@ struct Stiffness {
 }
 
 impl BendingLanes<'_> {
-    /// Returns the curvatures about the normals; of connectors that do not exist, zero.
+    /// Returns the [`Curvatures`] about the normals, zero for connectors that do not exist.
     #[inline(always)]
     pub(crate) fn curvatures(&self) -> Curvatures {
         let mut curvatures = Curvatures::default();
         for lane in 0..LANES {
             let along = dot(self.second_differences.vector(lane), self.normals.vector(lane));
-            let angle = TurningAngle::of(along * along, self.yarns.length);
+            let angle = TurningAngle::new(along * along, self.yarns.length);
             let curvature = angle.curvature(along);
             curvatures.value[lane] = if self.areas[lane] == 0.0 { 0.0 } else { curvature };
             let slopes = angle.curvature_slopes(along);
@@ -67,11 +67,11 @@ impl BendingLanes<'_> {
         curvatures
     }
 
-    /// Returns the lanes of connectors at folds.
+    /// Returns the lanes of connectors at folds, each with its [`Crease`].
     #[inline(always)]
     fn creases(&self) -> impl Iterator<Item = (usize, Crease)> {
-        let folded = self.folds.into_iter().flatten().enumerate().filter(|(_, fold)| **fold != 0.0);
-        folded.map(|(lane, fold)| {
+        let folds = self.folds.into_iter().flatten().enumerate();
+        folds.filter(|(_, fold)| **fold != 0.0).map(|(lane, fold)| {
             let rest = self.yarns.bending.law().rest_curvature + fold;
             let (difference, normal) =
                 (self.second_differences.vector(lane), self.normals.vector(lane));
@@ -79,8 +79,8 @@ impl BendingLanes<'_> {
         })
     }
 
-    /// Returns the derivatives of the potential with respect to the second differences, times a
-    /// factor.
+    /// Returns the derivatives of the potential with respect to the second differences, times
+    /// `factor`.
     #[inline(always)]
     pub(crate) fn moments(&self, memory: &MemoryBatch<'_>, factor: f64) -> VectorLanes {
         match self.yarns.bending.law().backbone {
@@ -94,7 +94,7 @@ impl BendingLanes<'_> {
         }
     }
 
-    /// Returns the moments with the secant stiffness as a function of the squared curvature.
+    /// Returns the moments, with `secant` as the secant stiffness at a squared curvature.
     #[inline(always)]
     fn moments_with(
         &self,
@@ -107,17 +107,19 @@ impl BendingLanes<'_> {
         let curvatures = self.curvatures();
         let mut friction = Responses::default();
         yarns.bending.add_friction::<false>(memory, &curvatures.value, &mut friction);
+
         let mut moments = VectorLanes::zero();
         for lane in 0..LANES {
             let normal = self.normals.vector(lane);
             let excess = subtract(self.second_differences.vector(lane), scale(normal, rest));
             let square = dot(excess, excess);
-            let angle = TurningAngle::of(square, yarns.length);
+            let angle = TurningAngle::new(square, yarns.length);
             let elastic = scale(excess, secant(square * angle.ratio) * angle.first);
             let friction = friction.load[lane] * curvatures.first[lane];
             let moment = add(elastic, scale(normal, friction));
             moments.set(lane, scale(moment, self.areas[lane] * factor));
         }
+        // At folds the curvature is counted differently.
         for (lane, crease) in self.creases() {
             let moment = crease.moment(&yarns.bending.law().backbone, friction.load[lane]);
             moments.set(lane, scale(moment, self.areas[lane] * factor));
@@ -126,8 +128,8 @@ impl BendingLanes<'_> {
     }
 
     /// Returns the second derivatives of the potential with respect to the second differences,
-    /// times a factor squared; with `definite`, without the part of the friction that makes them
-    /// indefinite.
+    /// times the square of `factor`. With `definite`, the part of the friction that makes them
+    /// indefinite is left out.
     #[inline(always)]
     pub(crate) fn blocks(
         &self,
@@ -135,6 +137,7 @@ impl BendingLanes<'_> {
         factor: f64,
         definite: bool,
     ) -> [Lanes; 6] {
+        // One loop is compiled for each backbone, so that its stiffness is inlined.
         match self.yarns.bending.law().backbone {
             BendingBackbone::Linear { rigidity } => {
                 let constant = Stiffness { secant: rigidity, excess: 0.0 };
@@ -157,7 +160,7 @@ impl BendingLanes<'_> {
         }
     }
 
-    /// Returns the blocks with the stiffness as a function of the squared curvature.
+    /// Returns the blocks, with `stiffness` as the stiffness at a squared curvature.
     #[inline(always)]
     fn blocks_with(
         &self,
@@ -171,28 +174,37 @@ impl BendingLanes<'_> {
         let curvatures = self.curvatures();
         let mut friction = Responses::default();
         yarns.bending.add_friction::<true>(memory, &curvatures.value, &mut friction);
+
         let mut blocks = [[0.0; LANES]; 6];
         for lane in 0..LANES {
             let normal = self.normals.vector(lane);
             let excess = subtract(self.second_differences.vector(lane), scale(normal, rest));
             let square = dot(excess, excess);
-            let angle = TurningAngle::of(square, yarns.length);
-            let Stiffness { secant, excess: more } = stiffness(square * angle.ratio);
-            let more = more * angle.first * angle.first + 2.0 * secant * angle.second;
+
+            // Elastic part, by the chain rule from the curvature to the second difference.
+            let angle = TurningAngle::new(square, yarns.length);
+            let Stiffness { secant, excess: tangent_excess } = stiffness(square * angle.ratio);
+            let tangent_excess =
+                tangent_excess * angle.first * angle.first + 2.0 * secant * angle.second;
             let secant = secant * angle.first;
+
+            // Friction about the normal.
             let first = curvatures.first[lane];
             let tangent = friction.tangent[lane] * first * first
                 + friction.load[lane] * curvatures.second[lane];
             let slope = if definite && tangent < 0.0 { 0.0 } else { tangent };
+
             let size = self.areas[lane] * factor * factor;
-            let (secant, more, slope) = (secant * size, more * size, slope * size);
+            let (secant, tangent_excess, slope) =
+                (secant * size, tangent_excess * size, slope * size);
             for (block, (row, column)) in blocks.iter_mut().zip(HALF) {
                 let diagonal = if row == column { secant } else { 0.0 };
                 block[lane] = slope * (normal[row] * normal[column])
-                    + more * (excess[row] * excess[column])
+                    + tangent_excess * (excess[row] * excess[column])
                     + diagonal;
             }
         }
+        // At folds the curvature is counted differently.
         for (lane, crease) in self.creases() {
             let friction = friction.lane(lane);
             let half = crease.block(&yarns.bending.law().backbone, friction, definite);
@@ -203,40 +215,46 @@ impl BendingLanes<'_> {
         blocks
     }
 
-    /// Returns the elastic energies per area, in J/m².
+    /// Returns the elastic energies per area, in J/m², as [`Lanes`].
     #[inline(always)]
     pub(crate) fn energies(&self) -> Lanes {
         let yarns = self.yarns;
-        let rest = yarns.rest_second_difference;
-        let square = |lane| {
-            let excess = subtract(
-                self.second_differences.vector(lane),
-                scale(self.normals.vector(lane), rest),
-            );
-            let square = dot(excess, excess);
-            square * TurningAngle::of(square, yarns.length).ratio
-        };
         let mut energies = [0.0; LANES];
+
+        // The match is outside the loops, so that each loop is vectorised for one backbone.
         match yarns.bending.law().backbone {
             BendingBackbone::Linear { rigidity } => {
                 for lane in 0..LANES {
-                    energies[lane] = 0.5 * rigidity * square(lane);
+                    energies[lane] = 0.5 * rigidity * self.squared_curvature(lane);
                 }
             }
             BendingBackbone::Varying(varying) => {
                 for lane in 0..LANES {
-                    energies[lane] = varying.energy(square(lane));
+                    energies[lane] = varying.energy(self.squared_curvature(lane));
                 }
             }
             BendingBackbone::Piecewise(piecewise) => {
                 for lane in 0..LANES {
-                    energies[lane] = piecewise.energy(square(lane).sqrt());
+                    energies[lane] = piecewise.energy(self.squared_curvature(lane).sqrt());
                 }
             }
         }
+
+        // At folds the curvature is counted differently.
         for (lane, crease) in self.creases() {
             energies[lane] = crease.energy(&yarns.bending.law().backbone);
         }
         energies
+    }
+
+    /// Returns the squared elastic curvature in `lane`, in 1/m².
+    #[inline(always)]
+    fn squared_curvature(&self, lane: usize) -> f64 {
+        let yarns = self.yarns;
+        let rest = yarns.rest_second_difference;
+        let excess =
+            subtract(self.second_differences.vector(lane), scale(self.normals.vector(lane), rest));
+        let square = dot(excess, excess);
+        square * TurningAngle::new(square, yarns.length).ratio
     }
 }

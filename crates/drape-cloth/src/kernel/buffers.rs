@@ -15,13 +15,14 @@ use crate::layout::grid::{CornerEdges, GridPanel, Yarns};
 use crate::layout::strip::{BatchIndex, Strip};
 use crate::measure::vector::{add, dot, scale, subtract};
 
-/// Length that shorter edges are taken to have, in m: they have no direction; their forces are huge
-/// but finite, and so are the derivatives.
+/// Length that shorter edges are taken to have, in m. Such edges have no direction. Their forces
+/// and derivatives are huge but finite.
 pub(crate) const EDGE_MIN: f64 = 1e-100;
 
 /// Intermediate columns of a strip: one number per point of the strip and of the margin around it.
 ///
-/// The index of a point here is its index in the panel's columns less the strip's first point.
+/// The index of a point here is its index in the panel's columns less the index of the strip's
+/// first point.
 #[derive(Debug, Clone)]
 pub(crate) struct StripBuffers {
     pub(crate) positions: VectorColumns,
@@ -42,8 +43,8 @@ pub(crate) struct StripBuffers {
     /// Second derivatives with respect to the second difference at a point, over the fourth power
     /// of the segments' length.
     pub(crate) bending_blocks: [Columns<6>; 2],
-    /// Blocks of each point with the next along the warp, along the weft, with the opposite point
-    /// of its cell, and of the two other points of its cell.
+    /// Blocks of pairs of points: of each point with the next along the warp, with the next along
+    /// the weft and with the opposite point of its cell, and of the two other points of its cell.
     pub(crate) pair_blocks: [Columns<9>; 4],
 }
 
@@ -73,6 +74,7 @@ impl Edges {
         }
     }
 
+    /// Measures the edges from the points `indices` to the points `step` further, at `positions`.
     #[inline(always)]
     fn measure(&mut self, positions: &VectorColumns, step: usize, indices: Range<usize>) {
         for start in indices.step_by(LANES) {
@@ -83,7 +85,7 @@ impl Edges {
             for lane in 0..LANES {
                 let span = subtract(next.vector(lane), here.vector(lane));
                 let size = dot(span, span).sqrt();
-                // Not `max`, so that NaN stays NaN.
+                // Written so that NaN stays NaN, unlike with `max`.
                 let size = if size < EDGE_MIN { EDGE_MIN } else { size };
                 length[lane] = size;
                 inverse[lane] = 1.0 / size;
@@ -98,24 +100,22 @@ impl Edges {
 
 impl StripBuffers {
     pub(crate) fn new(length: usize) -> Self {
-        let column = || vec![0.0; length];
-        let vectors = || VectorColumns::new(length);
-        let blocks = || Columns::new(length);
         Self {
-            positions: vectors(),
+            positions: VectorColumns::new(length),
             edges: [Edges::new(length), Edges::new(length)],
-            tensions: [column(), column()],
-            corner_loads: [column(), column(), column(), column()],
-            moments: [vectors(), vectors()],
-            edge_gradients: [vectors(), vectors()],
-            corner_tangents: [column(), column(), column(), column()],
-            shear_blocks: [blocks(), blocks(), blocks(), blocks()],
-            bending_blocks: [Columns::new(length), Columns::new(length)],
-            pair_blocks: [blocks(), blocks(), blocks(), blocks()],
+            tensions: [(); 2].map(|()| vec![0.0; length]),
+            corner_loads: [(); 4].map(|()| vec![0.0; length]),
+            moments: [(); 2].map(|()| VectorColumns::new(length)),
+            edge_gradients: [(); 2].map(|()| VectorColumns::new(length)),
+            corner_tangents: [(); 4].map(|()| vec![0.0; length]),
+            shear_blocks: [(); 4].map(|()| Columns::new(length)),
+            bending_blocks: [(); 2].map(|()| Columns::new(length)),
+            pair_blocks: [(); 4].map(|()| Columns::new(length)),
         }
     }
 
-    /// Copies the positions of a strip and its margin into columns and measures the edges.
+    /// Copies the `positions` of `strip` of `panel` and of its margin into columns, and measures
+    /// the edges.
     #[inline(always)]
     pub(crate) fn load(&mut self, panel: &GridPanel, strip: &Strip, positions: &[f64]) {
         let count = strip.points.len();
@@ -133,7 +133,7 @@ impl StripBuffers {
         weft.measure(&self.positions, 1, from..to + panel.stride);
     }
 
-    /// Returns the strains of a batch of segments; of those that do not exist, zero.
+    /// Returns the strains of a batch of segments at `at`, zero for segments that do not exist.
     #[inline(always)]
     pub(crate) fn strains(&self, yarns: &Yarns, direction: usize, at: BatchIndex) -> Lanes {
         let length = lanes(&self.edges[direction].length, at.buffer);
@@ -146,7 +146,8 @@ impl StripBuffers {
         strains
     }
 
-    /// Returns the second differences `$b = (x_a - 2x_c + x_b)/h^2$` at a batch of points.
+    /// Returns the second differences `$b = (x_a - 2x_c + x_b)/h^2$` at the batch of points from
+    /// `start` on.
     #[inline(always)]
     fn second_differences(&self, yarns: &Yarns, start: usize) -> VectorLanes {
         let [before, here, after] = [start - yarns.step, start, start + yarns.step]
@@ -161,7 +162,7 @@ impl StripBuffers {
         differences
     }
 
-    /// Returns a batch of triples.
+    /// Returns the batch of triples at `at`, about `normals`, as [`BendingLanes`].
     #[inline(always)]
     pub(crate) fn triples<'a>(
         &self,
@@ -178,8 +179,8 @@ impl StripBuffers {
         }
     }
 
-    /// Returns the sines of the shear angle at one of the four corners of a batch of cells; of
-    /// cells that do not exist, zero.
+    /// Returns the sines of the shear angle at `corner`, one of the four corners, of the batch of
+    /// cells at `at`. Cells that do not exist have a sine of zero.
     ///
     /// The edges point along rising `u` and `v` at all four corners, so the sines have one sign.
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Bending of one connector at a fold, in batches where a panel is folded at rest.
+//! Bending of one connector at a fold, for batches where a panel is folded at rest.
 
 use drape_fabric::{BendingBackbone, Response};
 
@@ -8,28 +8,30 @@ use crate::measure::vector::{Vector, add, dot, scale, subtract};
 
 /// Bending of a connector at a fold.
 ///
-/// The difference of two second differences is that of their angles only where both are small. At a
-/// fold the curvature is therefore counted about the normal, less that at rest, and the part
-/// `$b_\parallel$` of the second difference within the surface separately:
+/// The difference of two second differences is the difference of their angles only where both are
+/// small. At a fold the curvature is therefore counted about the normal, less the rest curvature.
+/// The part `$b_\parallel$` of the second difference within the surface is counted separately:
 ///
 /// ```math
 /// E = E_e(\kappa - \kappa_0) + E_e(|b_\parallel|)
 /// ```
 pub(crate) struct Crease {
     normal: Vector,
-    /// Part of the second difference within the surface, its length, and its direction.
+    /// Part of the second difference within the surface, in 1/m.
     within: Vector,
+    /// Length of `within`, in 1/m.
     size: f64,
+    /// Direction of `within`.
     unit: Vector,
-    /// Curvature less that at rest, in 1/m.
+    /// Curvature less the rest curvature, in 1/m.
     excess: f64,
     /// Derivatives of the curvature with respect to the second difference along the normal.
     slopes: CurvatureSlopes,
 }
 
 impl Crease {
-    /// Returns the bending of a connector with a second difference, in 1/m, about a normal, with
-    /// segments of a length, in m, and a rest curvature, in 1/m.
+    /// Returns the bending of a connector with `second_difference`, in 1/m, about `normal`, with
+    /// segments of `length`, in m, and with `rest_curvature`, in 1/m.
     pub(crate) fn new(
         second_difference: Vector,
         normal: Vector,
@@ -39,7 +41,7 @@ impl Crease {
         let along = dot(second_difference, normal);
         let within = subtract(second_difference, scale(normal, along));
         let size = dot(within, within).sqrt();
-        let angle = TurningAngle::of(along * along, length);
+        let angle = TurningAngle::new(along * along, length);
         Self {
             normal,
             within,
@@ -50,19 +52,20 @@ impl Crease {
         }
     }
 
-    /// Returns the elastic energy per area, in J/m².
+    /// Returns the elastic energy per area for `backbone`, in J/m².
     pub(crate) fn energy(&self, backbone: &BendingBackbone) -> f64 {
         backbone.energy(self.excess) + backbone.energy(self.size)
     }
 
-    /// Returns the derivative of the energy with respect to the second difference, with the load of
-    /// the friction, in N.
+    /// Returns the derivative of the energy with respect to the second difference, in N, including
+    /// the load `friction`.
     pub(crate) fn moment(&self, backbone: &BendingBackbone, friction: f64) -> Vector {
         let load = (backbone.respond(self.excess).load + friction) * self.slopes.first;
         let secant = self.within_surface(backbone).secant;
         add(scale(self.normal, load), scale(self.within, secant))
     }
 
+    /// Returns the stiffness of `backbone` within the surface.
     fn within_surface(&self, backbone: &BendingBackbone) -> WithinSurface {
         let Response { load, tangent } = backbone.respond(self.size);
         let secant = if self.size > 0.0 { load / self.size } else { tangent };
@@ -70,8 +73,8 @@ impl Crease {
     }
 
     /// Returns the upper half of the second derivative of the energy with respect to the second
-    /// difference, with the response of the friction; with `definite`, without the part that makes
-    /// it indefinite.
+    /// difference, including the response of the `friction`. With `definite`, the part that makes
+    /// the matrix indefinite is left out.
     pub(crate) fn block(
         &self,
         backbone: &BendingBackbone,

@@ -12,10 +12,11 @@ use crate::layout::columns::{VectorLanes, is_vacant, lanes, put};
 use crate::layout::grid::CornerAtEdge;
 use crate::measure::vector::{add, dot, scale, subtract};
 
-/// Adds the forces on the particles of a strip, three numbers for each, in N.
+/// Adds the forces on the particles of `trial`'s strip to `forces`, in N, three numbers each.
 ///
-/// All energy but that of bending is a function of the edges as vectors, and that of bending is one
-/// of their differences: the derivative `$P_e$` with respect to an edge acts on both of its ends.
+/// All energy except bending is a function of the edges as vectors, and bending is a function of a
+/// difference of two edges. The derivative `$P_e$` with respect to an edge acts on both of its
+/// ends.
 #[inline(always)]
 pub(crate) fn add_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [f64]) {
     buffers.load(trial.panel, trial.strip, trial.positions);
@@ -32,7 +33,7 @@ pub(crate) fn add_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, for
     sum_forces(buffers, trial, forces);
 }
 
-/// Tensions of the segments times area over length.
+/// Computes the tensions of the segments along `direction`, times area over length, in N.
 #[inline(always)]
 fn compute_tensions(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -45,6 +46,7 @@ fn compute_tensions(buffers: &mut StripBuffers, trial: &StripTrial<'_>, directio
             put(&mut buffers.tensions[direction], start, &[0.0; LANES]);
             continue;
         }
+        // Load of the law in each lane.
         let memory = trial.memories.traction[direction].batch(at.cloth);
         let strains = buffers.strains(yarns, direction, at);
         let mut responses = Responses::default();
@@ -58,7 +60,7 @@ fn compute_tensions(buffers: &mut StripBuffers, trial: &StripTrial<'_>, directio
     }
 }
 
-/// Shear loads of one of the four corners of the cells times their areas.
+/// Computes the shear loads at `corner`, one of the four corners of the cells, times their areas.
 #[inline(always)]
 fn compute_corner_loads(buffers: &mut StripBuffers, trial: &StripTrial<'_>, corner: usize) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -70,6 +72,7 @@ fn compute_corner_loads(buffers: &mut StripBuffers, trial: &StripTrial<'_>, corn
             put(&mut buffers.corner_loads[corner], start, &[0.0; LANES]);
             continue;
         }
+        // Load of the law in each lane.
         let memory = trial.memories.shear[corner].batch(at.cloth);
         let sines = buffers.sines(panel, corner, at);
         let mut responses = Responses::default();
@@ -82,7 +85,8 @@ fn compute_corner_loads(buffers: &mut StripBuffers, trial: &StripTrial<'_>, corn
     }
 }
 
-/// Derivatives of the potential with respect to the second differences, over `$h^2$`.
+/// Computes the derivatives of the potential with respect to the second differences along
+/// `direction`, over `$h^2$`.
 #[inline(always)]
 fn compute_moments(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -102,20 +106,21 @@ fn compute_moments(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction
     }
 }
 
-/// Derivatives of the potential with respect to the edges, from their tension and from the corners
-/// that they belong to.
+/// Computes the derivatives of the potential with respect to the edges along `direction`, from
+/// their tensions and from the corners to which they belong.
 #[inline(always)]
 fn compute_edge_gradients(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
     let [warp, weft] = &buffers.edges;
-    let (edges, other) = if direction == 0 { (warp, weft) } else { (weft, warp) };
+    let (edges, crossing) = if direction == 0 { (warp, weft) } else { (weft, warp) };
     let step = panel.yarns[direction].step;
     let indices = panel.margin - step..panel.margin + strip.points.len();
     for start in indices.step_by(LANES) {
+        // Sum of the corner loads times the directions of the crossing edges.
         let mut shear = [[0.0; LANES]; 3];
         for CornerAtEdge { corner, cell, other_edge } in panel.corners_at_edge(direction, start) {
             let loads = lanes(&buffers.corner_loads[corner], cell);
-            let units = other.unit.batch(other_edge);
+            let units = crossing.unit.batch(other_edge);
             for lane in 0..LANES {
                 for axis in 0..3 {
                     shear[axis][lane] += loads[lane] * units.0[axis][lane];
@@ -128,8 +133,8 @@ fn compute_edge_gradients(buffers: &mut StripBuffers, trial: &StripTrial<'_>, di
     }
 }
 
-/// Returns `$P_e = T\hat e + (1 - \hat e\hat e^T)\,q/|e|$` with the tension `$T$` and the sum `$q$`
-/// of the corner loads times the directions of their other edges.
+/// Returns `$P_e = T\hat e + (1 - \hat e\hat e^T)\,q/|e|$` with the tension `$T$` in `tensions` and
+/// the sum `$q$` in `shear` of the corner loads times the directions of their crossing edges.
 #[inline(always)]
 fn edge_gradients(
     edges: &Edges,
@@ -149,7 +154,8 @@ fn edge_gradients(
     gradients
 }
 
-/// Adds to each particle the gradients of its edges and the second differences of the moments.
+/// Adds the gradients of its edges and the second differences of the moments to each particle's
+/// `forces`.
 #[inline(always)]
 fn sum_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [f64]) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -157,6 +163,7 @@ fn sum_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [
     let occupied = &panel.occupied[strip.points.clone()];
     for (batch, occupied) in occupied.chunks(LANES).enumerate() {
         let start = panel.margin + batch * LANES;
+        // Along each yarn: the next edge less the edge before, less the bending.
         let mut sums = [[0.0; LANES]; 3];
         for (direction, step) in [(0, panel.stride), (1, 1)] {
             let gradients = &buffers.edge_gradients[direction];
@@ -174,6 +181,7 @@ fn sum_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [
                 }
             }
         }
+        // Only points with a particle have forces.
         let particles = occupied.iter().enumerate().filter(|(_, occupied)| **occupied);
         for ((lane, _), force) in particles.zip(&mut forces) {
             for axis in 0..3 {

@@ -7,35 +7,35 @@ use serde::{Deserialize, Serialize};
 use crate::layout::columns::VectorColumns;
 use crate::layout::grid::GridPanel;
 
-/// Memories of the connectors, and the normals at the last commit, in columns: panel after panel,
-/// each with its margins.
+/// Memories of the connectors, and the normals at the last commit, in columns. The columns hold
+/// panel after panel, each with its margins.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct GridMemories {
-    /// Of the segments along warp and weft.
+    /// Memories of the segments along warp and weft.
     pub(crate) traction: [Memories; 2],
-    /// Of the four corners of the cells.
+    /// Memories of the four corners of the cells.
     pub(crate) shear: [Memories; 4],
-    /// Of the triples along warp and weft.
+    /// Memories of the triples along warp and weft.
     pub(crate) bending: [Memories; 2],
     /// Unit normals of the surface.
     pub(crate) normals: VectorColumns,
 }
 
-/// Memories of some strips, to write.
+/// Mutable memories of consecutive strips.
 pub(crate) struct GridMemoriesMut<'a> {
     pub(crate) traction: [MemoriesMut<'a>; 2],
     pub(crate) shear: [MemoriesMut<'a>; 4],
     pub(crate) bending: [MemoriesMut<'a>; 2],
 }
 
-/// Memories from an index on, to write, and all normals.
+/// Mutable memories from a given index to the end, and all normals.
 pub(crate) struct GridTail<'a> {
     pub(crate) memories: GridMemoriesMut<'a>,
     pub(crate) normals: &'a VectorColumns,
 }
 
 impl GridMemories {
-    /// Returns the memories of panels that were never deformed.
+    /// Returns the memories of `panels` that have never been deformed.
     pub(crate) fn new(panels: &[GridPanel]) -> Self {
         let mut memories = Self {
             traction: Default::default(),
@@ -56,17 +56,17 @@ impl GridMemories {
         memories
     }
 
-    /// Returns whether others are of as many connectors.
+    /// Returns whether `other` has as many connectors of each kind.
     pub(crate) fn has_lengths_of(&self, other: &Self) -> bool {
         let pairs = self.traction.iter().zip(&other.traction);
         let mut pairs = pairs
             .chain(self.shear.iter().zip(&other.shear))
             .chain(self.bending.iter().zip(&other.bending));
         self.normals.has_lengths_of(&other.normals)
-            && pairs.all(|(own, other)| own.has_lengths_of(other))
+            && pairs.all(|(memories, others)| memories.has_lengths_of(others))
     }
 
-    /// Returns all memories from an index on, to write, and the normals.
+    /// Returns mutable access to all memories from index `start` on, and the normals.
     pub(crate) fn tail_mut(&mut self, start: usize) -> GridTail<'_> {
         let memories = GridMemoriesMut {
             traction: self.traction.each_mut().map(|m| m.tail_mut(start)),
@@ -78,7 +78,7 @@ impl GridMemories {
 }
 
 impl GridMemoriesMut<'_> {
-    /// Splits into the first `count` memories of each kind and the others.
+    /// Splits off the first `count` memories of each kind. Returns them and the remaining ones.
     pub(crate) fn split(self, count: usize) -> [Self; 2] {
         let ([a, b], [c, d, e, f], [g, h]) = (self.traction, self.shear, self.bending);
         let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].map(|m| m.split(count));

@@ -3,7 +3,7 @@
 //! ```text
 //!   shear blocks of corners, bending blocks of triples
 //!     →  blocks of neighbours along the yarns and across the cells
-//!     →  a row of the matrix per point, its own block from the others' sum
+//!     →  a row of the matrix per point; its diagonal block is minus the sum of the others
 //!
 //!   pair_blocks of a point A                       bending_blocks at c couple a, c and b:
 //!      D ── C     0: A–D (warp)   2: A–C             a ── c ── b    1, −2, 1
@@ -20,21 +20,21 @@ use crate::layout::grid::{BLOCKS, CornerAtEdge, CornerEdges, NO_BLOCK};
 use crate::measure::half::{HALF, IN_HALF, TRANSPOSED};
 use crate::measure::vector::dot;
 
-/// Stiffness that is computed: its direction or corner, and whether it is definite.
+/// Part of the stiffness to compute.
 #[derive(Clone, Copy)]
-struct Kind {
-    /// Direction of a yarn, or corner of a cell.
+struct StiffnessPart {
+    /// Direction of the yarns, or corner of the cells.
     which: usize,
     /// Whether parts that make the matrix indefinite are left out.
     definite: bool,
 }
 
-/// Adds the derivatives of the forces on a strip's particles, negated, to the blocks of their rows,
-/// in N/m.
+/// Adds the negative derivatives of the forces on the particles of `trial`'s strip to `values`, the
+/// blocks of their rows, in N/m.
 ///
 /// The potential is a function of the edges as vectors, so its second derivatives belong to an
-/// edge, to the two edges of a corner, or to a triple; each is computed once and then added to the
-/// blocks of the particles at the ends.
+/// edge, to the two edges of a corner, or to a triple. Each derivative is computed once and then
+/// added to the blocks of the particles at the ends.
 #[inline(always)]
 pub(crate) fn add_stiffness(
     buffers: &mut StripBuffers,
@@ -44,30 +44,30 @@ pub(crate) fn add_stiffness(
 ) {
     buffers.load(trial.panel, trial.strip, trial.positions);
     for which in 0..4 {
-        compute_shear_blocks(buffers, trial, Kind { which, definite });
+        compute_shear_blocks(buffers, trial, StiffnessPart { which, definite });
     }
     for which in 0..2 {
-        compute_bending_blocks(buffers, trial, Kind { which, definite });
+        compute_bending_blocks(buffers, trial, StiffnessPart { which, definite });
     }
     for which in 0..2 {
-        compute_yarn_blocks(buffers, trial, Kind { which, definite });
+        compute_yarn_blocks(buffers, trial, StiffnessPart { which, definite });
     }
     compute_cell_blocks(buffers, trial);
     sum_rows(buffers, trial, values);
 }
 
-/// Loads and tangents of a corner of the cells, and the block of its two edges of directions `$p$`,
-/// `$q$` and lengths `$l_p$`, `$l_q$`,
+/// Computes loads and tangents of one corner of the cells, and the block of its two edges. With the
+/// directions `$p$`, `$q$` and lengths `$l_p$`, `$l_q$` of the edges, the block is
 ///
 /// ```math
 /// \frac{1}{l_pl_q}\left[t\,qp^T - (tc+g)(pp^T+qq^T) + (tc^2+gc)\,pq^T + g\right],
 /// \qquad c = p\cdot q
 /// ```
 ///
-/// with load `$g$` and tangent `$t$` times the area. Without `$g$` the stiffness is definite.
+/// with load `$g$` and tangent `$t$` times the area. With `part.definite`, `$g$` is left out.
 #[inline(always)]
-fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind: Kind) {
-    let Kind { which: corner, definite } = kind;
+fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, part: StiffnessPart) {
+    let StiffnessPart { which: corner, definite } = part;
     let StripTrial { panel, strip, .. } = *trial;
     let indices = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     let CornerEdges { warp: to_warp, weft: to_weft } = panel.corner_edges(corner);
@@ -80,6 +80,7 @@ fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind
             buffers.shear_blocks[corner].put(start, &[[0.0; LANES]; 9]);
             continue;
         }
+        // Loads and tangents of the law, times areas.
         let memory = trial.memories.shear[corner].batch(at.cloth);
         let sines = buffers.sines(panel, corner, at);
         let mut responses = Responses::default();
@@ -92,6 +93,7 @@ fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind
             loads[lane] = if definite { 0.0 } else { responses.load[lane] * areas[lane] };
             slopes[lane] = least * areas[lane];
         }
+        // Block of the two edges.
         let [warp, weft] = &buffers.edges;
         let (p, q) = (warp.unit.batch(start + to_warp), weft.unit.batch(start + to_weft));
         let warp_inverse = lanes(&warp.inverse, start + to_warp);
@@ -120,10 +122,11 @@ fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind
     }
 }
 
-/// Second derivatives with respect to the second differences, over `$h^4$`.
+/// Computes the second derivatives with respect to the second differences, over `$h^4$`, along the
+/// direction of `part`.
 #[inline(always)]
-fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind: Kind) {
-    let Kind { which: direction, definite } = kind;
+fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, part: StiffnessPart) {
+    let StiffnessPart { which: direction, definite } = part;
     let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let inverse_square = 1.0 / (yarns.length * yarns.length);
@@ -141,8 +144,9 @@ fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, ki
     }
 }
 
-/// Returns the second derivatives of the potential with respect to a batch of edges: that of the
-/// tension and, with the other edges `$a$` of the corners at an edge `$e$` of length `$l$`,
+/// Returns the second derivatives of the potential with respect to the batch of edges from `start`
+/// on: the part of the tension and, with the crossing edges `$a$` of the corners at an edge `$e$`
+/// of length `$l$`,
 ///
 /// ```math
 /// \frac{1}{l^2}\sum\left[t\,aa^T - (tc+g)(ae^T+ea^T) + (tc^2+3gc)\,ee^T - gc\right],
@@ -152,13 +156,13 @@ fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, ki
 fn edge_blocks(
     buffers: &StripBuffers,
     trial: &StripTrial<'_>,
-    kind: Kind,
+    part: StiffnessPart,
     start: usize,
 ) -> [Lanes; 6] {
-    let Kind { which: direction, definite } = kind;
+    let StiffnessPart { which: direction, definite } = part;
     let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let (edges, other) = (&buffers.edges[direction], &buffers.edges[1 - direction]);
+    let (edges, crossing) = (&buffers.edges[direction], &buffers.edges[1 - direction]);
     let at = strip.batch(start);
     let areas = lanes(&yarns.segment_areas, at.panel);
     // An edge without an area is beside no cell, and has no corner either.
@@ -180,9 +184,9 @@ fn edge_blocks(
     for CornerAtEdge { corner, cell, other_edge } in panel.corners_at_edge(direction, start) {
         let loads = lanes(&buffers.corner_loads[corner], cell);
         let slopes = lanes(&buffers.corner_tangents[corner], cell);
-        let others = other.unit.batch(other_edge);
+        let crossing_units = crossing.unit.batch(other_edge);
         for lane in 0..LANES {
-            let (a, e) = (others.vector(lane), units.vector(lane));
+            let (a, e) = (crossing_units.vector(lane), units.vector(lane));
             let (load, slope, cosine) = (loads[lane], slopes[lane], dot(a, e));
             let both = slope * cosine + load;
             for (sum, (row, column)) in squares.iter_mut().zip(HALF) {
@@ -195,14 +199,14 @@ fn edge_blocks(
             across[lane] += cosine * load;
         }
     }
+
     let mut blocks = [[0.0; LANES]; 6];
     for lane in 0..LANES {
         let e = units.vector(lane);
         let size = inverse[lane] * inverse[lane];
         let stretch = responses.tangent[lane] * areas[lane] * rest * rest;
         let rotate = responses.load[lane] * areas[lane] * rest * inverse[lane];
-        let positive = |x: f64| if definite && x < 0.0 { 0.0 } else { x };
-        let (stretch, rotate) = (positive(stretch), positive(rotate));
+        let (stretch, rotate) = (positive_if(definite, stretch), positive_if(definite, rotate));
         let identity = rotate - size * across[lane];
         let unit = stretch - rotate + size * along[lane];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
@@ -215,15 +219,15 @@ fn edge_blocks(
     blocks
 }
 
-/// Blocks of neighbours along a yarn.
+/// Computes the blocks of neighbours along a yarn, in the direction of `part`.
 #[inline(always)]
-fn compute_yarn_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind: Kind) {
-    let direction = kind.which;
+fn compute_yarn_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, part: StiffnessPart) {
+    let direction = part.which;
     let StripTrial { panel, strip, .. } = *trial;
     let step = panel.yarns[direction].step;
     let indices = panel.margin - step..panel.margin + strip.points.len();
     for start in indices.step_by(LANES) {
-        let edges = edge_blocks(buffers, trial, kind, start);
+        let edges = edge_blocks(buffers, trial, part, start);
         let bending = &buffers.bending_blocks[direction];
         let (here, next) = (bending.batch(start), bending.batch(start + step));
         let mut blocks = [[0.0; LANES]; 9];
@@ -233,29 +237,40 @@ fn compute_yarn_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind:
                 block[lane] = -edges[half][lane] - 2.0 * (here.0[half][lane] + next.0[half][lane]);
             }
         }
+
         // The sign of a corner's block, and whether it is transposed, follow from which ends of its
         // two edges meet at the corner.
-        let shear = |corner: usize, cell: usize| buffers.shear_blocks[corner].batch(cell);
-        let [less, less_transposed, more, more_transposed] = if direction == 0 {
+        let [corner_0, corner_1, corner_2, corner_3] = &buffers.shear_blocks;
+        let [minus, minus_transposed, plus, plus_transposed] = if direction == 0 {
             let left = start - 1;
-            [shear(2, left), shear(0, start), shear(3, start), shear(1, left)]
+            [
+                corner_2.batch(left),
+                corner_0.batch(start),
+                corner_3.batch(start),
+                corner_1.batch(left),
+            ]
         } else {
             let below = start - panel.stride;
-            [shear(0, start), shear(2, below), shear(3, below), shear(1, start)]
+            [
+                corner_0.batch(start),
+                corner_2.batch(below),
+                corner_3.batch(below),
+                corner_1.batch(start),
+            ]
         };
         for (k, block) in blocks.iter_mut().enumerate() {
             let transposed = TRANSPOSED[k];
             for lane in 0..LANES {
-                block[lane] += (more.0[k][lane] - less.0[k][lane])
-                    + (more_transposed.0[transposed][lane] - less_transposed.0[transposed][lane]);
+                block[lane] += (plus.0[k][lane] - minus.0[k][lane])
+                    + (plus_transposed.0[transposed][lane] - minus_transposed.0[transposed][lane]);
             }
         }
         buffers.pair_blocks[direction].put(start, &blocks);
     }
 }
 
-/// Blocks of the particles across a cell: of its first with its third, and of its second with its
-/// fourth.
+/// Computes the blocks of the particles across a cell: of its first with its third, and of its
+/// second with its fourth.
 #[inline(always)]
 fn compute_cell_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -277,8 +292,8 @@ fn compute_cell_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>) {
     }
 }
 
-/// Adds the blocks to the rows of the strip's particles. The blocks of a row sum to zero, because a
-/// translation of the whole cloth changes nothing: that gives the first block of the row.
+/// Adds the blocks to the rows of the strip's particles in `values`. The blocks of a row sum to
+/// zero, because a translation of the whole cloth changes nothing. This gives the diagonal block.
 #[inline(always)]
 fn sum_rows(buffers: &StripBuffers, trial: &StripTrial<'_>, values: &mut [f64]) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -297,7 +312,9 @@ fn sum_rows(buffers: &StripBuffers, trial: &StripTrial<'_>, values: &mut [f64]) 
         ];
         let far = [weft_bending.batch(start + 1), warp_bending.batch(start + stride)];
         let far_before = [weft_bending.batch(start - 1), warp_bending.batch(start - stride)];
-        let mut own = [[0.0; LANES]; 6];
+
+        // Diagonal block: minus the sum of all other blocks of the row, on both sides.
+        let mut diagonal = [[0.0; LANES]; 6];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
             let (entry, transposed) = (3 * row + column, 3 * column + row);
             let [a, b, c, d] = &next;
@@ -308,14 +325,16 @@ fn sum_rows(buffers: &StripBuffers, trial: &StripTrial<'_>, values: &mut [f64]) 
             let (l, m) = (far_before[0].0[k], far_before[1].0[k]);
             for lane in 0..LANES {
                 let pairs = (a[lane] + e[lane]) + (b[lane] + f[lane]);
-                let others = (c[lane] + g[lane]) + (d[lane] + h[lane]);
+                let across = (c[lane] + g[lane]) + (d[lane] + h[lane]);
                 let bending = (i[lane] + l[lane]) + (j[lane] + m[lane]);
-                own[k][lane] = -(pairs + others + bending);
+                diagonal[k][lane] = -(pairs + across + bending);
             }
         }
+
+        // The blocks of the upper half go to their slots, in the order of `block_steps`.
         let [right, up_left, up, up_right] = &next;
         let rows: [[&Lanes; 9]; BLOCKS] = [
-            whole(own.each_ref()),
+            whole(diagonal.each_ref()),
             right.0,
             whole(far[0].0),
             up_left.0,
@@ -336,9 +355,15 @@ fn sum_rows(buffers: &StripBuffers, trial: &StripTrial<'_>, values: &mut [f64]) 
     }
 }
 
-/// Returns a symmetric block from its upper half.
+/// Returns a symmetric block from `half`, its upper half.
 #[inline(always)]
 fn whole(half: [&Lanes; 6]) -> [&Lanes; 9] {
     let [a, b, c, d, e, f] = half;
     [a, b, c, b, d, e, c, e, f]
+}
+
+/// Returns `value`, or zero if it is negative and only a `definite` part is wanted.
+#[inline(always)]
+pub(crate) fn positive_if(definite: bool, value: f64) -> f64 {
+    if definite && value < 0.0 { 0.0 } else { value }
 }

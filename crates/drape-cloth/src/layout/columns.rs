@@ -1,7 +1,7 @@
 //! Columns of numbers and vectors, read and written a batch at a time.
 //!
-//! A batch is read as an array of known length and written from a local one, so that the compiler
-//! sees neither bounds nor aliases in the loops between.
+//! A batch is read as an array of known length and written from a local one. In the loops between,
+//! the compiler then sees neither bounds nor aliases.
 
 use drape_fabric::{LANES, Lanes};
 use serde::{Deserialize, Serialize};
@@ -28,9 +28,9 @@ impl<const N: usize> TryFrom<Vec<Vec<f64>>> for Columns<N> {
 }
 
 impl<const N: usize> Columns<N> {
-    /// Returns whether others have the same lengths.
+    /// Returns whether the columns of `other` have equal lengths.
     pub(crate) fn has_lengths_of(&self, other: &Self) -> bool {
-        self.0.iter().zip(&other.0).all(|(own, other)| own.len() == other.len())
+        self.0.iter().zip(&other.0).all(|(column, others)| column.len() == others.len())
     }
 }
 
@@ -45,25 +45,25 @@ pub(crate) struct ColumnBatch<'a, const N: usize>(pub(crate) [&'a Lanes; N]);
 #[derive(Clone, Copy)]
 pub(crate) struct VectorLanes(pub(crate) [Lanes; 3]);
 
-/// Returns the batch of a column that begins at `start`.
+/// Returns the batch of `column` that begins at `start`.
 #[inline(always)]
 pub(crate) fn lanes(column: &[f64], start: usize) -> &Lanes {
     column[start..].first_chunk().expect("columns are padded by a batch beyond the last index")
 }
 
-/// Returns the batch of a column that begins at `start`, or nothing of an empty column.
+/// Returns the batch of `column` that begins at `start`, or `None` if `column` is empty.
 #[inline(always)]
 pub(crate) fn lanes_if_any(column: &[f64], start: usize) -> Option<&Lanes> {
     (!column.is_empty()).then(|| lanes(column, start))
 }
 
-/// Returns whether a batch has no connector: all of its areas are zero.
+/// Returns whether a batch has no connector: all `areas` are zero.
 #[inline(always)]
 pub(crate) fn is_vacant(areas: &Lanes) -> bool {
     areas.iter().all(|area| *area == 0.0)
 }
 
-/// Writes a batch into a column from `start` on.
+/// Writes `values` to the batch of `column` that begins at `start`.
 #[inline(always)]
 pub(crate) fn put(column: &mut [f64], start: usize, values: &Lanes) {
     column[start..start + LANES].copy_from_slice(values);

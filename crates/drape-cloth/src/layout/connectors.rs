@@ -1,4 +1,4 @@
-//! Connectors of a panel's grid: which particles the yarns join, and the area that each stands for.
+//! Connectors of a panel's grid: which particles the yarns join, and the area of each connector.
 
 use std::collections::BTreeMap;
 
@@ -20,21 +20,22 @@ pub(crate) struct Triple {
     pub(crate) area: f64,
 }
 
-/// Bending connectors along one direction, and the area that each stands for.
+/// Bending connectors along one direction, with their areas.
 #[derive(Debug, Clone)]
 pub(crate) struct BendingConnectors {
     pub(crate) triples: Vec<Triple>,
-    /// Area of the stencil about each particle, in m²; zero where there is none.
+    /// Area of the stencil about each particle, in m², zero where there is none.
     pub(crate) stencil_areas: Vec<f64>,
     /// Whether each particle is the middle of a triple.
     pub(crate) is_middle: Vec<bool>,
-    /// Rest curvature that folds add to the triple about each particle, in 1/m; empty without
+    /// Rest curvature that folds add to the triple about each particle, in 1/m, empty without
     /// folds.
     pub(crate) folds: Vec<f64>,
 }
 
-/// Returns the segments of the yarns of one direction.
+/// Returns the segments of `yarns`, the yarns of `lattice` along `direction`.
 pub(crate) fn segments(lattice: &Lattice, yarns: &[Vec<u32>], direction: usize) -> Vec<Segment> {
+    // Each cell gives the halves beside its two sides along the yarns.
     let mut halves = BTreeMap::new();
     for cell in &lattice.cells {
         let [a, b, c, d] = cell.corners;
@@ -48,29 +49,31 @@ pub(crate) fn segments(lattice: &Lattice, yarns: &[Vec<u32>], direction: usize) 
             *halves.entry(ends).or_insert(0.0) += area;
         }
     }
-    let pairs = yarns.iter().flat_map(|yarn| yarn.windows(2));
-    let segment = |pair: &[u32]| {
-        let ends = [pair[0], pair[1]];
-        halves.get(&ends).map(|&area| Segment { ends, area })
-    };
-    pairs.filter_map(segment).collect()
+
+    yarns
+        .iter()
+        .flat_map(|yarn| yarn.windows(2))
+        .filter_map(|pair| {
+            let ends = [pair[0], pair[1]];
+            halves.get(&ends).map(|&area| Segment { ends, area })
+        })
+        .collect()
 }
 
 impl BendingConnectors {
-    /// Returns the bending connectors along the warp and along the weft of a panel whose particles
-    /// have the given areas.
+    /// Returns the bending connectors of `lattice` along the warp and along the weft. `areas` holds
+    /// the areas of the particles, in m².
     ///
     /// With `stencils`, as in a panel with a rim, a particle that is the middle of no triple has a
-    /// stencil. Without, its area goes to a triple inside, as at the ends of a yarn on a grid.
-    /// Given to a neighbour inside, the area of the outline's particles, which have neighbours on
-    /// one side only, would leave the outline too soft: the lowest frequencies of a disc of ten
-    /// cells fell to a half.
-    pub(crate) fn of(lattice: &Lattice, areas: &[f64], stencils: bool) -> [Self; 2] {
+    /// stencil. Without, its area goes to a triple inside, as at the ends of a yarn on a grid. With
+    /// a rim this would leave the outline too soft, because particles of the outline have
+    /// neighbours on one side only: the lowest frequencies of a disc of ten cells fell to a half.
+    pub(crate) fn along_yarns(lattice: &Lattice, areas: &[f64], stencils: bool) -> [Self; 2] {
         let mut all = lattice.yarns().map(|yarns| {
             let bending = if stencils {
                 Self::with_stencils(&yarns, areas)
             } else {
-                Self::of_triples(triples(lattice, &yarns, areas), areas.len())
+                Self::from_triples(triples(lattice, &yarns, areas), areas.len())
             };
             (yarns, bending)
         });
@@ -80,28 +83,34 @@ impl BendingConnectors {
         all.map(|(_, bending)| bending)
     }
 
-    fn of_triples(triples: Vec<Triple>, particles: usize) -> Self {
-        let mut is_middle = vec![false; particles];
+    /// Returns the connectors `triples`, without stencils, of a panel with `particle_count`
+    /// particles.
+    fn from_triples(triples: Vec<Triple>, particle_count: usize) -> Self {
+        let mut is_middle = vec![false; particle_count];
         triples.iter().for_each(|triple| is_middle[triple.particles[1] as usize] = true);
-        Self { triples, stencil_areas: vec![0.0; particles], is_middle, folds: Vec::new() }
+        Self { triples, stencil_areas: vec![0.0; particle_count], is_middle, folds: Vec::new() }
     }
 
+    /// Returns the triples of `yarns`, and stencils about all other particles.
     fn with_stencils(yarns: &[Vec<u32>], areas: &[f64]) -> Self {
-        let windows = yarns.iter().flat_map(|yarn| yarn.windows(3));
-        let triple = |three: &[u32]| Triple {
+        let triples = yarns.iter().flat_map(|yarn| yarn.windows(3)).map(|three| Triple {
             particles: [three[0], three[1], three[2]],
             area: areas[three[1] as usize],
-        };
-        let mut bending = Self::of_triples(windows.map(triple).collect(), areas.len());
-        let rest = bending.is_middle.iter().zip(areas);
-        bending.stencil_areas =
-            rest.map(|(is_middle, area)| if *is_middle { 0.0 } else { *area }).collect();
+        });
+        let mut bending = Self::from_triples(triples.collect(), areas.len());
+        bending.stencil_areas = bending
+            .is_middle
+            .iter()
+            .zip(areas)
+            .map(|(is_middle, area)| if *is_middle { 0.0 } else { *area })
+            .collect();
         bending
     }
 }
 
-/// Returns the triples of the yarns of one direction. Each has the area of its middle particle and
-/// of the particles that are the middle of no triple and nearest to it.
+/// Returns the triples of `yarns`, the yarns of `lattice` along one direction. Each triple has the
+/// area of its middle particle and of the particles that are the middle of no triple and nearest to
+/// it.
 pub(crate) fn triples(lattice: &Lattice, yarns: &[Vec<u32>], areas: &[f64]) -> Vec<Triple> {
     let mut triples: Vec<Triple> = Vec::new();
     let mut middle_of = vec![None; areas.len()];
@@ -111,7 +120,9 @@ pub(crate) fn triples(lattice: &Lattice, yarns: &[Vec<u32>], areas: &[f64]) -> V
         let particles = [window[0], window[1], window[2]];
         triples.push(Triple { particles, area: areas[window[1] as usize] });
     }
-    // First the neighbour on the same yarn, which lies in the direction of the curvature.
+
+    // The end of a yarn prefers the triple of its neighbour on the yarn, which lies in the
+    // direction of the curvature.
     let mut along = vec![None; areas.len()];
     for yarn in yarns {
         let ends = [(yarn[0], yarn[1]), (yarn[yarn.len() - 1], yarn[yarn.len() - 2])];
@@ -119,23 +130,28 @@ pub(crate) fn triples(lattice: &Lattice, yarns: &[Vec<u32>], areas: &[f64]) -> V
             along[end as usize] = middle_of[next as usize];
         }
     }
+
     for (particle, &area) in areas.iter().enumerate() {
         if middle_of[particle].is_some() {
             continue;
         }
         let nearest = || {
-            let [u, v] = lattice.coordinates[particle];
-            let distance = |triple: &Triple| {
-                let [x, y] = lattice.coordinates[triple.particles[1] as usize];
-                (x - u).powi(2) + (y - v).powi(2)
-            };
-            let by_distance =
-                |&a: &usize, &b: &usize| distance(&triples[a]).total_cmp(&distance(&triples[b]));
-            (0..triples.len()).min_by(by_distance)
+            (0..triples.len()).min_by(|&a, &b| {
+                let [a, b] = [a, b].map(|index| {
+                    let middle = triples[index].particles[1] as usize;
+                    squared_distance(lattice.coordinates[middle], lattice.coordinates[particle])
+                });
+                a.total_cmp(&b)
+            })
         };
         if let Some(taker) = along[particle].or_else(nearest) {
             triples[taker].area += area;
         }
     }
     triples
+}
+
+/// Returns the squared distance of `a` and `b`, in m².
+fn squared_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)
 }

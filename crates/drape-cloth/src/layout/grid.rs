@@ -15,11 +15,11 @@ pub(crate) const BLOCKS: usize = 7;
 /// Slot of a block that does not exist.
 pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
-/// Panel on the points of its grid, row by row, so that neighbours along a yarn are a fixed step
-/// apart and connectors need no lists.
+/// Panel on the points of its grid, row by row. Neighbours along a yarn are a fixed step apart, so
+/// connectors need no lists.
 ///
-/// A column has one number per point, with a margin of two rows and one point before the first, and
-/// the same margin and a batch after the last:
+/// A column has one number per point. Before the first point and after the last, it has a margin of
+/// two rows and one point, and at its end a batch:
 ///
 /// ```text
 ///  index  0        margin              margin + points            length
@@ -31,8 +31,9 @@ pub(crate) const NO_BLOCK: u32 = u32::MAX;
 ///
 /// The margin lets a kernel read the neighbours of every point, two rows up and down, without a
 /// branch. A point without a particle has the position of the panel's first particle, and a
-/// connector that does not exist, such as a segment from the end of a row to the start of the next,
-/// has an area of zero.
+/// branch. A point without a particle has the position of the panel's first particle. A connector
+/// that does not exist, such as a segment from the end of a row to the start of the next, has an
+/// area of zero.
 #[derive(Debug, Clone)]
 pub(crate) struct GridPanel {
     /// Number of points of the grid.
@@ -41,7 +42,7 @@ pub(crate) struct GridPanel {
     pub(crate) stride: usize,
     /// Index of the first point in a column.
     pub(crate) margin: usize,
-    /// Number of its first particle.
+    /// Number of the panel's first particle.
     pub(crate) first: usize,
     /// Column of the particles.
     pub(crate) particles: Vec<u32>,
@@ -55,9 +56,9 @@ pub(crate) struct GridPanel {
     pub(crate) corner_areas: [Vec<f64>; 4],
     /// Indices of the cells in a column.
     pub(crate) cells: Vec<usize>,
-    /// Index of the panel's columns in those of the cloth.
+    /// Index of the panel's columns in the columns of the cloth.
     pub(crate) base: usize,
-    /// Blocks of each point with those at [`GridPanel::block_steps`], or [`NO_BLOCK`].
+    /// Blocks of each point with the points at [`GridPanel::block_steps`], or [`NO_BLOCK`].
     pub(crate) slots: Vec<[u32; BLOCKS]>,
 }
 
@@ -76,8 +77,8 @@ pub(crate) struct Yarns {
     pub(crate) segment_areas: Vec<f64>,
     /// Column of the areas of the triples, at their middle point, in m².
     pub(crate) triple_areas: Vec<f64>,
-    /// Column of the rest curvatures that folds add to the triples, at their middle point, in 1/m;
-    /// empty without folds.
+    /// Column of the rest curvatures that folds add to the triples, at their middle point, in 1/m.
+    /// The column is empty without folds.
     pub(crate) folds: Vec<f64>,
     /// Indices of the segments in a column.
     pub(crate) segments: Vec<usize>,
@@ -85,15 +86,15 @@ pub(crate) struct Yarns {
     pub(crate) triples: Vec<usize>,
 }
 
-/// Begin of a panel: its first particle, and its columns in those of the cloth.
+/// Start of a panel: its first particle, and its columns in the columns of the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PanelStart {
     pub(crate) particle: u32,
     pub(crate) base: usize,
 }
 
-/// Corner of a cell at an edge: which of the four, the index of its cell, and that of its other
-/// edge.
+/// Corner of a cell at an edge: which of the four corners, the index of its cell, and the index of
+/// the crossing edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CornerAtEdge {
     pub(crate) corner: usize,
@@ -109,7 +110,7 @@ pub(crate) struct CornerEdges {
 }
 
 impl GridPanel {
-    /// Lays out a grid of a panel.
+    /// Lays out `grid`, a grid of `lattice` in `fabric`, from the numbers in `start` on.
     pub(crate) fn new(
         (lattice, grid): (&Lattice, &Grid),
         fabric: &Fabric,
@@ -121,6 +122,8 @@ impl GridPanel {
         let points = grid.points.len();
         let margin = 2 * stride + 1;
         let length = points + 2 * margin + LANES;
+
+        // Particles at their points.
         let mut index_of = vec![None; lattice.coordinates.len()];
         let mut particles = vec![first; length];
         for (point, particle) in grid.points.iter().enumerate() {
@@ -129,6 +132,8 @@ impl GridPanel {
                 particles[margin + point] = first + particle;
             }
         }
+
+        // Corners of the cells, for shear.
         let mut corner_areas = [(); 4].map(|()| vec![0.0; length]);
         let mut cells = Vec::new();
         for (cell, areas) in lattice.cells.iter().zip(lattice.shear_areas()) {
@@ -138,6 +143,8 @@ impl GridPanel {
                 column[index] = area;
             }
         }
+
+        // Segments and triples along both yarns.
         let lines = grid.yarns();
         let [across, along] = grid.spacing;
         let sides = [(&fabric.warp, along, stride), (&fabric.weft, across, 1)];
@@ -170,6 +177,7 @@ impl GridPanel {
             }
             yarns
         });
+
         let occupied: Vec<bool> = grid.points.iter().map(Option::is_some).collect();
         Self {
             points,
@@ -187,22 +195,26 @@ impl GridPanel {
         }
     }
 
-    /// Looks up the slots of the panel's blocks.
+    /// Looks up the slots of the panel's blocks in `sparsity`.
     pub(crate) fn find_slots(&mut self, sparsity: &Sparsity) {
         let steps = self.block_steps();
-        let slot = |point: usize, step: usize| {
-            let index = self.margin + point;
-            let other = point + step;
-            let there = self.occupied[point] && other < self.points && self.occupied[other];
-            let [row, column] = [index, index + step].map(|index| self.particles[index]);
-            let block = there.then(|| sparsity.block(row, column)).flatten();
-            block.map_or(NO_BLOCK, |block| block as u32)
-        };
-        self.slots = (0..self.points).map(|point| steps.map(|step| slot(point, step))).collect();
+        self.slots = (0..self.points)
+            .map(|point| steps.map(|step| self.slot(point, step, sparsity)))
+            .collect();
     }
 
-    /// Steps from a point to those that it has a block with in the upper half of the matrix, itself
-    /// first:
+    /// Returns the slot of the block of `point` with the point `step` further, or [`NO_BLOCK`].
+    fn slot(&self, point: usize, step: usize, sparsity: &Sparsity) -> u32 {
+        let index = self.margin + point;
+        let next = point + step;
+        let both_exist = self.occupied[point] && next < self.points && self.occupied[next];
+        let [row, column] = [index, index + step].map(|index| self.particles[index]);
+        let block = both_exist.then(|| sparsity.block(row, column)).flatten();
+        block.map_or(NO_BLOCK, |block| block as u32)
+    }
+
+    /// Returns the steps from a point to the points with which it has a block in the upper half of
+    /// the matrix, itself first:
     ///
     /// ```text
     ///      6
@@ -214,7 +226,7 @@ impl GridPanel {
         [0, 1, 2, stride - 1, stride, stride + 1, 2 * stride]
     }
 
-    /// Returns the steps from a cell to the two edges of one of its corners.
+    /// Returns the steps from a cell to the two edges of its corner `corner`.
     #[inline(always)]
     pub(crate) fn corner_edges(&self, corner: usize) -> CornerEdges {
         match corner {
@@ -225,49 +237,45 @@ impl GridPanel {
         }
     }
 
-    /// Returns the four corners of cells at the edge of a direction that begins at `index`.
+    /// Returns the four corners of cells at the edge along `direction` that begins at `index`.
     #[inline(always)]
     pub(crate) fn corners_at_edge(&self, direction: usize, index: usize) -> [CornerAtEdge; 4] {
         let stride = self.stride;
-        let at = |corner, cell, other_edge| CornerAtEdge { corner, cell, other_edge };
-        if direction == 0 {
+        let corners = if direction == 0 {
             let left = index - 1;
             [
-                at(0, index, index),
-                at(3, index, index + stride),
-                at(1, left, left),
-                at(2, left, left + stride),
+                (0, index, index),
+                (3, index, index + stride),
+                (1, left, left),
+                (2, left, left + stride),
             ]
         } else {
             let below = index - stride;
-            [
-                at(0, index, index),
-                at(1, index, index + 1),
-                at(3, below, below),
-                at(2, below, below + 1),
-            ]
-        }
+            [(0, index, index), (1, index, index + 1), (3, below, below), (2, below, below + 1)]
+        };
+        corners.map(|(corner, cell, other_edge)| CornerAtEdge { corner, cell, other_edge })
     }
 
-    /// Pairs of particles that a connector joins, the first of each less than the second.
+    /// Returns the pairs of particles that a connector joins, the lower number first.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
-        let pair =
-            |index: usize, ends: [usize; 2]| ends.map(|offset| self.particles[index + offset]);
         let stride = self.stride;
         let [a, b, d, c] = [0, 1, stride, stride + 1];
         let sides = [[a, b], [a, d], [a, c], [b, d], [b, c], [d, c]];
-        let cells = self.cells.iter();
-        let cells = cells.flat_map(move |&index| sides.map(|side| pair(index, side)));
-        let ends = self.yarns.iter().flat_map(move |yarns| {
+        let cells = self.cells.iter().flat_map(move |&index| {
+            sides.map(|side| side.map(|offset| self.particles[index + offset]))
+        });
+        let triples = self.yarns.iter().flat_map(move |yarns| {
             let starts = yarns.triples.iter().map(|index| index - yarns.step);
             // Between triangles of a rim, neighbours on a yarn share no cell.
             let sides = [[0, yarns.step], [yarns.step, 2 * yarns.step], [0, 2 * yarns.step]];
-            starts.flat_map(move |index| sides.map(|side| pair(index, side)))
+            starts.flat_map(move |index| {
+                sides.map(|side| side.map(|offset| self.particles[index + offset]))
+            })
         });
-        cells.chain(ends)
+        cells.chain(triples)
     }
 
-    /// Length of a column.
+    /// Returns the length of a column, with margins and [`LANES`].
     pub(crate) fn length(&self) -> usize {
         self.points + 2 * self.margin + LANES
     }

@@ -1,23 +1,23 @@
-//! Sparsity of the stiffness matrix. The kernels write its blocks; the system of equations takes it
-//! over.
+//! Sparsity of the stiffness matrix. The kernels write its blocks, and the system of equations
+//! takes them over.
 
 /// Block sparsity of the stiffness matrix of a cloth, upper triangle: one 3 × 3 block for each pair
-/// of particles that some connector joins.
+/// of particles that a connector joins.
 ///
 /// Row `i` has the columns `columns[offsets[i]..offsets[i + 1]]` in rising order, the first of
 /// which is `i` itself. Block `k` occupies the nine numbers `9k..9k + 9` of the values, row by row.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Sparsity {
-    /// Index of the first block of each row; one entry more than there are particles.
+    /// Index of the first block of each row, with one entry more than there are particles.
     pub offsets: Vec<usize>,
     /// Column of each block.
     pub columns: Vec<usize>,
 }
 
 impl Sparsity {
-    /// Returns the sparsity of the given pairs, the first of each less than the second.
-    pub(crate) fn new(particles: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
-        let mut rows: Vec<Vec<usize>> = (0..particles).map(|i| vec![i]).collect();
+    /// Returns the sparsity of `pairs` among `particle_count` particles, the lower number first.
+    pub(crate) fn new(particle_count: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
+        let mut rows: Vec<Vec<usize>> = (0..particle_count).map(|i| vec![i]).collect();
         for [first, second] in pairs {
             rows[first as usize].push(second as usize);
         }
@@ -31,7 +31,8 @@ impl Sparsity {
         sparsity
     }
 
-    /// Returns the index of the block of a pair, the first at most the second, if it is joined.
+    /// Returns the index of the block of `row` and `column`, which is not below `row`, if a
+    /// connector joins the two particles.
     pub(crate) fn block(&self, row: u32, column: u32) -> Option<usize> {
         let row = row as usize;
         let columns = &self.columns[self.offsets[row]..self.offsets[row + 1]];
@@ -39,7 +40,7 @@ impl Sparsity {
         Some(self.offsets[row] + index)
     }
 
-    /// Number of blocks.
+    /// Returns the number of blocks, the length of `columns`.
     #[must_use]
     pub fn blocks(&self) -> usize {
         self.columns.len()

@@ -1,4 +1,4 @@
-//! Strips: the runs of grid points that are evaluated at once, and how a panel is cut into them.
+//! Strips: runs of grid points that are evaluated at once.
 
 use std::ops::Range;
 
@@ -7,14 +7,14 @@ use drape_fabric::LANES;
 use crate::layout::grid::GridPanel;
 use crate::layout::sparsity::Sparsity;
 
-/// Number of particles of a strip, about: with fewer, more margins are evaluated twice; with more,
-/// the buffers leave the cache.
+/// Approximate number of particles in a strip. With fewer, more margins are evaluated twice. With
+/// more, the buffers leave the cache.
 const STRIP_POINTS: usize = 1024;
 
-/// Least number of rows of a strip: two rows at each of its sides are computed twice.
+/// Least number of rows in a strip. Two rows at each side are computed twice.
 const STRIP_ROWS: usize = 16;
 
-/// Run of points that is evaluated at once, whatever the number of threads.
+/// Run of points that is evaluated at once, for any number of threads.
 ///
 /// ```text
 ///    rows        ┌────────────────────────┐
@@ -31,20 +31,20 @@ const STRIP_ROWS: usize = 16;
 pub(crate) struct Strip {
     /// Index among the strips of the cloth.
     pub(crate) index: usize,
-    /// Panel that it is part of.
+    /// Index of the strip's panel.
     pub(crate) panel: usize,
-    /// Index of its first point, less the panel's margin, in the columns of the cloth.
+    /// Index of the first point, less the panel's margin, in the columns of the cloth.
     pub(crate) offset: usize,
     /// Points, starting at a multiple of [`LANES`].
     pub(crate) points: Range<usize>,
-    /// Particles at the points, counted over the cloth. Those of a rim's outline follow the last
-    /// strip's.
+    /// Particles at the points, counted over the cloth. Particles of a rim's outline follow the
+    /// last strip.
     pub(crate) particles: Range<usize>,
     /// Blocks in the rows of the particles.
     pub(crate) blocks: Range<usize>,
 }
 
-/// Index of the first connector of a batch in the three kinds of columns.
+/// Index of the first connector of a batch in three kinds of columns.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BatchIndex {
     /// In the buffers of the strip.
@@ -56,10 +56,11 @@ pub(crate) struct BatchIndex {
 }
 
 impl Strip {
-    /// Cuts the points of a panel into strips of about the same length and appends them.
+    /// Cuts the points of `panel`, which has the number `index`, into strips of about equal length
+    /// and appends them to `strips`.
     ///
-    /// A panel has one strip, or an even number, which two threads share equally, each of at least
-    /// three quarters of the wanted length.
+    /// A panel has one strip, or an even number of strips, which two threads share equally. Each of
+    /// these has at least three quarters of the wanted length.
     pub(crate) fn append(
         strips: &mut Vec<Self>,
         panel: &GridPanel,
@@ -70,6 +71,8 @@ impl Strip {
         let pairs = (panel.points as f64 / (2 * wanted) as f64 + 0.25) as usize;
         let count = (2 * pairs).max(1);
         let length = panel.points.div_ceil(count).next_multiple_of(LANES);
+
+        // A block belongs to the strip of its row.
         let mut first = panel.first;
         for start in (0..panel.points).step_by(length) {
             let points = start..(start + length).min(panel.points);
@@ -87,12 +90,12 @@ impl Strip {
         }
     }
 
-    /// Length of the buffers of a strip of a panel with the given margin.
+    /// Returns the length of the strip's buffers in a panel with the given `margin`.
     pub(crate) fn buffer_length(&self, margin: usize) -> usize {
         self.points.len() + 2 * margin + LANES
     }
 
-    /// Returns the indices of the batch that begins at an index of the buffers.
+    /// Returns the indices of the batch that begins at index `buffer` of the buffers.
     #[inline(always)]
     pub(crate) fn batch(&self, buffer: usize) -> BatchIndex {
         BatchIndex { buffer, panel: self.points.start + buffer, cloth: self.offset + buffer }

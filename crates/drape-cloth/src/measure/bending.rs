@@ -1,6 +1,6 @@
 //! Bending of one connector in scalar form: energy and its derivatives with respect to the second
-//! difference. The reference and the seams call it; `kernel::bending` and `kernel::crease` are the
-//! same in batches.
+//! difference. The reference and the seams use it. `kernel::bending` and `kernel::crease` compute
+//! the same in batches.
 
 use drape_fabric::{BendingLaw, Law, Memory};
 
@@ -32,15 +32,18 @@ pub(crate) struct BendingResponse {
 }
 
 impl BendingMeasure {
-    /// Returns the signed curvature about the normal, in 1/m.
+    /// Returns the signed curvature about `normal`, in 1/m.
     pub(crate) fn curvature(&self) -> f64 {
         let along = dot(self.second_difference, self.normal);
-        TurningAngle::of(along * along, self.length).curvature(along)
+        TurningAngle::new(along * along, self.length).curvature(along)
     }
 
-    /// Returns the response of a law: its elastic part depends on the whole second difference less
-    /// that at rest, `$|b - b_0 n|$`, which also resists bending in the surface; its friction on
-    /// the curvature about the normal. With `definite`, without the part that makes it indefinite.
+    /// Returns the response of `law` with `memory`.
+    ///
+    /// The elastic part depends on the whole second difference less the one at rest,
+    /// `$|b - b_0 n|$`, which also resists bending in the surface. The friction depends on the
+    /// curvature about the normal. With `definite`, the part that makes the matrix indefinite is
+    /// left out.
     pub(crate) fn respond(
         &self,
         law: &BendingLaw,
@@ -48,28 +51,33 @@ impl BendingMeasure {
         definite: bool,
     ) -> BendingResponse {
         let Self { second_difference, normal, length: spacing } = *self;
+
+        // Elastic part, by the chain rule from the curvature to the second difference.
         let rest = second_difference_of(law.rest_curvature, spacing);
         let excess = subtract(second_difference, scale(normal, rest));
         let length = dot(excess, excess).sqrt();
-        let angle = TurningAngle::of(length * length, spacing);
+        let angle = TurningAngle::new(length * length, spacing);
         let size = angle.curvature(length);
         let elastic = law.backbone.respond(size);
         let CurvatureSlopes { first, second } = angle.curvature_slopes(length);
         let (load, tangent) =
             (elastic.load * first, elastic.tangent * first * first + elastic.load * second);
-        let along = dot(second_difference, normal);
-        let slip = self.curvature() - memory.position;
-        let friction = law.friction.respond(memory.friction, slip);
-        let angle = TurningAngle::of(along * along, spacing);
-        let CurvatureSlopes { first, second } = angle.curvature_slopes(along);
-        let slope = friction.tangent * first * first + friction.load * second;
-        let friction = friction.load * first;
-        let slope = if definite { slope.max(0.0) } else { slope };
         let (secant, unit) = if length > 0.0 {
             (load / length, scale(excess, 1.0 / length))
         } else {
             (tangent, excess)
         };
+
+        // Friction about the normal.
+        let along = dot(second_difference, normal);
+        let slip = self.curvature() - memory.position;
+        let friction = law.friction.respond(memory.friction, slip);
+        let angle = TurningAngle::new(along * along, spacing);
+        let CurvatureSlopes { first, second } = angle.curvature_slopes(along);
+        let slope = friction.tangent * first * first + friction.load * second;
+        let friction = friction.load * first;
+        let slope = if definite { slope.max(0.0) } else { slope };
+
         BendingResponse {
             energy: law.backbone.energy(size) + law.friction.work(memory.friction, slip),
             gradient: add(scale(excess, secant), scale(normal, friction)),
@@ -81,9 +89,11 @@ impl BendingMeasure {
         }
     }
 
-    /// Returns the response at a fold, which adds to the rest curvature, in 1/m: the elastic part
-    /// depends on the curvature about the normal and, separately, on the second difference within
-    /// the surface.
+    /// Returns the response at a fold, which adds `fold` to the rest curvature, in 1/m.
+    ///
+    /// The elastic part depends on the curvature about the normal and, separately, on the second
+    /// difference within the surface. With `definite`, the part that makes the matrix indefinite is
+    /// left out.
     pub(crate) fn respond_folded(
         &self,
         law: &BendingLaw,
@@ -93,13 +103,17 @@ impl BendingMeasure {
     ) -> BendingResponse {
         let Self { second_difference, normal, length: spacing } = *self;
         let along = dot(second_difference, normal);
+
+        // Elastic part and friction about the normal.
         let to = self.curvature();
         let law = BendingLaw { rest_curvature: law.rest_curvature + fold, ..*law };
         let response = law.respond(memory, to);
-        let angle = TurningAngle::of(along * along, spacing);
+        let angle = TurningAngle::new(along * along, spacing);
         let CurvatureSlopes { first, second } = angle.curvature_slopes(along);
         let slope = response.tangent * first * first + response.load * second;
         let slope = if definite { slope.max(0.0) } else { slope };
+
+        // Elastic part within the surface.
         let within = subtract(second_difference, scale(normal, along));
         let size = dot(within, within).sqrt();
         let inner = law.backbone.respond(size);
@@ -121,8 +135,9 @@ impl BendingMeasure {
         }
     }
 
-    /// Returns the response about the normal alone, for connectors whose rest curvature is large:
-    /// the difference of two second differences is that of their angles only where both are small.
+    /// Returns the response of `law` about the normal alone, for connectors with a large rest
+    /// curvature. The difference of two second differences is the difference of their angles only
+    /// where both are small.
     pub(crate) fn respond_about_normal(
         &self,
         law: &BendingLaw,
@@ -130,7 +145,7 @@ impl BendingMeasure {
         definite: bool,
     ) -> BendingResponse {
         let along = dot(self.second_difference, self.normal);
-        let angle = TurningAngle::of(along * along, self.length);
+        let angle = TurningAngle::new(along * along, self.length);
         let CurvatureSlopes { first, second } = angle.curvature_slopes(along);
         let to = angle.curvature(along);
         let response = law.respond(memory, to);

@@ -8,7 +8,7 @@ pub type Block = [f64; 9];
 /// 3 × 3 matrix by its rows.
 pub(crate) type Matrix = [Vector; 3];
 
-/// Returns `$ab^T$`.
+/// Returns the outer product `$ab^T$`.
 pub(crate) fn outer(a: Vector, b: Vector) -> Matrix {
     a.map(|a| b.map(|b| a * b))
 }
@@ -17,7 +17,7 @@ pub(crate) fn identity() -> Matrix {
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 }
 
-/// Returns the sum of matrices, each with a factor.
+/// Returns the sum of the matrices in `terms`, each times its factor.
 pub(crate) fn sum<const N: usize>(terms: [(f64, Matrix); N]) -> Matrix {
     let mut sum = [[0.0; 3]; 3];
     for (factor, matrix) in terms {

@@ -1,4 +1,4 @@
-//! Entries of symmetric 3 × 3 blocks, of which the upper half is kept.
+//! Entries of symmetric 3 × 3 blocks, whose upper half is kept.
 
 /// Row and column of each entry of the upper half: xx, xy, xz, yy, yz, zz.
 pub(crate) const HALF: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];

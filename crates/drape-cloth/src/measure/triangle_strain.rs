@@ -4,9 +4,9 @@ use crate::measure::vector::{Vector, dot};
 
 /// Deformation of one triangle of the surface.
 ///
-/// Within a triangle positions are linear in the material coordinates. The strains are the lengths
-/// of the derivatives along warp and weft less one; the shear is the angle by which these two are
-/// off a right one \[VMF09, §3\].
+/// Within a triangle, positions are linear in the material coordinates. The strains are the lengths
+/// of the derivatives along warp and weft, less one. The shear is the angle by which the two
+/// derivatives deviate from a right angle \[VMF09, §3\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TriangleStrain {
     /// Strain along the warp, a ratio.
@@ -20,19 +20,21 @@ pub struct TriangleStrain {
 }
 
 impl TriangleStrain {
-    /// Returns the strain of a triangle from the material coordinates of its corners, in m, and
-    /// their positions, in m.
-    pub(crate) fn of(coordinates: [[f64; 2]; 3], positions: [Vector; 3]) -> Self {
-        let [start, one, other] = coordinates;
-        let [[u1, v1], [u2, v2]] = [one, other].map(|end| [end[0] - start[0], end[1] - start[1]]);
+    /// Returns the strain of a triangle with `coordinates`, the material coordinates of its
+    /// corners, and with its corners at `positions`, all in m.
+    pub(crate) fn new(coordinates: [[f64; 2]; 3], positions: [Vector; 3]) -> Self {
+        let [start, second, third] = coordinates;
+        let [[u1, v1], [u2, v2]] =
+            [second, third].map(|end| [end[0] - start[0], end[1] - start[1]]);
         let twice = u1 * v2 - u2 * v1;
         let [origin, b, c] = positions;
-        let [first, second] =
+        let [to_b, to_c] =
             [b, c].map(|end| -> Vector { std::array::from_fn(|axis| end[axis] - origin[axis]) });
-        let along = |[one, other]: [f64; 2]| -> Vector {
-            std::array::from_fn(|axis| (one * first[axis] + other * second[axis]) / twice)
-        };
-        let (weft, warp) = (along([v2, -v1]), along([-u2, u1]));
+
+        // Derivatives of the position along weft and warp.
+        let [weft, warp] = [[v2, -v1], [-u2, u1]].map(|[by_b, by_c]| -> Vector {
+            std::array::from_fn(|axis| (by_b * to_b[axis] + by_c * to_c[axis]) / twice)
+        });
         let [length_weft, length_warp] = [weft, warp].map(|vector| dot(vector, vector).sqrt());
         let sine = dot(weft, warp) / (length_weft * length_warp);
         Self {

@@ -13,14 +13,15 @@
 //! ```
 //!
 //! Five terms leave an error of the angle of 0.01 % at 140° and of 0.13 % at 180°. The kernels, the
-//! reference and the seams call it.
+//! reference and the seams use this angle.
 
 /// Coefficients of `$v^n$` in the square of the arc sine.
 const SERIES: [f64; 5] = [1.0, 1.0 / 3.0, 8.0 / 45.0, 4.0 / 35.0, 128.0 / 1575.0];
 
-/// `$u$` up to which the angle is exact, at 147°. Beyond, where the slope of the angle grows
-/// without bound, `$v$` continues as a straight line: stretched triples may have second differences
-/// that no angle has.
+/// Largest `$u$` at which the angle is exact, at 147°.
+///
+/// Beyond, where the slope of the angle grows without bound, `$v$` continues as a straight line:
+/// stretched triples may have second differences that no angle has.
 const SQUARE_MAX: f64 = 0.92;
 
 /// Squared curvature `$\kappa^2$` as a function of the squared second difference `$|b|^2$`, with
@@ -41,28 +42,29 @@ pub(crate) struct TurningAngle {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurvatureSlopes {
     pub(crate) first: f64,
-    /// In m.
+    /// Second derivative, in m.
     pub(crate) second: f64,
 }
 
 impl TurningAngle {
-    /// Returns the turning angle of a squared second difference, in m⁻², of a triple with segments
-    /// of a length, in m.
+    /// Returns the turning angle of a triple with the squared second difference `square`, in m⁻²,
+    /// and with segments of `length`, in m.
     #[inline(always)]
-    pub(crate) fn of(square: f64, length: f64) -> Self {
+    pub(crate) fn new(square: f64, length: f64) -> Self {
         let quarter = 0.25 * length * length;
         let u = quarter * square;
-        let linear = u >= SQUARE_MAX;
-        let on_circle = if linear { SQUARE_MAX } else { u };
+        let is_linear = u >= SQUARE_MAX;
+        let on_circle = if is_linear { SQUARE_MAX } else { u };
         let cosine = (1.0 - on_circle).sqrt();
         // One division serves both inverses.
         let both = 1.0 / (cosine * (1.0 + cosine));
         let (inverse, half) = (both * (1.0 + cosine), 0.5 * both * cosine);
         // dv/du and d²v/du².
         let rise = 0.25 * inverse;
-        let rise_slope = if linear { 0.0 } else { 0.5 * rise * (inverse * inverse) };
+        let rise_slope = if is_linear { 0.0 } else { 0.5 * rise * (inverse * inverse) };
         let v = on_circle * half + (u - on_circle) * rise;
 
+        // Series of the squared arc sine, with its derivatives with respect to v.
         let [a, b, c, d, e] = SERIES;
         let sum = a + v * (b + v * (c + v * (d + v * e)));
         let sum_slope = b + v * (2.0 * c + v * (3.0 * d + v * (4.0 * e)));
@@ -71,9 +73,10 @@ impl TurningAngle {
         let second = 2.0 * sum_slope + v * sum_bend;
 
         // v/u, which is 1/(4 (1 − v)) on the circle.
-        let beyond = 1.0 / if linear { u } else { 1.0 };
-        let ratio = if linear { v * beyond } else { half };
-        let ratio_slope = if linear { (rise - ratio) * beyond } else { 4.0 * ratio * ratio * rise };
+        let beyond = 1.0 / if is_linear { u } else { 1.0 };
+        let ratio = if is_linear { v * beyond } else { half };
+        let ratio_slope =
+            if is_linear { (rise - ratio) * beyond } else { 4.0 * ratio * ratio * rise };
         Self {
             ratio: 4.0 * sum * ratio,
             first: 4.0 * first * rise,
@@ -82,13 +85,13 @@ impl TurningAngle {
         }
     }
 
-    /// Returns the signed curvature of a signed second difference, in 1/m.
+    /// Returns the signed curvature of the signed `second_difference`, both in 1/m.
     #[inline(always)]
     pub(crate) fn curvature(&self, second_difference: f64) -> f64 {
         second_difference * self.ratio.sqrt()
     }
 
-    /// Returns the derivatives of the signed curvature at a signed second difference.
+    /// Returns the derivatives of the signed curvature at the signed `second_difference`, in 1/m.
     #[inline(always)]
     pub(crate) fn curvature_slopes(&self, second_difference: f64) -> CurvatureSlopes {
         let inverse = 1.0 / self.ratio.sqrt();
@@ -99,8 +102,8 @@ impl TurningAngle {
     }
 }
 
-/// Returns the second difference of a triple of a curvature, in 1/m, with segments of a length, in
-/// m.
+/// Returns the second difference of a triple with `curvature`, in 1/m, and with segments of
+/// `length`, in m.
 pub(crate) fn second_difference_of(curvature: f64, length: f64) -> f64 {
     (0.5 * curvature * length).sin() * 2.0 / length
 }
@@ -112,7 +115,7 @@ mod tests {
     const LENGTH: f64 = 0.005;
 
     fn curvature(difference: f64) -> f64 {
-        TurningAngle::of(difference * difference, LENGTH).curvature(difference)
+        TurningAngle::new(difference * difference, LENGTH).curvature(difference)
     }
 
     #[test]
@@ -131,18 +134,18 @@ mod tests {
         for part in [0.001, 0.3, 0.8, 0.95, 0.97, 1.3, 4.0] {
             let difference: f64 = part * 2.0 / LENGTH;
             let step = 1e-4 * difference;
-            let angle = TurningAngle::of(difference * difference, LENGTH);
+            let angle = TurningAngle::new(difference * difference, LENGTH);
             let CurvatureSlopes { first, second } = angle.curvature_slopes(difference);
             let slope =
                 (curvature(difference + step) - curvature(difference - step)) / (2.0 * step);
             assert!((slope / first - 1.0).abs() < 1e-6, "{slope} and {first} at {part}");
-            let at = |x: f64| TurningAngle::of(x * x, LENGTH).curvature_slopes(x).first;
+            let at = |x: f64| TurningAngle::new(x * x, LENGTH).curvature_slopes(x).first;
             let slope = (at(difference + step) - at(difference - step)) / (2.0 * step);
             assert!(
                 (slope - second).abs() < 1e-5 * (second.abs() + first / difference),
                 "{slope} and {second} at {part}"
             );
-            let squares = |x: f64| TurningAngle::of(x * x, LENGTH).first;
+            let squares = |x: f64| TurningAngle::new(x * x, LENGTH).first;
             let bend = (squares(difference + step) - squares(difference - step))
                 / (4.0 * step * difference);
             assert!(
@@ -155,7 +158,7 @@ mod tests {
 
     #[test]
     fn nothing_is_not_a_number_at_zero() {
-        let angle = TurningAngle::of(0.0, LENGTH);
+        let angle = TurningAngle::new(0.0, LENGTH);
         assert!(
             (angle.ratio, angle.first) == (1.0, 1.0)
                 && angle.second > 0.0

@@ -31,13 +31,13 @@ pub(crate) fn length(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Returns the vector of a particle in a flat array.
+/// Returns the vector of `particle` in the array `flat`.
 pub(crate) fn vector_at(flat: &[f64], particle: u32) -> Vector {
     let start = 3 * particle as usize;
     [flat[start], flat[start + 1], flat[start + 2]]
 }
 
-/// Adds a vector to that of a particle in a flat array.
+/// Adds `vector` to the vector of `particle` in the array `flat`.
 pub(crate) fn add_at(flat: &mut [f64], particle: u32, vector: Vector) {
     let start = 3 * particle as usize;
     for (sum, part) in flat[start..start + 3].iter_mut().zip(vector) {
@@ -53,7 +53,7 @@ pub(crate) struct WeightedNode {
     pub(crate) weight: f64,
 }
 
-/// Returns the weighted sum of the vectors of some particles, as of a second difference.
+/// Returns the weighted sum of the vectors of `nodes` in `flat`, such as a second difference.
 pub(crate) fn weighted_sum(flat: &[f64], nodes: &[WeightedNode]) -> Vector {
     nodes.iter().fold([0.0; 3], |sum, &WeightedNode { node, weight }| {
         add(sum, scale(vector_at(flat, node), weight))

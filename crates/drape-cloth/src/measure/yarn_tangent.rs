@@ -1,5 +1,5 @@
-//! Tangents of the yarns and normals of the surface at the particles, which bending is measured
-//! about.
+//! Tangents of the yarns and normals of the surface at the particles. Bending is measured about the
+//! normals.
 
 use crate::measure::vector::{Vector, cross, dot};
 
@@ -11,7 +11,8 @@ pub(crate) struct YarnTangent {
 }
 
 impl YarnTangent {
-    /// Returns a vector along the yarn, in the direction of its rising material coordinate.
+    /// Returns a vector along the yarn at `positions`, in the direction of the rising material
+    /// coordinate.
     pub(crate) fn at(&self, positions: &[f64]) -> Vector {
         let [a, b, c] = self.particles.map(|particle| 3 * particle as usize);
         let [wa, wb, wc] = self.weights;
@@ -19,18 +20,18 @@ impl YarnTangent {
     }
 }
 
-/// Returns the tangents along warp and weft at every particle of a panel whose first particle is
-/// `first`.
+/// Returns the tangents along warp and weft at each of `particle_count` particles of a panel whose
+/// first particle is `first`. `yarns` holds the yarns of both directions.
 ///
-/// They are central differences, at the ends of a yarn one-sided differences of second order, so
-/// that the normals of a cylinder are right at its edges too.
+/// The tangents are central differences. At the ends of a yarn they are one-sided differences of
+/// second order, so that the normals of a cylinder are right at its edges too.
 pub(crate) fn yarn_tangents(
     yarns: &[Vec<Vec<u32>>; 2],
     first: u32,
-    particles: usize,
+    particle_count: usize,
 ) -> Vec<[YarnTangent; 2]> {
     let none = YarnTangent { particles: [0; 3], weights: [0.0; 3] };
-    let mut tangents = vec![[none; 2]; particles];
+    let mut tangents = vec![[none; 2]; particle_count];
     for (direction, yarns) in yarns.iter().enumerate() {
         for yarn in yarns {
             let last = yarn.len() - 1;
@@ -49,8 +50,9 @@ pub(crate) fn yarn_tangents(
     tangents
 }
 
-/// Returns the unit normal `$u \times v$` of a surface with tangents along warp (`$v$`) and weft
-/// (`$u$`).
+/// Returns the unit normal `$u \times v$` of a surface with the tangents `v` along the warp and `u`
+/// along the weft.
+
 pub(crate) fn surface_normal([v, u]: [Vector; 2]) -> Vector {
     let across = cross(u, v);
     let length = dot(across, across).sqrt();

@@ -6,24 +6,26 @@ use crate::panel::lattice::Lattice;
 /// Strip of cloth along part of a panel's outline: the allowance of a seam, or a hem.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Allowance {
-    /// Consecutive particles along the outline.
+    /// Consecutive particles along the outline, by number.
     pub line: Vec<u32>,
     /// Width of the strip of cloth, in m.
     pub width: f64,
 }
 
 impl Lattice {
-    /// Returns the panel with allowances along parts of its outline.
+    /// Returns the panel with `allowances` along parts of its outline.
     ///
     /// An allowance has the length of its line in material coordinates. Half of the mass of each
-    /// segment is added to either end; it has no connectors and no contact. Where two consecutive
-    /// particles of a line are not neighbours on the outline, as over the mouth of a dart, nothing
-    /// is added.
+    /// segment is added to either end. An allowance has no connectors and no contact. Where two
+    /// consecutive particles of a line are not neighbours on the outline, as over the mouth of a
+    /// dart, nothing is added.
     ///
     /// # Errors
-    /// When a width is negative or not finite, or a particle does not exist.
+    /// A width is negative or not finite, or a particle does not exist.
     pub fn with_allowances(mut self, allowances: &[Allowance]) -> Result<Self, Error> {
         let particles = self.coordinates.len();
+
+        // All allowances are checked before any is added.
         for Allowance { line, width } in allowances {
             if !(*width >= 0.0 && width.is_finite()) {
                 return Err(Error::Width { width: *width });
@@ -37,6 +39,7 @@ impl Lattice {
         if allowances.iter().all(|allowance| allowance.width == 0.0) {
             return Ok(self);
         }
+
         let outline = self.outline();
         self.allowances.resize(particles, 0.0);
         for Allowance { line, width } in allowances {
@@ -52,8 +55,7 @@ impl Lattice {
         Ok(self)
     }
 
-    /// Returns the areas whose mass the particles have, in m²: the given ones and their parts of
-    /// allowances.
+    /// Returns the areas that give the particles their mass, in m²: `areas` plus allowances.
     pub(crate) fn areas_of_mass(&self, areas: &[f64]) -> Vec<f64> {
         let mut sums = areas.to_vec();
         sums.iter_mut().zip(&self.allowances).for_each(|(area, allowance)| *area += allowance);

@@ -1,27 +1,30 @@
 //! Area of a polygon within a cell, for panels at an angle to the yarns.
 
-/// Returns the area of a convex polygon, its corners anticlockwise, within a rectangle, in m².
+/// Returns the area of a convex `polygon`, with its corners anticlockwise, within the rectangle
+/// from `low` to `high`, in m².
 ///
 /// The polygon is clipped at one side of the rectangle after the other \[SH74\]. Neighbouring
-/// rectangles find the same points on the side between them, so their areas add up to that of both.
+/// rectangles find identical points on their common side, so their areas add up to the area of
+/// both.
 pub(crate) fn area_within(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> f64 {
-    let mut part = polygon.to_vec();
+    let mut inside = polygon.to_vec();
     for (axis, bound, sign) in
         [(0, low[0], 1.0), (0, high[0], -1.0), (1, low[1], 1.0), (1, high[1], -1.0)]
     {
-        part = clipped(&part, axis, |x| sign * (x - bound));
+        inside = clip(&inside, axis, |x| sign * (x - bound));
     }
-    // Relative to one of the corners, so that a small part far from the origin keeps its digits.
-    let Some(&[x, y]) = part.first() else { return 0.0 };
-    let across = |pair: &[[f64; 2]]| {
+    // Offsets from one of the corners keep the digits of a small area far from the origin.
+    let Some(&[x, y]) = inside.first() else { return 0.0 };
+    let doubled = inside.windows(2).map(|pair| {
         let ([a, b], [c, d]) = (pair[0], pair[1]);
         (a - x) * (d - y) - (c - x) * (b - y)
-    };
-    0.5 * part.windows(2).map(across).sum::<f64>()
+    });
+    0.5 * doubled.sum::<f64>()
 }
 
-/// Returns the part of a convex polygon where a function of one coordinate is not negative.
-fn clipped(polygon: &[[f64; 2]], axis: usize, inside: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+/// Returns the part of a convex `polygon` where `inside`, a function of the coordinate `axis`, is
+/// not negative.
+fn clip(polygon: &[[f64; 2]], axis: usize, inside: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (index, &from) in polygon.iter().enumerate() {
         let to = polygon[(index + 1) % polygon.len()];

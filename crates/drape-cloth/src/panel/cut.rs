@@ -6,24 +6,25 @@ use crate::panel::grain::Grain;
 use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
 
-/// Largest number of particles of one panel; more points to a spacing in the wrong unit.
+/// Largest number of particles of one panel. More particles point to a spacing in the wrong unit.
 pub(crate) const PARTICLES_MAX: f64 = 4e6;
 
-/// Least part of a cell that must lie inside the outline for the cell to be kept.
+/// Least fraction of a cell that must lie inside the outline for the cell to be kept.
 ///
-/// Smaller slivers would be particles of nearly no mass; their area is given to the nearest cell
-/// that is kept, so that the total is exact. Larger values make the sides more ragged.
+/// Smaller slivers would be particles of nearly no mass. Their area goes to the nearest cell that
+/// is kept, so the total is exact. Larger values make the sides more ragged.
 const CELL_PART_MIN: f64 = 0.1;
 
-/// Least part of a cell's area that each of its corners gets.
+/// Least fraction of a cell's area that each of its corners gets.
 ///
-/// Where the outline cuts a quadrant off a cell, its corner would be a particle without mass, or,
-/// by rounding, of negative mass. Larger values carry more mass outwards; the cell's area is exact
-/// in any case.
+/// Where the outline cuts a quadrant off a cell, its corner would be a particle without mass or, by
+/// rounding, of negative mass. Larger values carry more mass outwards. The cell's area is exact in
+/// any case.
 const QUADRANT_PART_MIN: f64 = 0.05;
 
 impl Lattice {
-    /// Returns a rectangle, `width` along the weft and `height` along the warp, in m.
+    /// Returns a rectangle of `width` along the weft and `height` along the warp, with particles at
+    /// the distance `spacing`, all in m.
     ///
     /// # Errors
     /// As for [`Lattice::rectangle_at`].
@@ -31,17 +32,17 @@ impl Lattice {
         Self::rectangle_at(Grain::default(), [0.0; 2], [width, height], spacing)
     }
 
-    /// Returns a rectangle of a width and a height, in m, with its yarns at an angle; its material
-    /// coordinates start from its lower left corner.
+    /// Returns a rectangle with the width and height `size`, in m, with its yarns at the angle of
+    /// `grain`. Its material coordinates start from its lower left corner.
     ///
-    /// Where the yarns are parallel to its sides, the spacing is stretched a little so that both
-    /// sides are multiples of it. Otherwise the cells are those of a grid with a particle at the
-    /// material coordinates `grid` from the middle of the rectangle, in m; the sides are ragged by
-    /// up to one spacing, and mass and connectors have the exact area of the rectangle in every
-    /// cell.
+    /// Where the yarns are parallel to its sides, `spacing` is stretched a little so that both
+    /// sides are multiples of it. Otherwise the cells belong to a grid with a particle at the
+    /// material coordinates `grid` from the middle of the rectangle, in m. The sides are then
+    /// ragged by up to one spacing, and mass and connectors have the exact area of the rectangle in
+    /// every cell.
     ///
     /// # Errors
-    /// When a length is not positive, or fewer than 3 particles would lie across the rectangle.
+    /// A length is not positive, or fewer than 3 particles would lie across the rectangle.
     pub fn rectangle_at(
         grain: Grain,
         grid: [f64; 2],
@@ -56,42 +57,48 @@ impl Lattice {
         if cells.iter().any(|cells| *cells < 2.0) {
             return Err(Error::Spacing { spacing, size: width.min(height) });
         }
+
         let corners = [[0.0, 0.0], [width, 0.0], size, [0.0, height]];
         let outline = corners.map(|corner| grain.to_material(corner));
         if !grain.is_straight() {
             let lattice = Self::ragged(&outline, on_grid(grid, spacing)?, spacing)?;
-            return Ok(lattice.of_size(grain, size));
+            return Ok(lattice.with_size(grain, size));
         }
+
+        // Yarns parallel to the sides: the grid is stretched to fit.
         let (cells, sides) = (grain.exchanged(cells), grain.exchanged(size));
         let spacing = [sides[0] / cells[0], sides[1] / cells[1]];
         let quarter = 0.25 * spacing[0] * spacing[1];
         let start = [0, 1].map(|axis| lowest(&outline, axis));
         let lattice = Self::cut(spacing, start, cells, |_, _| [quarter; 4])?;
         let sides = [cells[0] * spacing[0], cells[1] * spacing[1]];
-        Ok(lattice.of_size(grain, grain.exchanged(sides)))
+        Ok(lattice.with_size(grain, grain.exchanged(sides)))
     }
 
-    /// Returns the cells of a grid that lie, at least in part, in a rectangle with the given
-    /// corners; `grid` is the point of a particle from its middle.
+    /// Returns the cells of a grid that lie, at least in part, in the rectangle with the corners
+    /// `outline`. `grid` is the position of a particle from the middle of the rectangle, in m.
     fn ragged(outline: &[[f64; 2]; 4], grid: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let middle = [0, 1].map(|axis| 0.5 * (outline[0][axis] + outline[2][axis]));
         let extent = [0, 1].map(|axis| middle[axis] - lowest(outline, axis));
         let half = extent.map(|extent| (extent / spacing + 0.5).ceil());
         let start = [0, 1].map(|axis| middle[axis] + grid[axis] - half[axis] * spacing);
         Self::cut([spacing; 2], start, half.map(|half| 2.0 * half), |column, row| {
-            let at = |[u, v]: [f64; 2]| {
-                [start[0] + (column + u) * spacing, start[1] + (row + v) * spacing]
-            };
-            let quadrants = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-            quadrants.map(|[u, v]| area_within(outline, at([u, v]), at([u + 0.5, v + 0.5])))
+            [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]].map(|quadrant| {
+                let [low, high] = [0.0, 0.5].map(|extent| {
+                    let [u, v] = quadrant.map(|offset| offset + extent);
+                    [start[0] + (column + u) * spacing, start[1] + (row + v) * spacing]
+                });
+                area_within(outline, low, high)
+            })
         })
     }
 
-    fn of_size(self, grain: Grain, size: [f64; 2]) -> Self {
+    /// Returns the panel as a rectangle with the sides `size` along `grain`'s frame, in m.
+    fn with_size(self, grain: Grain, size: [f64; 2]) -> Self {
         Self { grain, middle: size.map(|side| 0.5 * side), size: Some(size), ..self }
     }
 
-    /// Returns a disc of the given radius, in m, with a particle at its centre.
+    /// Returns a disc of `radius`, in m, with a particle at its centre.
     ///
     /// # Errors
     /// As for [`Lattice::disc_on`].
@@ -99,14 +106,14 @@ impl Lattice {
         Self::disc_on([0.0; 2], radius, spacing)
     }
 
-    /// Returns a disc of the given radius, in m, cut from a grid with a particle at the point
-    /// `grid` from its centre, in m.
+    /// Returns a disc of `radius`, in m, cut from a grid with a particle at the point `grid` from
+    /// its centre, in m.
     ///
-    /// The cells are those of the grid, so the outline is ragged by up to one spacing; mass and
+    /// The outline follows the cells of the grid, so it is ragged by up to one spacing. Mass and
     /// connectors have the exact area of the disc in every cell.
     ///
     /// # Errors
-    /// When a length is not positive, or fewer than 3 particles would lie across the disc.
+    /// A length is not positive, or fewer than 3 particles would lie across the disc.
     pub fn disc_on(grid: [f64; 2], radius: f64, spacing: f64) -> Result<Self, Error> {
         check("the radius", radius)?;
         check("the spacing", spacing)?;
@@ -116,11 +123,11 @@ impl Lattice {
         Self::round(grid, [0.0, radius], spacing)
     }
 
-    /// Returns a ring of the given radii, the inner one first, in m, cut from a grid as a
-    /// [disc](Lattice::disc_on) is.
+    /// Returns a ring with the inner and outer `radii`, in m, cut from a grid like a
+    /// [disc](Lattice::disc_on).
     ///
     /// # Errors
-    /// When a length is not positive, or fewer than 3 particles would lie across the ring.
+    /// A length is not positive, or fewer than 3 particles would lie across the ring.
     pub fn ring_on(grid: [f64; 2], radii: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let [hole, radius] = radii;
         check("the radius of the hole", hole)?;
@@ -132,32 +139,28 @@ impl Lattice {
         Self::round(grid, radii, spacing)
     }
 
-    /// Returns the cells of a grid that lie, at least in part, between two circles.
+    /// Returns the cells of a grid that lie, at least in part, between the circles of radius `hole`
+    /// and `radius`.
     fn round(grid: [f64; 2], [hole, radius]: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let grid = on_grid(grid, spacing)?;
         let half = (radius / spacing + 0.5).ceil();
         let start = grid.map(|x| x - half * spacing);
-        let area = |u0: f64, v0: f64, u1: f64, v1: f64| {
-            let corner =
-                |u: f64, v: f64| disc_corner_area(radius, u, v) - disc_corner_area(hole, u, v);
-            corner(u1, v1) - corner(u0, v1) - corner(u1, v0) + corner(u0, v0)
-        };
         Self::cut([spacing; 2], start, [2.0 * half; 2], |column, row| {
-            let at = |axis: usize, index: f64| start[axis] + index * spacing;
-            let (u0, um, u1) = (at(0, column), at(0, column + 0.5), at(0, column + 1.0));
-            let (v0, vm, v1) = (at(1, row), at(1, row + 0.5), at(1, row + 1.0));
-            [area(u0, v0, um, vm), area(um, v0, u1, vm), area(um, vm, u1, v1), area(u0, vm, um, v1)]
+            let [u0, um, u1] = [0.0, 0.5, 1.0].map(|k| start[0] + (column + k) * spacing);
+            let [v0, vm, v1] = [0.0, 0.5, 1.0].map(|k| start[1] + (row + k) * spacing);
+            [[u0, v0, um, vm], [um, v0, u1, vm], [um, vm, u1, v1], [u0, vm, um, v1]]
+                .map(|corners| ring_area([hole, radius], corners))
         })
     }
 
-    /// Returns the panel with its yarns at an angle in its own frame, for discs and rings.
+    /// Returns the panel with its yarns at the angle of `grain` in its frame, for discs and rings.
     #[must_use]
     pub fn with_grain(self, grain: Grain) -> Self {
         Self { grain, ..self }
     }
 
-    /// Cuts a grid of cells; `quadrants` returns the areas of the four quadrants of a cell for its
-    /// column and row.
+    /// Cuts a grid of `cells`, their numbers along both yarns, from the point `start` on.
+    /// `quadrants` returns the areas of the four quadrants of a cell for its column and row, in m².
     fn cut(
         spacing: [f64; 2],
         start: [f64; 2],
@@ -169,6 +172,8 @@ impl Lattice {
             let spacing = spacing[0].min(spacing[1]);
             return Err(Error::TooMany { spacing, particles, limit: PARTICLES_MAX });
         }
+
+        // Cells that lie inside only by a sliver give their area to the nearest kept cell.
         let [across, along] = cells.map(|n| n as usize);
         let columns = across + 1;
         let full = spacing[0] * spacing[1];
@@ -186,15 +191,16 @@ impl Lattice {
             }
         }
         for (column, row, areas) in slivers {
-            let distance = |&(c, r, _): &(usize, usize, [f64; 4])| {
+            let nearest = (0..kept.len()).min_by_key(|&k| {
+                let (c, r, _): (usize, usize, [f64; 4]) = kept[k];
                 c.abs_diff(column).pow(2) + r.abs_diff(row).pow(2)
-            };
-            let nearest = (0..kept.len()).min_by_key(|&k| distance(&kept[k]));
+            });
             if let Some(nearest) = nearest {
                 kept[nearest].2.iter_mut().zip(areas).for_each(|(a, sliver)| *a += sliver);
             }
         }
 
+        // Particles are the grid points at the corners of kept cells.
         let mut used = vec![false; columns * (along + 1)];
         let corners = |column: usize, row: usize| {
             let first = row * columns + column;
@@ -209,12 +215,13 @@ impl Lattice {
         let mut grid = vec![None; used.len()];
         for point in (0..used.len()).filter(|&point| used[point]) {
             grid[point] = Some(coordinates.len() as u32);
-            let place = |axis: usize, index: usize| start[axis] + index as f64 * spacing[axis];
-            coordinates.push([place(0, point % columns), place(1, point / columns)]);
+            let index = [point % columns, point / columns];
+            coordinates.push([0, 1].map(|axis| start[axis] + index[axis] as f64 * spacing[axis]));
         }
+
         let cells = kept
             .into_iter()
-            .map(|(column, row, areas)| (column, row, levelled(areas)))
+            .map(|(column, row, areas)| (column, row, with_least_quadrants(areas)))
             .map(|(column, row, quadrants)| Cell {
                 corners: corners(column, row)
                     .map(|point| grid[point].expect("the corners of kept cells are particles")),
@@ -237,9 +244,9 @@ impl Lattice {
     }
 }
 
-/// Returns the areas of the quadrants of a cell with none below [`QUADRANT_PART_MIN`] of the cell,
-/// and the same sum.
-fn levelled(areas: [f64; 4]) -> [f64; 4] {
+/// Returns `areas`, the quadrants of a cell, with none below [`QUADRANT_PART_MIN`] of the cell and
+/// with an unchanged sum.
+fn with_least_quadrants(areas: [f64; 4]) -> [f64; 4] {
     let whole: f64 = areas.iter().sum();
     let least = QUADRANT_PART_MIN * whole;
     let [lacking, above] = areas.iter().fold([0.0, 0.0], |[lacking, above], area| {
@@ -252,11 +259,11 @@ fn levelled(areas: [f64; 4]) -> [f64; 4] {
     )
 }
 
-/// Returns the point of the particle nearest to the origin of a grid.
+/// Returns the position of the particle nearest to the origin of a grid with a particle at `grid`.
 fn on_grid(grid: [f64; 2], spacing: f64) -> Result<[f64; 2], Error> {
     let grid = grid.map(|x| x - spacing * (x / spacing).round());
-    let lost = grid.into_iter().find(|x| !x.is_finite());
-    lost.map_or(Ok(grid), |value| Err(Error::Length { what: "the place of the grid", value }))
+    let not_finite = grid.into_iter().find(|x| !x.is_finite());
+    not_finite.map_or(Ok(grid), |value| Err(Error::Length { what: "the place of the grid", value }))
 }
 
 fn lowest(outline: &[[f64; 2]; 4], axis: usize) -> f64 {
@@ -267,16 +274,36 @@ fn check(what: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::Length { what, value }) }
 }
 
-/// Returns the signed area of the disc about the origin in the rectangle with the corners (0, 0)
-/// and (u, v).
+/// Returns the area of the ring between the radii `hole` and `radius` about the origin, within the
+/// rectangle from (`u0`, `v0`) to (`u1`, `v1`).
+fn ring_area([hole, radius]: [f64; 2], [u0, v0, u1, v1]: [f64; 4]) -> f64 {
+    let corner = |u: f64, v: f64| disc_corner_area(radius, u, v) - disc_corner_area(hole, u, v);
+    corner(u1, v1) - corner(u0, v1) - corner(u1, v0) + corner(u0, v0)
+}
+
+/// Returns the signed area of the disc of `radius` about the origin within the rectangle from (0,
+/// 0) to (`u`, `v`).
 fn disc_corner_area(radius: f64, u: f64, v: f64) -> f64 {
     let (a, b) = (u.abs().min(radius), v.abs().min(radius));
-    // Near the circle the arc sine would lose half of the digits.
-    let chord = |x: f64| ((radius - x) * (radius + x)).max(0.0).sqrt();
-    let segment = |x: f64| 0.5 * (x * chord(x) + radius * radius * x.atan2(chord(x)));
-    let meets = chord(b);
-    let area = if a <= meets { a * b } else { b * meets + segment(a) - segment(meets) };
+    let meets = half_chord(radius, b);
+    let area = if a <= meets {
+        a * b
+    } else {
+        b * meets + half_segment(radius, a) - half_segment(radius, meets)
+    };
     area * u.signum() * v.signum()
+}
+
+/// Returns half of the chord of a circle of `radius` at the distance `x` from its centre.
+///
+/// Near the circle an arc sine would lose half of the digits.
+fn half_chord(radius: f64, x: f64) -> f64 {
+    ((radius - x) * (radius + x)).max(0.0).sqrt()
+}
+
+/// Returns the area under a circle of `radius` about the origin between 0 and `x`.
+fn half_segment(radius: f64, x: f64) -> f64 {
+    0.5 * (x * half_chord(radius, x) + radius * radius * x.atan2(half_chord(radius, x)))
 }
 
 #[cfg(test)]

@@ -2,36 +2,38 @@
 //!
 //! ```text
 //!    ┌───────┬───────┬───┬───┐
-//!    │       │     ╱ ├───┼───┤    Large cells have a grid of their own. Those that touch finer cells are
-//!    │       │   ╱───├───┼───┤    cut into triangles, whose corners are nodes of both grids, so that
-//!    │       │ ╱   ╲ ├───┼───┤    no node lies within a side.
+//!    │       │     ╱ ├───┼───┤    Large cells have a separate grid. Beside finer cells
+//!    │       │   ╱───├───┼───┤    they are cut into triangles, whose corners are nodes
+//!    │       │ ╱   ╲ ├───┼───┤    of both grids, so that no node lies within a side.
 //!    └───────┴───────┴───┴───┘
 //! ```
 //!
-//! The triangles belong to the rim: traction, shear and bending about their corners are those of the
-//! triangles at an outline.
+//! The triangles belong to the rim. Their traction and shear, and the bending about their corners,
+//! are computed like at an outline.
 
 use crate::error::Error;
 use crate::panel::fold::{Fold, LineCoordinates};
 use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
+use crate::panel::numbering::Numbering;
 
 /// Largest level. A cell of level `l` has sides of `2^l` spacings.
 const LEVEL_MAX: u8 = 3;
 
-/// Distance from a fold within which cells keep their size, in spacings: that over which a fold is
-/// rounded, and two more for the connectors of the particles there.
+/// Distance from a fold within which cells keep their size, in spacings: the distance over which a
+/// fold is rounded, and two more for the connectors of the particles there.
 const FOLD_REACH: f64 = 4.0;
 
-/// Tolerance of the areas of a full cell and of a ratio of spacings: rounding.
+/// Relative rounding error of the areas of a full cell and of a ratio of spacings.
 const ROUNDING_ERROR: f64 = 1e-9;
 
-/// Graded panel, with the numbers that the particles of the finer panel have in it.
+/// Graded panel, with the numbers in it of the finer panel's particles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedPanel {
     /// Graded panel.
     pub lattice: Lattice,
-    /// Number of each particle of the finer panel in the graded one; none where that has no particle.
+    /// Number in the graded panel of each particle of the finer panel, `None` where the graded
+    /// panel has no particle.
     pub numbers: Vec<Option<u32>>,
 }
 
@@ -48,11 +50,11 @@ struct CellLevel {
     /// Index among the cells of the panel.
     index: usize,
     level: u8,
-    /// Highest level that it may have.
+    /// Highest level that the cell may have.
     limit: u8,
 }
 
-/// Block: square of cells that become one, by its first column, its first row and its level.
+/// Block: square of cells that become one cell, by its first column, its first row and its level.
 #[derive(Debug, Clone, Copy)]
 struct Block {
     column: usize,
@@ -61,19 +63,20 @@ struct Block {
 }
 
 impl Block {
-    /// Number of cells along a side.
+    /// Returns the number of cells along a side, `2^level`.
     fn side(self) -> usize {
         1 << self.level
     }
 
-    /// Columns and rows of its cells.
+    /// Returns the columns and rows of the cells, from `column` and `row` on.
     fn cells(self) -> impl Iterator<Item = [usize; 2]> {
         let Self { column, row, .. } = self;
         let side = self.side();
         (row..row + side).flat_map(move |row| (column..column + side).map(move |c| [c, row]))
     }
 
-    /// Points at its corners (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): their columns and rows.
+    /// Returns the columns and rows of the points at the corners (`u`, `v`) = (0, 0), (1, 0), (1,
+    /// 1), (0, 1).
     fn corners(self) -> [[usize; 2]; 4] {
         let (column, row, side) = (self.column, self.row, self.side());
         [[column, row], [column + side, row], [column + side, row + side], [column, row + side]]
@@ -81,13 +84,13 @@ impl Block {
 }
 
 impl Lattice {
-    /// Returns the panel with cells of two, four and eight spacings, nowhere larger than `spacing_max`:
-    /// the largest spacing, in m, that is allowed at given material coordinates.
+    /// Returns the panel with cells of two, four and eight spacings. No cell is larger than
+    /// `spacing_max` allows: the largest spacing, in m, at given material coordinates.
     ///
-    /// Cells beside the outline keep their size, so that the outline keeps its nodes, and so do cells
-    /// beside a fold. Two cells that touch differ by a factor of two at most. The particles are
-    /// numbered grid by grid, the finest first; the nodes of the outline of a panel that was cut
-    /// elsewhere follow.
+    /// Cells beside the outline keep their size, so that the outline keeps its nodes. Cells beside
+    /// a fold keep their size too. Two cells that touch differ by a factor of two at most. The
+    /// particles are numbered grid by grid, the finest first. The nodes of the outline of a panel
+    /// that was cut elsewhere follow.
     ///
     /// ```
     /// use drape_cloth::Lattice;
@@ -101,71 +104,60 @@ impl Lattice {
     /// ```
     ///
     /// # Errors
-    /// When the panel is graded already.
+    /// The panel is graded already.
     pub fn graded(&self, spacing_max: impl Fn([f64; 2]) -> f64) -> Result<GradedPanel, Error> {
         let [grid] = self.grids.as_slice() else { return Err(Error::Graded) };
-        let mut levels = Levels::of(self, grid, spacing_max);
+        let mut levels = Levels::new(self, grid, spacing_max);
         levels.raise();
         levels.balance();
         Ok(self.joined(grid, &levels))
     }
 
-    /// Returns the panel with the cells of its grid joined by their levels.
+    /// Returns the panel with the cells of `grid` joined by their `levels`.
     fn joined(&self, grid: &Grid, levels: &Levels) -> GradedPanel {
-        let node = |[column, row]: [usize; 2]| grid.points[row * grid.columns + column];
-        let mut numbers = vec![None; self.coordinates.len()];
-        let mut coordinates = Vec::new();
-        let mut keep = |node: u32| {
-            let number = coordinates.len() as u32;
-            coordinates.push(self.coordinates[node as usize]);
-            numbers[node as usize] = Some(number);
-            number
+        let mut numbering = Numbering {
+            lattice: self,
+            grid,
+            coordinates: Vec::new(),
+            numbers: vec![None; self.coordinates.len()],
         };
-        let mut grids = Vec::new();
-        for level in 0..=LEVEL_MAX {
-            let step = 1 << level;
-            let columns = grid.columns.div_ceil(step);
-            let rows = (grid.points.len() / grid.columns).div_ceil(step);
-            let places =
-                (0..rows).flat_map(|row| (0..columns).map(move |c| [step * c, step * row]));
-            let own = |&place: &[usize; 2]| levels.at_point(place) == Some(level);
-            let points: Vec<_> =
-                places.map(|place| Some(place).filter(own).and_then(node).map(&mut keep)).collect();
-            if points.iter().any(Option::is_some) {
-                let spacing = grid.spacing.map(|spacing| step as f64 * spacing);
-                grids.push(Grid { spacing, points, columns });
-            }
-        }
+        let grids = numbering.number_grids(LEVEL_MAX, |point| levels.at_point(point));
+
+        // The nodes of an outline that was cut elsewhere lie on no grid.
         let in_grid = grid.particles().count();
         (in_grid..self.coordinates.len()).for_each(|node| {
-            keep(node as u32);
+            numbering.keep(node as u32);
         });
 
-        let number = |node: u32| numbers[node as usize];
-        let at = |place: [usize; 2]| node(place).and_then(number);
+        // A block with nodes at its corners alone is a cell, another one becomes triangles.
         let mut cells = Vec::new();
-        let all = |nodes: [u32; 3]| nodes.map(|node| number(node).unwrap_or_default());
-        let mut rim: Vec<[u32; 3]> = self.rim.iter().map(|&triangle| all(triangle)).collect();
+        let mut rim: Vec<[u32; 3]> = self
+            .rim
+            .iter()
+            .map(|nodes| nodes.map(|node| numbering.number(node).unwrap_or_default()))
+            .collect();
         for block in levels.blocks() {
             let Block { column, row, level } = block;
-            let Some(cell) = levels.cell(column, row).map(|own| &self.cells[own.index]) else {
+            let Some(cell) = levels.cell(column, row).map(|cell| &self.cells[cell.index]) else {
                 continue;
             };
-            let places = block.corners();
-            let corners = places.map(|place| at(place).unwrap_or_default());
+            let points = block.corners();
+            let corners = points.map(|point| numbering.at_point(point).unwrap_or_default());
             let even = ((column >> level) + (row >> level)).is_multiple_of(2);
-            if places.iter().all(|&place| levels.at_point(place) == Some(level)) {
+            if points.iter().all(|&point| levels.at_point(point) == Some(level)) {
                 let parts = (block.side() * block.side()) as f64;
                 let quadrants = cell.quadrants.map(|area| parts * area);
                 cells.push(Cell { corners, quadrants, even });
             } else {
                 let middles = [0, 1, 2, 3].map(|side| {
-                    let (from, to) = (places[side], places[(side + 1) % 4]);
-                    at([0, 1].map(|k| (from[k] + to[k]) / 2))
+                    let (from, to) = (points[side], points[(side + 1) % 4]);
+                    numbering.at_point([0, 1].map(|k| (from[k] + to[k]) / 2))
                 });
-                rim.extend(triangulated(corners, middles, even));
+                rim.extend(triangulate(corners, middles, even));
             }
         }
+
+        let Numbering { coordinates, numbers, .. } = numbering;
         let mut allowances =
             vec![0.0; if self.allowances.is_empty() { 0 } else { coordinates.len() }];
         for (number, &area) in numbers.iter().zip(&self.allowances) {
@@ -177,75 +169,89 @@ impl Lattice {
         GradedPanel { lattice, numbers }
     }
 
-    /// Returns whether a point is so near a fold that cells keep their size.
+    /// Returns whether `point` is so near a fold that cells keep their size.
     fn is_beside_fold(&self, point: [f64; 2]) -> bool {
         let reach = FOLD_REACH * self.spacing[0].max(self.spacing[1]);
-        let is_beside = |fold: &Fold| {
+        self.folds.iter().any(|fold: &Fold| {
             let LineCoordinates { along, left } = fold.coordinates(point);
             left.abs() < reach && (-reach..fold.length() + reach).contains(&along)
-        };
-        self.folds.iter().any(is_beside)
+        })
     }
 }
 
 impl Levels {
-    /// Returns the cells of a panel, all of level 0, with their limits.
-    fn of(lattice: &Lattice, grid: &Grid, spacing_max: impl Fn([f64; 2]) -> f64) -> Self {
+    /// Returns the cells of `grid`, all of level 0, with the limits that `spacing_max` sets.
+    fn new(lattice: &Lattice, grid: &Grid, spacing_max: impl Fn([f64; 2]) -> f64) -> Self {
         let [columns, rows] = [grid.columns - 1, grid.points.len() / grid.columns - 1];
-        let mut places = vec![0; lattice.coordinates.len()];
+        let mut points = vec![0; lattice.coordinates.len()];
         for (point, particle) in grid.points.iter().enumerate() {
-            particle.iter().for_each(|&particle| places[particle as usize] = point);
+            particle.iter().for_each(|&particle| points[particle as usize] = point);
         }
+
         let quarter = 0.25 * grid.spacing[0] * grid.spacing[1];
         let finest = grid.spacing[0].max(grid.spacing[1]);
         let mut cells = vec![None; columns * rows];
         for (index, cell) in lattice.cells.iter().enumerate() {
-            let is_full = |&area: &f64| (area - quarter).abs() <= ROUNDING_ERROR * quarter;
+            // The smallest spacing at the corners decides.
             let allowed = cell.corners.map(|node| spacing_max(lattice.coordinates[node as usize]));
             let ratio = allowed.into_iter().fold(f64::MAX, f64::min) / finest;
-            let fits = |level: &u8| ratio >= f64::from(1_u32 << level) * (1.0 - ROUNDING_ERROR);
-            let limit = (1..=LEVEL_MAX).take_while(fits).last().unwrap_or(0);
-            let beside_fold = || {
-                cell.corners
+            let spacing_limit = (1..=LEVEL_MAX)
+                .take_while(|level| ratio >= f64::from(1_u32 << level) * (1.0 - ROUNDING_ERROR))
+                .last()
+                .unwrap_or(0);
+
+            // Only full cells away from folds become larger.
+            let is_full = cell
+                .quadrants
+                .iter()
+                .all(|&area| (area - quarter).abs() <= ROUNDING_ERROR * quarter);
+            let may_grow = is_full
+                && spacing_limit > 0
+                && !cell
+                    .corners
                     .iter()
-                    .any(|&node| lattice.is_beside_fold(lattice.coordinates[node as usize]))
-            };
-            let may = cell.quadrants.iter().all(is_full) && (limit == 0 || !beside_fold());
-            let limit = if may { limit } else { 0 };
-            let point = places[cell.corners[0] as usize];
+                    .any(|&node| lattice.is_beside_fold(lattice.coordinates[node as usize]));
+            let limit = if may_grow { spacing_limit } else { 0 };
+            let point = points[cell.corners[0] as usize];
             cells[point / grid.columns * columns + point % grid.columns] =
                 Some(CellLevel { index, level: 0, limit });
         }
         Self { columns, rows, cells }
     }
 
+    /// Returns the cell at `column` and `row`, or `None` outside the panel.
     fn cell(&self, column: usize, row: usize) -> Option<CellLevel> {
         let inside = column < self.columns && row < self.rows;
         if inside { self.cells[row * self.columns + column] } else { None }
     }
 
-    /// Returns the level of the node at a point; nothing where a block is that has no node there.
+    /// Returns the level of the node at a point, or `None` inside a block that has no node there.
     fn at_point(&self, [column, row]: [usize; 2]) -> Option<u8> {
         let around = [[1, 1], [0, 1], [1, 0], [0, 0]];
         let levels = around.iter().filter_map(|&[left, below]| {
-            self.cell(column.checked_sub(left)?, row.checked_sub(below)?).map(|own| own.level)
+            self.cell(column.checked_sub(left)?, row.checked_sub(below)?).map(|cell| cell.level)
         });
         let level = levels.min().unwrap_or(0);
-        let is_on = |place: usize| place.is_multiple_of(1 << level);
-        (is_on(column) && is_on(row)).then_some(level)
+        let size = 1 << level;
+        (column.is_multiple_of(size) && row.is_multiple_of(size)).then_some(level)
     }
 
-    /// Blocks of the panel, row by row.
+    /// Returns each [`Block`] of the panel, row by row.
     fn blocks(&self) -> impl Iterator<Item = Block> {
-        let places =
+        let cells =
             (0..self.rows).flat_map(|row| (0..self.columns).map(move |column| [column, row]));
-        places.filter_map(|[column, row]| {
+        cells.filter_map(|[column, row]| {
             let level = self.cell(column, row)?.level;
-            let is_on = |place: usize| place.is_multiple_of(1 << level);
-            (is_on(column) && is_on(row)).then_some(Block { column, row, level })
+            let size = 1 << level;
+            (column.is_multiple_of(size) && row.is_multiple_of(size)).then_some(Block {
+                column,
+                row,
+                level,
+            })
         })
     }
 
+    /// Sets the level of all cells of `block` to `level`.
     fn set(&mut self, block: Block, level: u8) {
         for [column, row] in block.cells() {
             if let Some(cell) = &mut self.cells[row * self.columns + column] {
@@ -254,7 +260,7 @@ impl Levels {
         }
     }
 
-    /// Cells of a block and those around it; nothing for one outside of the panel.
+    /// Returns the cells of `block` and around it, `None` for places outside the panel.
     fn around(&self, block: Block) -> impl Iterator<Item = Option<CellLevel>> {
         let side = block.side();
         // Counted from one cell before the block.
@@ -265,18 +271,18 @@ impl Levels {
         })
     }
 
-    /// Joins cells, four to one, as far as their limits allow and cells lie all around them.
+    /// Joins cells, four to one, as far as their `limit` allows and cells lie all around them.
     fn raise(&mut self) {
         for level in 1..=LEVEL_MAX {
             let side = 1 << level;
             for row in (0..=self.rows.saturating_sub(side)).step_by(side) {
                 for column in (0..=self.columns.saturating_sub(side)).step_by(side) {
                     let block = Block { column, row, level };
-                    let may = block.cells().all(|[column, row]| {
-                        let own = self.cell(column, row);
-                        own.is_some_and(|own| own.level + 1 == level && own.limit >= level)
+                    let may_join = block.cells().all(|[column, row]| {
+                        self.cell(column, row)
+                            .is_some_and(|cell| cell.level + 1 == level && cell.limit >= level)
                     });
-                    if may && self.around(block).all(|own| own.is_some()) {
+                    if may_join && self.around(block).all(|cell| cell.is_some()) {
                         self.set(block, level);
                     }
                 }
@@ -284,17 +290,21 @@ impl Levels {
         }
     }
 
-    /// Divides blocks until the sides of two that touch differ by a factor of two at most, and each block
-    /// has a corner that belongs to no smaller block.
+    /// Divides blocks until the sides of two blocks that touch differ by a factor of two at most,
+    /// and each [`Block`] has a corner that belongs to no smaller block.
     fn balance(&mut self) {
         loop {
             let divided: Vec<Block> = self
                 .blocks()
                 .filter(|&block| {
-                    let is_small =
-                        |own: Option<CellLevel>| own.is_some_and(|own| own.level + 1 < block.level);
-                    let is_own = |place| self.at_point(place) == Some(block.level);
-                    self.around(block).any(is_small) || !block.corners().into_iter().any(is_own)
+                    let touches_small = self.around(block).any(|cell: Option<CellLevel>| {
+                        cell.is_some_and(|cell| cell.level + 1 < block.level)
+                    });
+                    let has_corner = block
+                        .corners()
+                        .into_iter()
+                        .any(|point| self.at_point(point) == Some(block.level));
+                    touches_small || !has_corner
                 })
                 .collect();
             if divided.is_empty() {
@@ -305,9 +315,10 @@ impl Levels {
     }
 }
 
-/// Returns the triangles of a square with the given corners, anticlockwise, and the nodes in the
-/// middles of its sides, where smaller cells have some.
-fn triangulated(corners: [u32; 4], middles: [Option<u32>; 4], even: bool) -> Vec<[u32; 3]> {
+/// Returns the triangles of a square with `corners`, anticlockwise. `middles` are the nodes in the
+/// middles of its sides, where smaller cells have some. `even` chooses the diagonal without them.
+fn triangulate(corners: [u32; 4], middles: [Option<u32>; 4], even: bool) -> Vec<[u32; 3]> {
+    // Corners between two middles are cut off.
     let mut triangles = Vec::new();
     let mut polygon = Vec::new();
     for (k, corner) in corners.into_iter().enumerate() {
@@ -317,7 +328,7 @@ fn triangulated(corners: [u32; 4], middles: [Option<u32>; 4], even: bool) -> Vec
         }
         polygon.extend(middles[k]);
     }
-    // A fan about a middle, or about a corner where there is none: no three nodes lie on a line.
+    // The fan starts at a middle, or at a corner where there is none: no three nodes lie on a line.
     let about = middles.iter().flatten().next().or(corners.get(usize::from(!even)));
     let start = polygon.iter().position(|node| Some(node) == about).unwrap_or(0);
     polygon.rotate_left(start);
@@ -441,9 +452,9 @@ mod tests {
             assert_eq!(without_shear(&lattice), without_shear(&fine));
 
             // Between cells of two sizes no stencil is folded.
-            let bending = BendingConnectors::of(&lattice, &lattice.areas(), true);
-            let neighbourhoods = Neighbourhoods::of(&lattice).expect("it has a rim");
-            let fits = PanelFits::of(&lattice, &neighbourhoods, &bending);
+            let bending = BendingConnectors::along_yarns(&lattice, &lattice.areas(), true);
+            let neighbourhoods = Neighbourhoods::new(&lattice).expect("it has a rim");
+            let fits = PanelFits::new(&lattice, &neighbourhoods, &bending);
             let inside = fits.stencils.iter().filter(|stencil| {
                 let [u, v] = lattice.coordinates[stencil.middle as usize];
                 u.hypot(v) < 0.13
@@ -462,7 +473,7 @@ mod tests {
         let twice = |triangle: &[u32; 3]| twice_area(triangle.map(|node| points[node as usize]));
         for (divided, even) in (0..16_u32).flat_map(|divided| [(divided, true), (divided, false)]) {
             let middles = [0, 1, 2, 3].map(|side| (divided >> side & 1 == 1).then_some(4 + side));
-            let triangles = triangulated([0, 1, 2, 3], middles, even);
+            let triangles = triangulate([0, 1, 2, 3], middles, even);
             assert!(triangles.iter().all(|triangle| twice(triangle) > 0.0), "{triangles:?}");
             assert_eq!(triangles.iter().map(twice).sum::<f64>(), 8.0, "{triangles:?}");
             for corner in 0..4 {

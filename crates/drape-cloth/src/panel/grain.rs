@@ -1,8 +1,8 @@
-//! The rotation between the yarns and a panel's own frame.
+//! Rotation between the yarns and a panel's frame.
 
-/// Rotation from a panel's own frame to its yarns.
+/// Rotation from a panel's frame to its yarns.
 ///
-/// The panel's own frame has its width along x and its height along y, its right side towards the
+/// The panel's frame has its width along x and its height along y, its right side towards the
 /// reader. At an angle `$\gamma$` the warp is rotated from y and the weft from x, anticlockwise:
 ///
 /// ```math
@@ -22,7 +22,7 @@ impl Default for Grain {
 }
 
 impl Grain {
-    /// Returns the grain of yarns rotated by an angle in degrees; multiples of 90° are exact.
+    /// Returns the grain of yarns rotated by `angle`, in degrees. Multiples of 90° are exact.
     #[must_use]
     pub fn from_degrees(angle: f64) -> Self {
         let quarters = (angle / 90.0).round();
@@ -35,26 +35,26 @@ impl Grain {
         }
     }
 
-    /// Returns the direction of the weft in the panel's own frame.
+    /// Returns the direction of the weft in the panel's frame, as `[x, y]`.
     #[must_use]
     pub fn weft(&self) -> [f64; 2] {
         [self.cos, self.sin]
     }
 
-    /// Returns the point in the panel's own frame that has the given material coordinates.
+    /// Returns the point in the panel's frame with the material coordinates `u` and `v`.
     #[must_use]
     pub fn to_panel(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [u * self.cos - v * self.sin, u * self.sin + v * self.cos]
     }
 
-    /// Returns the material coordinates of a point in the panel's own frame.
+    /// Returns the material coordinates of the point (`x`, `y`) in the panel's frame.
     #[must_use]
     pub fn to_material(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [x * self.cos + y * self.sin, y * self.cos - x * self.sin]
     }
 
-    /// Returns two lengths along the sides of a panel as lengths along the yarns nearest to them,
-    /// weft and warp; its own inverse.
+    /// Returns the lengths `a` and `b` along the sides of a panel as lengths along the yarns
+    /// nearest to them, weft and warp. The method is its inverse too.
     pub(crate) fn exchanged(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         if self.sin.abs() > self.cos.abs() { [b, a] } else { [a, b] }
     }

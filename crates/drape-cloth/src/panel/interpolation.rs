@@ -1,13 +1,13 @@
-//! Interpolation from the particles of a panel to those of another grid of the same panel.
+//! Interpolation from the particles of a panel to the particles of another grid of the panel.
 
 use crate::panel::lattice::Lattice;
 use crate::panel::triangle::twice_area;
 
-/// Limit of the extrapolation: barycentric coordinates are this far below 0 at most.
+/// Limit of the extrapolation: no barycentric coordinate is farther below 0.
 const OUTSIDE_MAX: f64 = 0.5;
 
-/// Interpolation from the particles of a panel to those of another grid of the same panel, linear on
-/// the triangles of the first.
+/// Interpolation from the particles of a panel to the particles of another grid of the panel. It is
+/// linear on the triangles of the first grid.
 ///
 /// ```
 /// use drape_cloth::{Interpolation, Lattice};
@@ -16,67 +16,72 @@ const OUTSIDE_MAX: f64 = 0.5;
 /// let flat = |lattice: &Lattice| -> Vec<f64> {
 ///     lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.5 * v, 1.0]).collect()
 /// };
-/// let found = Interpolation::new(&coarse, &fine).apply(&flat(&coarse));
-/// assert!(found.iter().zip(flat(&fine)).all(|(a, b)| (a - b).abs() < 1e-12));
+/// let values = Interpolation::new(&coarse, &fine).apply(&flat(&coarse));
+/// assert!(values.iter().zip(flat(&fine)).all(|(a, b)| (a - b).abs() < 1e-12));
 /// # Ok::<(), drape_cloth::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Interpolation {
-    /// Corners of a triangle for each particle, and their weights.
+    /// For each particle, the corners of a triangle and their weights.
     rows: Vec<([u32; 3], [f64; 3])>,
 }
 
-/// Triangles of a panel in square bins, each in all bins that its bounding box meets.
-struct Bins<'a> {
+/// Triangles of a panel in square bins, each triangle in all bins that its bounding box meets.
+struct TriangleBins<'a> {
     coordinates: &'a [[f64; 2]],
     triangles: Vec<[u32; 3]>,
     low: [f64; 2],
     size: f64,
     counts: [usize; 2],
-    /// Triangles in each bin, by their indices; the bins are row by row.
+    /// Indices of the triangles in each bin. Bins are stored row by row.
     members: Vec<Vec<u32>>,
 }
 
 impl Interpolation {
-    /// Prepares the interpolation between two grids of one panel.
+    /// Prepares the interpolation from the grid `from` to the grid `to` of one panel.
     ///
-    /// A particle that lies outside of all triangles, as between a chord of a curved edge and the edge,
-    /// has the values of the nearest one, extended.
+    /// A particle outside all triangles, such as one between a curved edge and its chord, takes
+    /// extrapolated values of the nearest triangle.
     #[must_use]
     pub fn new(from: &Lattice, to: &Lattice) -> Self {
-        let bins = Bins::new(from);
+        let bins = TriangleBins::new(from);
         Self { rows: to.coordinates.iter().map(|&point| bins.locate(point)).collect() }
     }
 
-    /// Returns the values at the particles, three numbers for each, from those of the other grid.
+    /// Returns the values at the particles of the second grid, three numbers each, from `values` at
+    /// the particles of the first.
     ///
     /// # Panics
-    /// If there are fewer values than that grid has particles.
+    /// There are fewer `values` than particles of the first grid.
     #[must_use]
     pub fn apply(&self, values: &[f64]) -> Vec<f64> {
-        let of = |&(corners, weights): &([u32; 3], [f64; 3])| {
+        let interpolated = self.rows.iter().flat_map(|&(corners, weights)| {
             [0, 1, 2].map(|axis| {
-                let value = |corner: u32| values[3 * corner as usize + axis];
                 corners
                     .iter()
                     .zip(weights)
-                    .map(|(&corner, weight)| weight * value(corner))
+                    .map(|(&corner, weight)| weight * values[3 * corner as usize + axis])
                     .sum::<f64>()
             })
-        };
-        self.rows.iter().flat_map(of).collect()
+        });
+        interpolated.collect()
     }
 }
 
-impl<'a> Bins<'a> {
+impl<'a> TriangleBins<'a> {
+    /// Sorts the triangles of `lattice` into bins with the size of its spacing.
     fn new(lattice: &'a Lattice) -> Self {
         let coordinates = lattice.coordinates.as_slice();
         let size = lattice.spacing[0].max(lattice.spacing[1]);
-        let end = |axis: usize, pick: fn(f64, f64) -> f64| {
-            coordinates.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
-        };
-        let low = [0, 1].map(|axis| end(axis, f64::min));
-        let counts = [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
+        let mut low = coordinates.first().copied().unwrap_or([0.0; 2]);
+        let mut high = low;
+        for point in coordinates {
+            low = [0, 1].map(|axis| low[axis].min(point[axis]));
+            high = [0, 1].map(|axis| high[axis].max(point[axis]));
+        }
+        let counts = [0, 1].map(|axis| ((high[axis] - low[axis]) / size) as usize + 1);
+
+        // A triangle belongs to all bins between the ends of its bounding box.
         let mut bins = Self {
             coordinates,
             triangles: lattice.triangles(),
@@ -88,7 +93,7 @@ impl<'a> Bins<'a> {
         for (index, triangle) in bins.triangles.iter().enumerate() {
             let corners = triangle.map(|corner| bins.coordinates[corner as usize]);
             let ends = [f64::min, f64::max].map(|pick| {
-                [0, 1].map(|axis| corners.iter().map(|own| own[axis]).fold(corners[0][axis], pick))
+                [0, 1].map(|axis| corners.iter().map(|c| c[axis]).fold(corners[0][axis], pick))
             });
             let [first, last] = ends.map(|point| bins.bin(point));
             for row in first[1]..=last[1] {
@@ -100,16 +105,18 @@ impl<'a> Bins<'a> {
         bins
     }
 
-    /// Returns the column and the row of the bin that a point is in, or of the nearest bin.
+    /// Returns the column and the row of the bin that contains `point`, or of the nearest bin.
     fn bin(&self, point: [f64; 2]) -> [usize; 2] {
         [0, 1].map(|axis| {
-            let place = (point[axis] - self.low[axis]) / self.size;
-            (place.max(0.0) as usize).min(self.counts[axis] - 1)
+            let offset = (point[axis] - self.low[axis]) / self.size;
+            (offset.max(0.0) as usize).min(self.counts[axis] - 1)
         })
     }
 
-    /// Returns the triangle that has a point, or the nearest one, with the weights of its corners.
+    /// Returns the triangle that contains `point`, or the nearest one, with the weights of its
+    /// corners.
     fn locate(&self, point: [f64; 2]) -> ([u32; 3], [f64; 3]) {
+        // Bins are searched in square rings around the bin of the point.
         let [column, row] = self.bin(point);
         let mut best: Option<(f64, u32)> = None;
         for ring in 0..self.counts[0].max(self.counts[1]) {
@@ -119,8 +126,8 @@ impl<'a> Bins<'a> {
                 for column in range(column, self.counts[0]) {
                     for &index in &self.members[row * self.counts[0] + column] {
                         let outside = self.distance(point, index);
-                        let is_nearer = best.is_none_or(|(least, other)| {
-                            outside < least || (outside == least && index < other)
+                        let is_nearer = best.is_none_or(|(least, nearest)| {
+                            outside < least || (outside == least && index < nearest)
                         });
                         if is_nearer {
                             best = Some((outside, index));
@@ -128,17 +135,17 @@ impl<'a> Bins<'a> {
                     }
                 }
             }
-            // What lies beyond the ring is farther than its bins are wide.
+            // A triangle beyond the ring is farther away than the ring's bins are wide.
             if best.is_some_and(|(least, _)| least <= ring as f64 * self.size) {
                 break;
             }
         }
         let triangle = best.map_or(0, |(_, index)| index);
         let corners = self.triangles[triangle as usize];
-        (corners, limited(self.weights(point, triangle)))
+        (corners, limit_extrapolation(self.weights(point, triangle)))
     }
 
-    /// Returns the barycentric coordinates of a point in a triangle.
+    /// Returns the barycentric coordinates of `point` in the triangle number `triangle`.
     fn weights(&self, point: [f64; 2], triangle: u32) -> [f64; 3] {
         let corners = self.triangles[triangle as usize];
         let [a, b, c] = corners.map(|corner| self.coordinates[corner as usize]);
@@ -146,27 +153,31 @@ impl<'a> Bins<'a> {
         [[point, b, c], [a, point, c], [a, b, point]].map(|part| twice_area(part) / whole)
     }
 
-    /// Returns the distance of a point from a triangle, 0 inside.
+    /// Returns the distance of `point` from the triangle number `triangle`, 0 inside, in m.
     fn distance(&self, point: [f64; 2], triangle: u32) -> f64 {
         if self.weights(point, triangle).iter().all(|&weight| weight >= -1e-12) {
             return 0.0;
         }
         let corners =
             self.triangles[triangle as usize].map(|corner| self.coordinates[corner as usize]);
-        let side = |index: usize| {
-            let [a, b] = [corners[index], corners[(index + 1) % 3]];
-            let along = [b[0] - a[0], b[1] - a[1]];
-            let own = [point[0] - a[0], point[1] - a[1]];
-            let square = along[0] * along[0] + along[1] * along[1];
-            let t = ((own[0] * along[0] + own[1] * along[1]) / square).clamp(0.0, 1.0);
-            (own[0] - t * along[0]).hypot(own[1] - t * along[1])
-        };
-        (0..3).map(side).fold(f64::INFINITY, f64::min)
+        [0, 1, 2]
+            .map(|k| distance_from_segment(point, corners[k], corners[(k + 1) % 3]))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
+/// Returns the distance of `point` from the segment from `a` to `b`, in m.
+fn distance_from_segment(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let offset = [point[0] - a[0], point[1] - a[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let t = ((offset[0] * along[0] + offset[1] * along[1]) / square).clamp(0.0, 1.0);
+    (offset[0] - t * along[0]).hypot(offset[1] - t * along[1])
+}
+
 /// Returns barycentric coordinates limited to at least −[`OUTSIDE_MAX`] and divided by their sum.
-fn limited(weights: [f64; 3]) -> [f64; 3] {
+fn limit_extrapolation(weights: [f64; 3]) -> [f64; 3] {
     let limited = weights.map(|weight| weight.max(-OUTSIDE_MAX));
     let sum: f64 = limited.iter().sum();
     limited.map(|weight| weight / sum)
@@ -196,7 +207,7 @@ mod tests {
     #[test]
     fn distances_from_a_triangle_are_those_from_its_nearest_side_or_corner() {
         let lattice = Lattice::rectangle(0.1, 0.1, 0.05).expect("a panel");
-        let bins = Bins::new(&lattice);
+        let bins = TriangleBins::new(&lattice);
         // The triangle with the corners (0, 0), (0.05, 0) and (0.05, 0.05).
         let corners = [[0.0, 0.0], [0.05, 0.0], [0.05, 0.05]];
         let is_own = |point: &[f64; 2]| {

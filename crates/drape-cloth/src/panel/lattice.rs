@@ -10,8 +10,8 @@ use crate::panel::triangle::twice_area;
 /// Panel before deformation: particles on a grid along the yarns, and the cells between them.
 ///
 /// The material coordinates of a particle are `u` along the weft and `v` along the warp. Every cell
-/// has four corners and the area of the panel in each of its four quadrants, from which the masses
-/// and the areas of all connectors follow.
+/// has four corners and the area of the panel in each of its four quadrants. The masses and the
+/// areas of all connectors follow from these areas.
 ///
 /// ```
 /// use drape_cloth::Lattice;
@@ -26,28 +26,29 @@ use crate::panel::triangle::twice_area;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lattice {
-    /// Distance of the particles along the weft and along the warp, in m; of the finest
-    /// grid in a [graded](Lattice::graded) panel.
+    /// Distance of the particles along the weft and along the warp, in m. In a
+    /// [graded](Lattice::graded) panel it belongs to the finest grid.
     pub spacing: [f64; 2],
     /// Material coordinates of the particles, in m.
     pub coordinates: Vec<[f64; 2]>,
-    /// Rotation between the panel's own frame and its yarns.
+    /// Rotation between the panel's frame and its yarns.
     pub grain: Grain,
-    /// Middle of the panel in its own frame, in m: [0, 0] for a disc, that of the bounding box for
-    /// a panel that was cut elsewhere.
+    /// Middle of the panel in its frame, in m: [0, 0] for a disc, the middle of the bounding box
+    /// for a panel that was cut elsewhere.
     pub middle: [f64; 2],
     /// Width and height of a rectangle, in m.
     pub(crate) size: Option<[f64; 2]>,
     /// Cells, row by row along the warp.
     pub cells: Vec<Cell>,
-    /// Triangles between the cells and the outline, and between cells of two sizes, anticlockwise;
-    /// empty in panels without a rim.
+    /// Triangles between the cells and the outline, and between cells of two sizes, anticlockwise.
+    /// The list is empty in panels without a rim.
     pub rim: Vec<[u32; 3]>,
     /// Lines along which the panel is folded at rest.
     pub(crate) folds: Vec<Fold>,
-    /// Area of cloth that lies along the outline at each particle, in m²; empty without allowances.
+    /// Area of cloth of allowances at each particle, in m², empty without allowances.
     pub(crate) allowances: Vec<f64>,
-    /// Grids of the particles: one, or in a [graded](Lattice::graded) panel several, the finest first.
+    /// Grids of the particles: one, or several in a [graded](Lattice::graded) panel, the finest
+    /// first.
     pub(crate) grids: Vec<Grid>,
 }
 
@@ -63,78 +64,89 @@ pub struct Cell {
 }
 
 impl Lattice {
-    /// Points of the particles in the panel's own frame, in m: from the lower left corner of a
-    /// rectangle, from the middle of a disc, as given for a panel that was cut elsewhere.
+    /// Returns the points of the particles in the panel's frame, in m. The frame of a rectangle
+    /// starts at its lower left corner, the frame of a disc at its middle. A panel that was cut
+    /// elsewhere keeps the frame of its [`Mesh`](crate::Mesh).
     #[must_use]
     pub fn panel_coordinates(&self) -> Vec<[f64; 2]> {
         self.coordinates.iter().map(|&coordinates| self.grain.to_panel(coordinates)).collect()
     }
 
-    /// Distance of each particle from a side of the panel, in spacings: 0 on it, negative beyond
-    /// it.
+    /// Returns the distance of each particle from a side of the panel, in spacings: 0 on the side,
+    /// negative beyond it.
     ///
-    /// The side is that at the low (−1) or the high end (1) of an axis of the panel's own frame;
-    /// panels other than rectangles have their outermost particles there.
+    /// The side is at the low (`end` −1) or the high end (`end` 1) of `axis` of the panel's frame.
+    /// Panels other than rectangles have their outermost particles there.
     #[must_use]
     pub fn depths(&self, axis: usize, end: f64) -> Vec<f64> {
         let points = self.panel_coordinates();
-        let outermost = || points.iter().map(|point| end * point[axis]).fold(f64::MIN, f64::max);
-        let side =
-            self.size.map_or_else(outermost, |size| if end > 0.0 { size[axis] } else { 0.0 });
+        let side = match self.size {
+            Some(size) => {
+                if end > 0.0 {
+                    size[axis]
+                } else {
+                    0.0
+                }
+            }
+            None => points.iter().map(|point| end * point[axis]).fold(f64::MIN, f64::max),
+        };
         let spacing = self.grain.exchanged(self.spacing)[axis];
         points.iter().map(|point| (side - end * point[axis]) / spacing).collect()
     }
 
-    /// Lines along which the panel is folded at rest.
+    /// Returns the lines along which the panel is folded at rest, as [`Fold`]s.
     #[must_use]
     pub fn folds(&self) -> &[Fold] {
         &self.folds
     }
 
-    /// Area of the panel, in m².
+    /// Returns the area of the panel, in m², the sum over `cells` and `rim`.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.cells.iter().flat_map(|cell| cell.quadrants).chain(self.rim_areas()).sum()
     }
 
-    /// Triangles for pictures and contact: every cell halved, with diagonals that alternate like
-    /// the fields of a chessboard, then the rim.
+    /// Returns triangles for pictures and contact: every cell halved, with diagonals that alternate
+    /// like the fields of a chessboard, then the `rim`.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let halves = |cell: &Cell| {
+        let halves = self.cells.iter().flat_map(|cell| {
             let [a, b, c, d] = cell.corners;
             if cell.even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
-        };
-        self.cells.iter().flat_map(halves).chain(self.rim.iter().copied()).collect()
+        });
+        halves.chain(self.rim.iter().copied()).collect()
     }
 
-    /// Runs of consecutive particles along the yarns: of the warp, then of the weft.
+    /// Returns runs of consecutive particles along the yarns of all `grids`: of the warp, then of
+    /// the weft.
     pub(crate) fn yarns(&self) -> [Vec<Vec<u32>>; 2] {
         let mut all = [Vec::new(), Vec::new()];
         for grid in &self.grids {
-            all.iter_mut().zip(grid.yarns()).for_each(|(all, own)| all.extend(own));
+            all.iter_mut().zip(grid.yarns()).for_each(|(all, yarns)| all.extend(yarns));
         }
         all
     }
 
-    /// Largest distance of neighbouring particles along the weft and along the warp, in m.
+    /// Returns the largest distance of neighbouring particles along the weft and along the warp, in
+    /// m. In a panel that is not graded it is `spacing`.
     #[must_use]
     pub fn spacing_max(&self) -> [f64; 2] {
         self.grids.last().map_or(self.spacing, |grid| grid.spacing)
     }
 
-    /// Spacing of the grid of each particle, the geometric mean along weft and warp, in m; that of the
-    /// finest grid for nodes of the outline.
+    /// Returns for each particle the spacing of its grid, the geometric mean along weft and warp,
+    /// in m. Nodes of the outline have the mean of `spacing`.
     pub(crate) fn spacings(&self) -> Vec<f64> {
-        let mean = |[across, along]: [f64; 2]| (across * along).sqrt();
-        let mut spacings = vec![mean(self.spacing); self.coordinates.len()];
+        let [across, along] = self.spacing;
+        let mut spacings = vec![(across * along).sqrt(); self.coordinates.len()];
         for grid in &self.grids {
-            grid.particles().for_each(|node| spacings[node as usize] = mean(grid.spacing));
+            let [across, along] = grid.spacing;
+            grid.particles().for_each(|node| spacings[node as usize] = (across * along).sqrt());
         }
         spacings
     }
 
-    /// Areas of the particles, in m².
+    /// Returns the areas of the particles, in m², from `cells` and `rim`.
     pub(crate) fn areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.coordinates.len()];
         for cell in &self.cells {
@@ -148,43 +160,45 @@ impl Lattice {
         areas
     }
 
-    /// Areas of the triangles of the rim, in m².
+    /// Returns the areas of the triangles of the `rim`, in m².
     pub(crate) fn rim_areas(&self) -> impl Iterator<Item = f64> {
-        let area = |triangle: &[u32; 3]| {
-            0.5 * twice_area(triangle.map(|node| self.coordinates[node as usize]))
-        };
-        self.rim.iter().map(area)
+        self.rim
+            .iter()
+            .map(|triangle| 0.5 * twice_area(triangle.map(|node| self.coordinates[node as usize])))
     }
 
-    /// Sides of cells and triangles that belong to no other cell or triangle.
+    /// Returns the sides that belong to only one of the `cells` and triangles of the `rim`.
     pub(crate) fn outline(&self) -> BTreeSet<[u32; 2]> {
         let mut count = BTreeMap::new();
-        let mut add = |nodes: &[u32]| {
+        for nodes in self.faces() {
             for (k, &node) in nodes.iter().enumerate() {
                 let next = nodes[(k + 1) % nodes.len()];
                 *count.entry([node.min(next), node.max(next)]).or_insert(0) += 1;
             }
-        };
-        self.cells.iter().for_each(|cell| add(&cell.corners));
-        self.rim.iter().for_each(|triangle| add(triangle));
+        }
         count.into_iter().filter(|&(_, faces)| faces == 1).map(|(side, _)| side).collect()
     }
 
-    /// Particles that share a cell or a triangle with each particle.
+    /// Returns for each particle the particles with a common face, one of the `cells` or of the
+    /// triangles of the `rim`.
     pub(crate) fn neighbours(&self) -> Vec<Vec<u32>> {
         let mut neighbours = vec![Vec::new(); self.coordinates.len()];
-        let mut add = |nodes: &[u32]| {
+        for nodes in self.faces() {
             for &node in nodes {
                 let others = nodes.iter().copied().filter(|&other| other != node);
                 neighbours[node as usize].extend(others);
             }
-        };
-        self.cells.iter().for_each(|cell| add(&cell.corners));
-        self.rim.iter().for_each(|triangle| add(triangle));
-        for others in &mut neighbours {
-            others.sort_unstable();
-            others.dedup();
+        }
+        for list in &mut neighbours {
+            list.sort_unstable();
+            list.dedup();
         }
         neighbours
+    }
+
+    /// Returns the nodes of all `cells`, then of all triangles of the `rim`.
+    fn faces(&self) -> impl Iterator<Item = &[u32]> {
+        let cells = self.cells.iter().map(|cell| &cell.corners[..]);
+        cells.chain(self.rim.iter().map(|triangle| &triangle[..]))
     }
 }

@@ -18,12 +18,12 @@ use crate::state::State;
 
 /// The connectors of a cloth one by one through the scalar laws.
 ///
-/// [`Cloth`](crate::Cloth) is tested and measured against it: the same numbers up to rounding, from
-/// code that shares with it which particles a connector joins, the weights of the fits at a rim,
-/// and the turning angle of a second difference.
+/// Tests and benches compare [`Cloth`](crate::Cloth) with this reference. Both give the same
+/// numbers up to rounding. They share only which particles a connector joins, the weights of the
+/// fits at a rim, and the turning angle of a second difference.
 ///
 /// ```
-/// use drape_cloth::{Cloth, Lattice, Reference};
+/// use drape_cloth::{Cloth, Lattice, ReferenceCloth};
 /// # let text = r#"
 /// #     name = "plain"
 /// #     density = 0.12
@@ -45,7 +45,7 @@ use crate::state::State;
 ///     lattice.coordinates.iter().flat_map(|&[u, v]| [u, v, s * u * v]).collect()
 /// };
 /// let state = cloth.state(place(0.0))?;
-/// let reference = Reference::new(&panels, cloth.sparsity(), &state);
+/// let reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
 /// let mut fast = vec![0.0; 3 * cloth.particles()];
 /// let mut exact = fast.clone();
 /// cloth.add_forces(&state, &place(2.0), &mut fast);
@@ -54,7 +54,7 @@ use crate::state::State;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Reference {
+pub struct ReferenceCloth {
     segments: Vec<Connector<TractionLaw, 2>>,
     corners: Vec<Connector<ShearLaw, 3>>,
     triples: Vec<Connector<BendingLaw, 3>>,
@@ -65,9 +65,9 @@ pub struct Reference {
     normals: Vec<f64>,
 }
 
-impl Reference {
-    /// Returns the connectors of panels at the positions of a state, with no friction in any of
-    /// them. The sparsity and the state are those of the cloth of the same panels.
+impl ReferenceCloth {
+    /// Returns the connectors of `panels` at the positions of `state`, without friction. `sparsity`
+    /// and `state` must belong to the cloth of the same panels.
     #[must_use]
     pub fn new(panels: &[(&Lattice, &Fabric)], sparsity: &Sparsity, state: &State) -> Self {
         let (positions, normals) = (state.positions.as_slice(), state.normals());
@@ -85,6 +85,8 @@ impl Reference {
             all.add_panel(lattice, fabric, first);
             first += lattice.coordinates.len() as u32;
         }
+
+        // Memories start at the measures of the state.
         for segment in &mut all.segments {
             segment.memory.position = segment.strain(positions);
             segment.memory.peak = segment.memory.position.max(0.0);
@@ -102,6 +104,7 @@ impl Reference {
         all
     }
 
+    /// Appends the connectors of a panel in `fabric` whose first particle is `first`.
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric, first: u32) {
         let Self { sparsity, .. } = self;
         for (cell, areas) in lattice.cells.iter().zip(lattice.shear_areas()) {
@@ -114,11 +117,11 @@ impl Reference {
                 self.corners.push(corner.with_area(area));
             }
         }
-        let near = Neighbourhoods::of(lattice);
-        let bending = BendingConnectors::of(lattice, &lattice.areas(), near.is_some());
+        let near = Neighbourhoods::new(lattice);
+        let bending = BendingConnectors::along_yarns(lattice, &lattice.areas(), near.is_some());
         if let Some(near) = &near {
-            self.triangles.extend(ReferenceTriangle::of(lattice, fabric, first));
-            let stencils = ReferenceStencil::of(lattice, fabric, near, &bending);
+            self.triangles.extend(ReferenceTriangle::for_panel(lattice, fabric, first));
+            let stencils = ReferenceStencil::for_panel(lattice, fabric, near, &bending);
             self.stencils.extend(stencils.into_iter().map(|stencil| stencil.shifted(first)));
         }
         for grid in &lattice.grids {
@@ -126,7 +129,7 @@ impl Reference {
         }
     }
 
-    /// Adds the segments and triples of a grid of a panel.
+    /// Appends the segments and triples of `grid`, a grid of `lattice`.
     fn add_yarns(
         &mut self,
         (lattice, grid): (&Lattice, &Grid),
@@ -135,7 +138,7 @@ impl Reference {
         bending: &[BendingConnectors; 2],
     ) {
         let Self { sparsity, .. } = self;
-        let particles: BTreeSet<u32> = grid.particles().collect();
+        let grid_particles: BTreeSet<u32> = grid.particles().collect();
         let [across, along] = grid.spacing;
         let sides = [(&fabric.warp, along), (&fabric.weft, across)];
         for (direction, yarns) in grid.yarns().iter().enumerate() {
@@ -145,8 +148,12 @@ impl Reference {
                 let segment = Connector::new(laws.traction, ends, measure, sparsity);
                 self.segments.push(segment.with_area(area));
             }
-            let own = |triple: &&Triple| particles.contains(&triple.particles[1]);
-            for &Triple { particles, area } in bending[direction].triples.iter().filter(own) {
+
+            // The list of triples covers all grids of the panel.
+            for &Triple { particles, area } in &bending[direction].triples {
+                if !grid_particles.contains(&particles[1]) {
+                    continue;
+                }
                 let fold = bending[direction].folds.get(particles[1] as usize);
                 let fold = fold.copied().unwrap_or(0.0);
                 let particles = particles.map(|p| first + p);
@@ -156,7 +163,7 @@ impl Reference {
         }
     }
 
-    /// Adds the forces at trial positions, in N, as
+    /// Adds the forces at the positions `trial` to `forces`, in N, like
     /// [`Cloth::add_forces`](crate::Cloth::add_forces).
     pub fn add_forces(&self, trial: &[f64], forces: &mut [f64]) {
         for segment in &self.segments {
@@ -168,6 +175,7 @@ impl Reference {
             add_at(forces, a, pull);
             add_at(forces, b, scale(pull, -1.0));
         }
+
         for corner in &self.corners {
             let [c, p, f] = corner.particles;
             let Corner { sine, warp_gradient: warp, weft_gradient: weft, .. } =
@@ -177,6 +185,7 @@ impl Reference {
             add_at(forces, f, scale(weft, -load));
             add_at(forces, c, scale(add(warp, weft), load));
         }
+
         for triple in &self.triples {
             let moment = triple.respond(trial, &self.normals, false).gradient;
             let pull = scale(moment, triple.area / (triple.measure * triple.measure));
@@ -184,14 +193,15 @@ impl Reference {
                 add_at(forces, particle, scale(pull, weight));
             }
         }
+
         self.triangles.iter().for_each(|triangle| triangle.add_forces(trial, forces));
         for stencil in &self.stencils {
             stencil.add_forces(trial, &self.normals, forces);
         }
     }
 
-    /// Returns the potential, in J, as [`Cloth::potential`](crate::Cloth::potential) but for a
-    /// constant.
+    /// Returns the potential at the positions `trial`, in J. It differs from
+    /// [`Cloth::potential`](crate::Cloth::potential) by a constant.
     #[must_use]
     pub fn potential(&self, trial: &[f64]) -> f64 {
         let segments = self
@@ -211,7 +221,7 @@ impl Reference {
         segments.chain(corners).chain(triples).chain(triangles).chain(stencils).sum()
     }
 
-    /// Adds the stiffness to the blocks, in N/m, as
+    /// Adds the stiffness at the positions `trial` to the blocks `values`, in N/m, like
     /// [`Cloth::add_stiffness`](crate::Cloth::add_stiffness).
     pub fn add_stiffness(&self, trial: &[f64], definite: bool, values: &mut [f64]) {
         for segment in &self.segments {
@@ -228,6 +238,7 @@ impl Reference {
             segment.add_block(1, block, values);
             segment.add_block(2, sum([(-1.0, block)]), values);
         }
+
         for corner in &self.corners {
             let CornerBlocks { warp: pp, weft: ff, mixed: pf } =
                 corner.corner_blocks(trial, definite);
@@ -238,6 +249,7 @@ impl Reference {
                 corner.add_block(pair, block, values);
             }
         }
+
         for triple in &self.triples {
             let block = triple.respond(trial, &self.normals, definite).hessian;
             let size = triple.area / triple.measure.powi(4);
@@ -246,6 +258,8 @@ impl Reference {
                 triple.add_block(pair, sum([(weight * size, block)]), values);
             }
         }
+
+        // Triangles and stencils look up their blocks.
         let mut put = |[row, column]: [u32; 2], block: Matrix| {
             let slot = self.sparsity.block(row, column).unwrap_or(usize::MAX);
             let values = &mut values[9 * slot..][..9];
@@ -261,8 +275,8 @@ impl Reference {
         }
     }
 
-    /// Accepts a step, as [`Cloth::commit`](crate::Cloth::commit), with the normals of the state
-    /// after it; returns the energy dissipated, in J.
+    /// Accepts a step to `positions`, like [`Cloth::commit`](crate::Cloth::commit). `normals`
+    /// belong to the state after the step. Returns the energy dissipated, in J.
     pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> f64 {
         self.normals.copy_from_slice(normals);
         let mut lost = 0.0;

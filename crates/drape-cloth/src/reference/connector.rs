@@ -7,7 +7,7 @@ use crate::measure::bending::{BendingMeasure, BendingResponse};
 use crate::measure::block::{Matrix, identity, outer, sum, transposed};
 use crate::measure::vector::{Vector, add, dot, scale, subtract, vector_at};
 
-/// Connector: a law, the particles of its measure, and the area that it stands for.
+/// Connector: a law, the particles of its measure, and its area.
 #[derive(Debug, Clone)]
 pub(crate) struct Connector<L, const N: usize> {
     pub(crate) law: L,
@@ -33,7 +33,7 @@ pub(crate) struct Edge {
 }
 
 impl Edge {
-    pub(crate) fn of(positions: &[f64], from: u32, to: u32) -> Self {
+    pub(crate) fn new(positions: &[f64], from: u32, to: u32) -> Self {
         let span = subtract(vector_at(positions, to), vector_at(positions, from));
         let length = dot(span, span).sqrt();
         Self { length, unit: scale(span, 1.0 / length) }
@@ -49,7 +49,7 @@ pub(crate) struct Corner {
     pub(crate) weft_gradient: Vector,
 }
 
-/// Blocks of a corner of the pairs warp–warp, weft–weft and warp–weft of its edges' ends.
+/// Blocks of a corner: of the warp end with itself, of the weft end with itself, and of both.
 pub(crate) struct CornerBlocks {
     pub(crate) warp: Matrix,
     pub(crate) weft: Matrix,
@@ -58,10 +58,10 @@ pub(crate) struct CornerBlocks {
 
 impl<L> Connector<L, 2> {
     pub(crate) fn edge(&self, positions: &[f64]) -> Edge {
-        Edge::of(positions, self.particles[0], self.particles[1])
+        Edge::new(positions, self.particles[0], self.particles[1])
     }
 
-    /// Returns the strain of a segment.
+    /// Returns the strain of a segment at `positions`.
     pub(crate) fn strain(&self, positions: &[f64]) -> f64 {
         self.edge(positions).length / self.measure - 1.0
     }
@@ -70,22 +70,19 @@ impl<L> Connector<L, 2> {
 impl Connector<ShearLaw, 3> {
     pub(crate) fn corner(&self, positions: &[f64]) -> Corner {
         let [centre, warp, weft] = self.particles;
-        let warp = Edge::of(positions, centre, warp);
-        let weft = Edge::of(positions, centre, weft);
+        let warp = Edge::new(positions, centre, warp);
+        let weft = Edge::new(positions, centre, weft);
         let cosine = dot(warp.unit, weft.unit);
-        let gradient = |along: &Edge, other: &Edge| {
-            scale(subtract(other.unit, scale(along.unit, cosine)), self.measure / along.length)
-        };
-        Corner {
-            sine: self.measure * cosine,
-            warp_gradient: gradient(&warp, &weft),
-            weft_gradient: gradient(&weft, &warp),
-            warp,
-            weft,
-        }
+        let [warp_gradient, weft_gradient] =
+            [(&warp, &weft), (&weft, &warp)].map(|(along, crossing)| {
+                let across = subtract(crossing.unit, scale(along.unit, cosine));
+                scale(across, self.measure / along.length)
+            });
+        Corner { sine: self.measure * cosine, warp_gradient, weft_gradient, warp, weft }
     }
 
-    /// Returns the blocks of a corner; with `definite`, without the second derivatives of the sine.
+    /// Returns the blocks of a corner at `positions`. With `definite`, the second derivatives of
+    /// the sine are left out.
     pub(crate) fn corner_blocks(&self, positions: &[f64], definite: bool) -> CornerBlocks {
         let Corner { sine, warp, weft, warp_gradient: gp, weft_gradient: gq } =
             self.corner(positions);
@@ -93,14 +90,14 @@ impl Connector<ShearLaw, 3> {
         let tangent = self.area * response.tangent;
         if definite {
             let tangent = tangent.max(0.0);
-            let block = |a, b| sum([(tangent, outer(a, b))]);
-            return CornerBlocks { warp: block(gp, gp), weft: block(gq, gq), mixed: block(gp, gq) };
+            let [warp, weft, mixed] =
+                [(gp, gp), (gq, gq), (gp, gq)].map(|(a, b)| sum([(tangent, outer(a, b))]));
+            return CornerBlocks { warp, weft, mixed };
         }
+        // Second derivatives of the cosine of the angle between two vectors.
         let (load, sign) = (self.area * response.load, self.measure);
         let cosine = sign * sine;
-        let across = |e: Vector| sum([(1.0, identity()), (-1.0, outer(e, e))]);
-        // Second derivatives of the cosine of the angle between two vectors.
-        let own = |edge: &Edge, gradient: Vector| {
+        let [warp_block, weft_block] = [(&warp, gp), (&weft, gq)].map(|(edge, gradient)| {
             let Edge { length, unit: e } = *edge;
             sum([
                 (tangent, outer(gradient, gradient)),
@@ -108,49 +105,48 @@ impl Connector<ShearLaw, 3> {
                 (-load / length, outer(e, gradient)),
                 (-load * sign * cosine / (length * length), across(e)),
             ])
-        };
+        });
         let (left, right) = (across(warp.unit), across(weft.unit));
         let both = [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(left[i], right[j])));
         let factor = load * sign / (warp.length * weft.length);
         CornerBlocks {
-            warp: own(&warp, gp),
-            weft: own(&weft, gq),
+            warp: warp_block,
+            weft: weft_block,
             mixed: sum([(tangent, outer(gp, gq)), (factor, both)]),
         }
     }
 }
 
+/// Returns the projection across the unit vector `e`, `$1 - ee^T$`.
+pub(crate) fn across(e: Vector) -> Matrix {
+    sum([(1.0, identity()), (-1.0, outer(e, e))])
+}
+
 impl<L, const N: usize> Connector<L, N> {
-    /// Returns a connector without memory, with a rest length or sign (`measure`) and an area of
-    /// one.
+    /// Returns a connector of `particles` without memory, with an area of one. `measure` is its
+    /// rest length, in m, or its sign. `sparsity` gives its blocks.
     pub(crate) fn new(law: L, particles: [u32; N], measure: f64, sparsity: &Sparsity) -> Self {
-        let block = |(i, j): (usize, usize)| {
-            let pair = (particles.get(i)?, particles.get(j)?);
-            sparsity.block(*pair.0.min(pair.1), *pair.0.max(pair.1))
-        };
-        Self {
-            law,
-            particles,
-            measure,
-            area: 1.0,
-            fold: 0.0,
-            memory: Memory::default(),
-            // A segment has the first three.
-            blocks: PAIRS.map(|pair| block(pair).unwrap_or(usize::MAX)),
-        }
+        // A segment has only the first three pairs.
+        let blocks = PAIRS.map(|(i, j)| {
+            let (Some(&a), Some(&b)) = (particles.get(i), particles.get(j)) else {
+                return usize::MAX;
+            };
+            sparsity.block(a.min(b), a.max(b)).unwrap_or(usize::MAX)
+        });
+        Self { law, particles, measure, area: 1.0, fold: 0.0, memory: Memory::default(), blocks }
     }
 
-    /// Returns the connector with an area, in m².
+    /// Returns the connector with `area`, in m².
     pub(crate) fn with_area(self, area: f64) -> Self {
         Self { area, ..self }
     }
 
-    /// Returns the connector with a rest curvature that folds add, in 1/m.
+    /// Returns the connector with `fold`, a rest curvature that folds add, in 1/m.
     pub(crate) fn with_fold(self, fold: f64) -> Self {
         Self { fold, ..self }
     }
 
-    /// Adds the block of one of the [`PAIRS`] to the values of the stiffness matrix.
+    /// Adds the block of one of the [`PAIRS`] to `values`, the stiffness matrix.
     pub(crate) fn add_block(&self, pair: usize, block: Matrix, values: &mut [f64]) {
         let (i, j) = PAIRS[pair];
         let lower = self.particles[i] > self.particles[j];
@@ -173,12 +169,13 @@ impl Connector<BendingLaw, 3> {
         }
     }
 
-    /// Returns the curvature about the normal, in 1/m.
+    /// Returns the curvature at `positions` about the middle particle's normal, in 1/m.
     pub(crate) fn curvature(&self, positions: &[f64], normals: &[f64]) -> f64 {
         self.bending(positions, normals).curvature()
     }
 
-    /// Returns energy per area and derivatives with respect to the second difference.
+    /// Returns energy per area and derivatives with respect to the second difference at
+    /// `positions`.
     pub(crate) fn respond(
         &self,
         positions: &[f64],
@@ -193,7 +190,7 @@ impl Connector<BendingLaw, 3> {
     }
 }
 
-/// Advances a memory; returns the energy dissipated per area, in J/m².
+/// Advances `memory` to the deformation `to`. Returns the energy dissipated per area, in J/m².
 pub(crate) fn commit_memory(law: &impl Law, memory: &mut Memory, to: f64) -> f64 {
     let after = law.commit(memory, to);
     let lost = law.work(memory, to) - (law.stored(&after) - law.stored(memory));

@@ -26,8 +26,8 @@ pub(crate) struct ReferenceStencil {
 }
 
 impl ReferenceStencil {
-    /// Returns the stencils of a panel, its particles counted from 0.
-    pub(crate) fn of(
+    /// Returns the stencils of a panel in `fabric`, with its particles counted from 0.
+    pub(crate) fn for_panel(
         lattice: &Lattice,
         fabric: &Fabric,
         neighbourhoods: &Neighbourhoods<'_>,
@@ -36,7 +36,8 @@ impl ReferenceStencil {
         let [across, along] = lattice.spacing;
         let sides = [(fabric.warp.bending, along), (fabric.weft.bending, across)];
         let mut all = Vec::new();
-        for stencil in PanelFits::of(lattice, neighbourhoods, bending).stencils {
+        // A stencil of both directions becomes two connectors, one without an area none.
+        for stencil in PanelFits::new(lattice, neighbourhoods, bending).stencils {
             for (direction, (law, length)) in sides.into_iter().enumerate() {
                 let nodes = stencil
                     .nodes
@@ -57,13 +58,14 @@ impl ReferenceStencil {
         all
     }
 
-    /// Counts the particles from `first` on.
+    /// Returns the stencil with its particles counted from `first` on.
     pub(crate) fn shifted(mut self, first: u32) -> Self {
         self.middle += first;
         self.nodes.iter_mut().for_each(|node| node.node += first);
         self
     }
 
+    /// Returns the second difference at `positions` as a [`BendingMeasure`].
     fn measure(&self, positions: &[f64], normals: &[f64]) -> BendingMeasure {
         BendingMeasure {
             second_difference: weighted_sum(positions, &self.nodes),
@@ -72,6 +74,7 @@ impl ReferenceStencil {
         }
     }
 
+    /// Returns energy per area and derivatives at `positions`.
     fn respond(&self, positions: &[f64], normals: &[f64], definite: bool) -> BendingResponse {
         let measure = self.measure(positions, normals);
         if self.fold != 0.0 {
@@ -80,6 +83,7 @@ impl ReferenceStencil {
         measure.respond(&self.law, &self.memory, definite)
     }
 
+    /// Starts the memory at `positions` without friction.
     pub(crate) fn start(&mut self, positions: &[f64], normals: &[f64]) {
         self.memory.position = self.measure(positions, normals).curvature();
         self.memory.peak = self.memory.position.abs();
@@ -105,8 +109,8 @@ impl ReferenceStencil {
     ) {
         let hessian = self.respond(positions, normals, definite).hessian;
         for (k, &WeightedNode { node, weight }) in self.nodes.iter().enumerate() {
-            for other in &self.nodes[k..] {
-                put([node, other.node], sum([(self.area * weight * other.weight, hessian)]));
+            for second in &self.nodes[k..] {
+                put([node, second.node], sum([(self.area * weight * second.weight, hessian)]));
             }
         }
     }

@@ -2,10 +2,10 @@
 
 use drape_fabric::{Fabric, Law, Memory, ShearLaw, TractionLaw};
 
-use crate::measure::block::{Matrix, identity, outer, sum, transposed};
+use crate::measure::block::{Matrix, outer, sum, transposed};
 use crate::measure::vector::{Vector, add, add_at, dot, scale, subtract, vector_at};
 use crate::panel::lattice::Lattice;
-use crate::reference::connector::commit_memory;
+use crate::reference::connector::{across, commit_memory};
 
 /// Traction and shear of a triangle.
 #[derive(Debug, Clone)]
@@ -29,15 +29,14 @@ struct Deformation {
 }
 
 impl ReferenceTriangle {
-    /// Returns the triangles of a panel whose first particle is `first`.
-    pub(crate) fn of(lattice: &Lattice, fabric: &Fabric, first: u32) -> Vec<Self> {
+    /// Returns the triangles of a panel in `fabric` whose first particle is `first`.
+    pub(crate) fn for_panel(lattice: &Lattice, fabric: &Fabric, first: u32) -> Vec<Self> {
         let triangles = lattice.rim.iter().map(|&corners| {
             let points = corners.map(|corner| lattice.coordinates[corner as usize]);
-            let side = |k: usize| {
+            let [a, b, c] = [0, 1, 2].map(|k: usize| {
                 let (from, to) = (points[(k + 1) % 3], points[(k + 2) % 3]);
                 [to[0] - from[0], to[1] - from[1]]
-            };
-            let [a, b, c] = [0, 1, 2].map(side);
+            });
             let twice = a[0] * b[1] - a[1] * b[0];
             Self {
                 laws: [fabric.warp.traction, fabric.weft.traction],
@@ -69,14 +68,14 @@ impl ReferenceTriangle {
         Deformation { lengths, units, sine: dot(units[0], units[1]) }
     }
 
-    /// Returns the derivatives of the strains and of the sine with respect to a corner.
+    /// Returns the derivatives of the strains and of the sine with respect to `corner`.
     fn derivatives(&self, shape: &Deformation, corner: usize) -> [Vector; 3] {
-        let across = |k: usize| {
+        let [warp_turn, weft_turn] = [0, 1].map(|k| {
             let along = subtract(shape.units[1 - k], scale(shape.units[k], shape.sine));
             scale(along, self.gradients[k][corner] / shape.lengths[k])
-        };
+        });
         let [warp, weft] = [0, 1].map(|k| scale(shape.units[k], self.gradients[k][corner]));
-        [warp, weft, add(across(0), across(1))]
+        [warp, weft, add(warp_turn, weft_turn)]
     }
 
     pub(crate) fn start(&mut self, positions: &[f64]) {
@@ -91,8 +90,9 @@ impl ReferenceTriangle {
 
     pub(crate) fn add_forces(&self, positions: &[f64], forces: &mut [f64]) {
         let shape = self.deformation(positions);
-        let load = |k: usize| self.laws[k].respond(&self.memories[k], shape.lengths[k] - 1.0).load;
-        let loads = [load(0), load(1), self.shear.respond(&self.shear_memory, shape.sine).load];
+        let [warp, weft] =
+            [0, 1].map(|k| self.laws[k].respond(&self.memories[k], shape.lengths[k] - 1.0).load);
+        let loads = [warp, weft, self.shear.respond(&self.shear_memory, shape.sine).load];
         for (k, &corner) in self.corners.iter().enumerate() {
             for (derivative, load) in self.derivatives(&shape, k).into_iter().zip(loads) {
                 add_at(forces, corner, scale(derivative, -self.area * load));
@@ -102,8 +102,9 @@ impl ReferenceTriangle {
 
     pub(crate) fn potential(&self, positions: &[f64]) -> f64 {
         let shape = self.deformation(positions);
-        let work = |k: usize| self.laws[k].work(&self.memories[k], shape.lengths[k] - 1.0);
-        self.area * (work(0) + work(1) + self.shear.work(&self.shear_memory, shape.sine))
+        let [warp, weft] =
+            [0, 1].map(|k| self.laws[k].work(&self.memories[k], shape.lengths[k] - 1.0));
+        self.area * (warp + weft + self.shear.work(&self.shear_memory, shape.sine))
     }
 
     pub(crate) fn add_stiffness(
@@ -113,44 +114,50 @@ impl ReferenceTriangle {
         put: &mut impl FnMut([u32; 2], Matrix),
     ) {
         let shape = self.deformation(positions);
-        let least = |x: f64| if definite { x.max(0.0) } else { x };
-        let yarns = [0, 1].map(|k| self.laws[k].respond(&self.memories[k], shape.lengths[k] - 1.0));
+        let yarns = [0, 1].map(|k| {
+            let response = self.laws[k].respond(&self.memories[k], shape.lengths[k] - 1.0);
+            let (load, tangent) = (response.load, response.tangent);
+            if definite { (load.max(0.0), tangent.max(0.0)) } else { (load, tangent) }
+        });
         let shear = self.shear.respond(&self.shear_memory, shape.sine);
+        let shear_tangent = if definite { shear.tangent.max(0.0) } else { shear.tangent };
         let load = if definite { 0.0 } else { shear.load };
-        let across =
-            |k: usize| sum([(1.0, identity()), (-1.0, outer(shape.units[k], shape.units[k]))]);
+
         // Second derivatives of the sine with respect to warp and weft, and to both.
-        let bent = |k: usize| {
-            let (own, length) = (shape.units[k], shape.lengths[k]);
+        let bent = [0, 1].map(|k| {
+            let (unit, length) = (shape.units[k], shape.lengths[k]);
             let gradient =
-                scale(subtract(shape.units[1 - k], scale(own, shape.sine)), 1.0 / length);
+                scale(subtract(shape.units[1 - k], scale(unit, shape.sine)), 1.0 / length);
             sum([
-                (-1.0 / length, outer(gradient, own)),
-                (-1.0 / length, outer(own, gradient)),
-                (-shape.sine / (length * length), across(k)),
+                (-1.0 / length, outer(gradient, unit)),
+                (-1.0 / length, outer(unit, gradient)),
+                (-shape.sine / (length * length), across(unit)),
             ])
-        };
-        let (left, right) = (across(0), across(1));
+        });
+        let (left, right) = (across(shape.units[0]), across(shape.units[1]));
         let product = [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(left[i], right[j])));
         let mixed = sum([(1.0 / (shape.lengths[0] * shape.lengths[1]), product)]);
+
+        // By the chain rule, each pair of corners takes them with its material gradients.
         for i in 0..3 {
             for j in (0..3).filter(|&j| self.corners[i] <= self.corners[j]) {
-                let (one, other) = (self.derivatives(&shape, i), self.derivatives(&shape, j));
-                let factor = |k: usize, l: usize| self.gradients[k][i] * self.gradients[l][j];
-                let yarn = |k: usize| {
-                    let rotate = least(yarns[k].load) / shape.lengths[k] * factor(k, k);
+                let (row, column) = (self.derivatives(&shape, i), self.derivatives(&shape, j));
+                let [warp, weft] = [0, 1].map(|k| {
+                    let factor = self.gradients[k][i] * self.gradients[k][j];
+                    let (yarn_load, yarn_tangent) = yarns[k];
+                    let rotate = yarn_load / shape.lengths[k] * factor;
                     sum([
-                        (least(yarns[k].tangent), outer(one[k], other[k])),
-                        (rotate, across(k)),
-                        (load * factor(k, k), bent(k)),
+                        (yarn_tangent, outer(row[k], column[k])),
+                        (rotate, across(shape.units[k])),
+                        (load * factor, bent[k]),
                     ])
-                };
+                });
                 let block = sum([
-                    (1.0, yarn(0)),
-                    (1.0, yarn(1)),
-                    (least(shear.tangent), outer(one[2], other[2])),
-                    (load * factor(0, 1), mixed),
-                    (load * factor(1, 0), transposed(mixed)),
+                    (1.0, warp),
+                    (1.0, weft),
+                    (shear_tangent, outer(row[2], column[2])),
+                    (load * (self.gradients[0][i] * self.gradients[1][j]), mixed),
+                    (load * (self.gradients[1][i] * self.gradients[0][j]), transposed(mixed)),
                 ]);
                 put([self.corners[i], self.corners[j]], sum([(self.area, block)]));
             }

@@ -14,13 +14,13 @@ use crate::rim::triangles::Triangles;
 /// Rim of a panel: traction and shear of its triangles, and bending where no triple of the grid has
 /// its middle.
 ///
-/// Indices count over the rims of the cloth, each padded to a whole number of batches with
+/// Indices count over the rims of the cloth. Each rim is padded to a whole number of batches with
 /// connectors of no area.
 #[derive(Debug, Clone)]
 pub(crate) struct Rim {
     /// Index among the rims of the cloth.
     pub(crate) index: usize,
-    /// Panel that it is part of.
+    /// Index of the rim's panel.
     pub(crate) panel: usize,
     /// Particles of the panel, counted over the cloth.
     pub(crate) particles: Range<usize>,
@@ -32,7 +32,7 @@ pub(crate) struct Rim {
     pub(crate) tangents: Vec<SurfaceTangents>,
 }
 
-/// Numbers with which a rim begins.
+/// First numbers of a rim.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RimStart {
     /// Index of the rim.
@@ -48,7 +48,7 @@ pub(crate) struct RimStart {
 }
 
 impl Rim {
-    /// Lays out the rim of a panel.
+    /// Lays out the rim of `lattice` from the numbers in `start` on.
     pub(crate) fn new(
         lattice: &Lattice,
         start: RimStart,
@@ -56,7 +56,7 @@ impl Rim {
         neighbourhoods: &Neighbourhoods<'_>,
     ) -> Self {
         let first = start.particle;
-        let PanelFits { stencils, mut tangents } = PanelFits::of(lattice, neighbourhoods, bending);
+        let PanelFits { stencils, mut tangents } = PanelFits::new(lattice, neighbourhoods, bending);
         tangents.iter_mut().for_each(|tangents| tangents.shift(first));
         Self {
             index: start.index,
@@ -69,41 +69,48 @@ impl Rim {
         }
     }
 
-    /// Index after its last triangle, with the padding.
+    /// Returns the index after the last triangle, including the padding of `triangles`.
     pub(crate) fn triangles_end(&self) -> usize {
         self.triangles.base + self.triangles.areas.len()
     }
 
-    /// Index after its last stencil, with the padding.
+    /// Returns the index after the last stencil, including the padding of `stencils`.
     pub(crate) fn stencils_end(&self) -> usize {
         self.stencils.base + self.stencils.middles.len()
     }
 
-    /// Looks up the slots of its blocks.
+    /// Looks up the slots of the rim's blocks in `sparsity`.
     pub(crate) fn find_slots(&mut self, sparsity: &Sparsity) {
         self.blocks = sparsity.offsets[self.particles.start]..sparsity.offsets[self.particles.end];
-        let slot = |[row, column]: [u32; 2]| {
-            sparsity.block(row, column).map_or(NO_BLOCK, |block| block as u32)
-        };
-        let three =
-            |&[a, b, c]: &[u32; 3]| [[a, a], [a, b], [a, c], [b, b], [b, c], [c, c]].map(slot);
-        self.triangles.slots = self.triangles.corners.iter().map(three).collect();
+        self.triangles.slots = self
+            .triangles
+            .corners
+            .iter()
+            .map(|&[a, b, c]| {
+                [[a, a], [a, b], [a, c], [b, b], [b, c], [c, c]].map(|pair| slot(sparsity, pair))
+            })
+            .collect();
         let mut slots = Vec::new();
         self.stencils.slot_offsets = vec![0];
         for index in 0..self.stencils.count {
-            slots.extend(pairs(self.stencils.nodes(index)).map(slot));
+            slots.extend(pairs(self.stencils.nodes(index)).map(|pair| slot(sparsity, pair)));
             self.stencils.slot_offsets.push(slots.len());
         }
         self.stencils.slots = slots;
     }
 
-    /// Pairs of particles that a connector joins, the first of each less than the second.
+    /// Returns the pairs of particles that a connector joins, the lower number first.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
-        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [a, c], [b, c]];
-        let triangles = self.triangles.corners.iter().flat_map(sides);
+        let corners = self.triangles.corners.iter();
+        let triangles = corners.flat_map(|&[a, b, c]| [[a, b], [a, c], [b, c]]);
         let stencils = (0..self.stencils.count).map(|index| self.stencils.nodes(index));
         triangles.chain(stencils.flat_map(pairs)).filter(|[row, column]| row < column)
     }
+}
+
+/// Returns the slot of the block of `row` and `column` in `sparsity`, or [`NO_BLOCK`].
+fn slot(sparsity: &Sparsity, [row, column]: [u32; 2]) -> u32 {
+    sparsity.block(row, column).map_or(NO_BLOCK, |block| block as u32)
 }
 
 /// A rim at given positions.
@@ -111,8 +118,8 @@ impl Rim {
 pub(crate) struct RimShape<'a> {
     pub(crate) rim: &'a Rim,
     pub(crate) panel: &'a GridPanel,
-    /// Unit normals, three numbers for each particle: of the start of the step for a trial, of the
-    /// accepted positions for a commit.
+    /// Unit normals, three numbers for each particle. A trial takes them at the start of the step,
+    /// a commit at the accepted positions.
     pub(crate) normals: &'a [f64],
     pub(crate) positions: &'a [f64],
 }

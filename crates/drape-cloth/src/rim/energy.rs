@@ -9,14 +9,14 @@ use crate::rim::memories::{RimMemories, RimMemoriesMut};
 use crate::rim::stencils::StencilMeasures;
 use crate::rim::triangles::TriangleMeasures;
 
-/// Returns the potential of a rim's connectors within a step, in J.
+/// Returns the potential of the connectors of `shape`'s rim within a step, in J.
 #[inline(always)]
 pub(crate) fn potential(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
     let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     let mut sums = [0.0; LANES];
     for start in triangles.batches() {
         let index = triangles.base + start;
-        let measures = TriangleMeasures::of(triangles, start, shape.positions);
+        let measures = TriangleMeasures::new(triangles, start, shape.positions);
         let mut works = [0.0; LANES];
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let memory = memories.traction[direction].batch(index);
@@ -25,8 +25,9 @@ pub(crate) fn potential(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
         panel.shear.add_work(&memories.shear.batch(index), &measures.sines, &mut works);
         add_weighted(&mut sums, &works, lanes(&triangles.areas, start));
     }
+
     for start in stencils.batches() {
-        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
+        let measures = StencilMeasures::new(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let memory = memories.bending[direction].batch(stencils.base + start);
             let bending = measures.bending(yarns, direction);
@@ -39,58 +40,60 @@ pub(crate) fn potential(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
     sums.iter().sum()
 }
 
-/// Advances the memories of a rim to the accepted positions and normals; returns the energy
-/// dissipated, in J.
+/// Advances the `memories` of a rim to the accepted positions and normals of `shape`. Returns the
+/// energy dissipated, in J.
 #[inline(always)]
 pub(crate) fn commit(shape: &RimShape<'_>, mut memories: RimMemoriesMut<'_>) -> f64 {
     let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     let mut sums = [0.0; LANES];
     for start in triangles.batches() {
-        let measures = TriangleMeasures::of(triangles, start, shape.positions);
+        let measures = TriangleMeasures::new(triangles, start, shape.positions);
         let areas = lanes(&triangles.areas, start);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let own = &mut memories.traction[direction];
-            let lost = yarns.traction.commit(own, start, &measures.strains[direction]);
+            let memories_along = &mut memories.traction[direction];
+            let lost = yarns.traction.commit(memories_along, start, &measures.strains[direction]);
             add_weighted(&mut sums, &lost, areas);
         }
         let lost = panel.shear.commit(&mut memories.shear, start, &measures.sines);
         add_weighted(&mut sums, &lost, areas);
     }
+
     for start in stencils.batches() {
-        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
+        let measures = StencilMeasures::new(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let bending = measures.bending(yarns, direction);
-            let own = &mut memories.bending[direction];
-            let lost = yarns.bending.commit(own, start, &bending.curvatures().value);
+            let memories_along = &mut memories.bending[direction];
+            let curvatures = bending.curvatures().value;
+            let lost = yarns.bending.commit(memories_along, start, &curvatures);
             add_weighted(&mut sums, &lost, bending.areas);
         }
     }
     sums.iter().sum()
 }
 
-/// Writes the memories of a rim that starts at the given positions without friction.
+/// Writes the `memories` of a rim that starts at the positions of `shape` without friction.
 pub(crate) fn start(shape: &RimShape<'_>, memories: &mut RimMemories) {
     let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     for start in triangles.batches() {
         let index = triangles.base + start;
-        let measures = TriangleMeasures::of(triangles, start, shape.positions);
+        let measures = TriangleMeasures::new(triangles, start, shape.positions);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let own = &mut memories.traction[direction];
-            yarns.traction.start(own, index, &measures.strains[direction]);
+            let memories_along = &mut memories.traction[direction];
+            yarns.traction.start(memories_along, index, &measures.strains[direction]);
         }
         panel.shear.start(&mut memories.shear, index, &measures.sines);
     }
     for start in stencils.batches() {
-        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
+        let measures = StencilMeasures::new(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let curvatures = measures.bending(yarns, direction).curvatures().value;
-            let own = &mut memories.bending[direction];
-            yarns.bending.start(own, stencils.base + start, &curvatures);
+            let memories_along = &mut memories.bending[direction];
+            yarns.bending.start(memories_along, stencils.base + start, &curvatures);
         }
     }
 }
 
-/// Returns the energy that a rim's connectors can return, in J.
+/// Returns the energy that the connectors of `shape`'s rim can return, in J.
 pub(crate) fn stored(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
     let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     let mut sums = [0.0; LANES];
@@ -103,8 +106,9 @@ pub(crate) fn stored(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
         panel.shear.add_stored(&memories.shear.batch(index), &mut energies);
         add_weighted(&mut sums, &energies, lanes(&triangles.areas, start));
     }
+
     for start in stencils.batches() {
-        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
+        let measures = StencilMeasures::new(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let memory = memories.bending[direction].batch(stencils.base + start);
             let bending = measures.bending(yarns, direction);

@@ -1,9 +1,8 @@
-//! Fits of a panel: the nodes and weights of its stencils, and of the derivatives that give its
-//! normals.
+//! Fits of a panel: the nodes and weights of its stencils, and of the derivatives for its normals.
 
 use crate::layout::connectors::BendingConnectors;
 use crate::measure::vector::Vector;
-use crate::panel::fold::{Fold, WeightedNode};
+use crate::panel::fold::WeightedPoint;
 use crate::panel::lattice::Lattice;
 use crate::rim::neighbourhood::Neighbourhoods;
 use crate::rim::quadratic_fit::QuadraticFit;
@@ -40,13 +39,13 @@ pub(crate) struct SurfaceTangents {
 pub(crate) struct PanelFits {
     /// Stencils with an area.
     pub(crate) stencils: Vec<FittedStencil>,
-    /// Derivatives at all of the nodes.
+    /// Derivatives at all nodes with a fit.
     pub(crate) tangents: Vec<SurfaceTangents>,
 }
 
 impl PanelFits {
-    /// Returns the fits of a panel, its particles counted from 0.
-    pub(crate) fn of(
+    /// Returns the fits of `lattice`, with its particles counted from 0.
+    pub(crate) fn new(
         lattice: &Lattice,
         neighbourhoods: &Neighbourhoods<'_>,
         bending: &[BendingConnectors; 2],
@@ -58,11 +57,15 @@ impl PanelFits {
             if bending.iter().all(|direction| direction.is_middle[at]) {
                 continue;
             }
+
+            // The fit uses as many of the nearest nodes as it needs.
             let mut nodes = neighbourhoods.around(middle);
             let points: Vec<_> =
                 nodes.iter().map(|&node| lattice.coordinates[node as usize]).collect();
             let fit = QuadraticFit::new(&points, spacings[at]);
             nodes.truncate(fit.first[0].len());
+
+            // Nodes with an area have a stencil of second derivatives.
             let areas = [0, 1].map(|direction| bending[direction].stencil_areas[at]);
             if areas.iter().any(|&area| area > 0.0) {
                 let [weft, warp] = &fit.second;
@@ -72,17 +75,18 @@ impl PanelFits {
                     nodes.map(|(&node, weights)| StencilNode { node, weights }).collect();
                 nodes.sort_by_key(|node| node.node);
                 let folds = [0, 1].map(|direction| {
-                    let weighted = nodes.iter().map(|node| WeightedNode {
+                    let weighted = nodes.iter().map(|node| WeightedPoint {
                         coordinates: lattice.coordinates[node.node as usize],
                         weight: node.weights[direction],
                     });
-                    let curvature = |fold: &Fold| {
+                    let curvatures = lattice.folds.iter().map(|fold| {
                         fold.rest_curvature(weighted.clone(), points[0], direction, lattice.spacing)
-                    };
-                    lattice.folds.iter().map(curvature).sum()
+                    });
+                    curvatures.sum()
                 });
                 stencils.push(FittedStencil { middle, nodes, areas, folds });
             }
+
             let [weft, warp] = fit.first;
             tangents.push(SurfaceTangents { particle: middle, nodes, weights: [warp, weft] });
         }
@@ -91,13 +95,13 @@ impl PanelFits {
 }
 
 impl SurfaceTangents {
-    /// Counts the particles from `first` on.
+    /// Moves the particles, counted from 0, to count from `first` on.
     pub(crate) fn shift(&mut self, first: u32) {
         self.particle += first;
         self.nodes.iter_mut().for_each(|node| *node += first);
     }
 
-    /// Returns the derivatives of positions along warp and weft.
+    /// Returns the derivatives of `positions` along warp and weft.
     pub(crate) fn at(&self, positions: &[f64]) -> [Vector; 2] {
         self.weights.each_ref().map(|weights| {
             let mut sum = [0.0; 3];

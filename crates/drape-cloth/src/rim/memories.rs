@@ -6,18 +6,19 @@ use serde::{Deserialize, Serialize};
 use crate::layout::grid::GridPanel;
 use crate::rim::connectors::Rim;
 
-/// Memories of the connectors of the rims, rim after rim, each padded to a whole number of batches.
+/// Memories of the connectors of the rims, rim after rim. Each rim is padded to a whole number of
+/// batches.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct RimMemories {
-    /// Of the triangles along warp and weft.
+    /// Memories of the triangles along warp and weft.
     pub(crate) traction: [Memories; 2],
-    /// Of the triangles.
+    /// Memories of the shear of the triangles.
     pub(crate) shear: Memories,
-    /// Of the stencils along warp and weft.
+    /// Memories of the stencils along warp and weft.
     pub(crate) bending: [Memories; 2],
 }
 
-/// Memories of some rims, to write.
+/// Mutable memories of consecutive rims.
 pub(crate) struct RimMemoriesMut<'a> {
     pub(crate) traction: [MemoriesMut<'a>; 2],
     pub(crate) shear: MemoriesMut<'a>,
@@ -25,7 +26,7 @@ pub(crate) struct RimMemoriesMut<'a> {
 }
 
 impl RimMemories {
-    /// Returns the memories of rims that were never deformed.
+    /// Returns the memories of `rims` that have never been deformed.
     pub(crate) fn new(rims: &[Rim], panels: &[GridPanel]) -> Self {
         let mut memories = Self::default();
         for rim in rims {
@@ -40,16 +41,16 @@ impl RimMemories {
         memories
     }
 
-    /// Returns whether others are of as many connectors.
+    /// Returns whether `other` has as many connectors of each kind.
     pub(crate) fn has_lengths_of(&self, other: &Self) -> bool {
         let pairs = self.traction.iter().zip(&other.traction);
         let pairs = pairs.chain([(&self.shear, &other.shear)]);
         pairs
             .chain(self.bending.iter().zip(&other.bending))
-            .all(|(own, other)| own.has_lengths_of(other))
+            .all(|(memories, others)| memories.has_lengths_of(others))
     }
 
-    /// Returns all memories, to write.
+    /// Returns mutable access to all memories, as [`RimMemoriesMut`].
     pub(crate) fn all_mut(&mut self) -> RimMemoriesMut<'_> {
         RimMemoriesMut {
             traction: self.traction.each_mut().map(|m| m.tail_mut(0)),
@@ -60,7 +61,8 @@ impl RimMemories {
 }
 
 impl RimMemoriesMut<'_> {
-    /// Splits into the memories of the rims from `from` up to `to` and those from `to` on.
+    /// Splits off the memories of the rims from `from` up to `to`, exclusive. Returns them and the
+    /// remaining ones.
     pub(crate) fn split(self, from: &Rim, to: &Rim) -> [Self; 2] {
         let triangles = to.triangles.base - from.triangles.base;
         let stencils = to.stencils.base - from.stencils.base;

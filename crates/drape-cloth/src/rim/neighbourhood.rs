@@ -1,10 +1,10 @@
-//! Neighbourhoods of the nodes of a rim: the nodes that a stencil is fitted to.
+//! Neighbourhoods of the nodes of a rim: the nodes to which a stencil is fitted.
 
 use crate::panel::lattice::Lattice;
 use crate::panel::triangle::twice_area;
 use crate::rim::quadratic_fit::NODES;
 
-/// Number of rings of neighbours that are searched at most.
+/// Largest number of rings of neighbours that are searched.
 const RINGS: usize = 5;
 
 /// Connections of the nodes of a panel.
@@ -15,11 +15,11 @@ pub(crate) struct Neighbourhoods<'a> {
 }
 
 impl<'a> Neighbourhoods<'a> {
-    /// Returns the connections of a panel with a rim, or of one that is too narrow for triples;
-    /// nothing for other panels, which have no stencils.
-    pub(crate) fn of(lattice: &'a Lattice) -> Option<Self> {
-        let narrow = || lattice.yarns().iter().any(|yarns| yarns.iter().all(|yarn| yarn.len() < 3));
-        (!lattice.rim.is_empty() || narrow()).then(|| Self {
+    /// Returns the connections of `lattice` if it has a rim or is too narrow for triples, else
+    /// `None`, because other panels have no stencils.
+    pub(crate) fn new(lattice: &'a Lattice) -> Option<Self> {
+        let is_narrow = lattice.yarns().iter().any(|yarns| yarns.iter().all(|yarn| yarn.len() < 3));
+        (!lattice.rim.is_empty() || is_narrow).then(|| Self {
             lattice,
             neighbours: lattice.neighbours(),
             sides: lattice.outline().into_iter().collect(),
@@ -35,25 +35,27 @@ impl<'a> Neighbourhoods<'a> {
         (u - x).powi(2) + (v - y).powi(2)
     }
 
-    /// Returns whether the outline lies between two nodes, as at a dart.
+    /// Returns whether the outline lies between the nodes `from` and `to`, as at a dart.
     fn parted(&self, from: u32, to: u32) -> bool {
         let (a, b) = (self.coordinates(from), self.coordinates(to));
-        let crosses = |&[from, to]: &[u32; 2]| {
-            let (c, d) = (self.coordinates(from), self.coordinates(to));
-            let apart =
-                |k: usize| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]);
-            !apart(0)
-                && !apart(1)
+        self.sides.iter().any(|side| {
+            let [c, d] = side.map(|node| self.coordinates(node));
+            // Bounding boxes that do not overlap settle most sides.
+            let apart = [0, 1]
+                .into_iter()
+                .any(|k: usize| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]));
+            !apart
                 && twice_area([a, b, c]) * twice_area([a, b, d]) < 0.0
                 && twice_area([c, d, a]) * twice_area([c, d, b]) < 0.0
-        };
-        self.sides.iter().any(crosses)
+        })
     }
 
-    /// Returns a node, its neighbours, and the nearest nodes around them: [`NODES`] at most, fewer
+    /// Returns `node`, its neighbours, and the nearest nodes around them: at most [`NODES`], fewer
     /// in the smallest panels.
     pub(crate) fn around(&self, node: u32) -> Vec<u32> {
-        let mut found: Vec<(usize, u32)> = vec![(0, node)];
+        // Nodes with their ring and their squared distance.
+        let mut candidates: Vec<(usize, f64, u32)> =
+            vec![(0, self.squared_distance(node, node), node)];
         let mut seen = vec![node];
         let mut front = vec![node];
         for ring in 1..=RINGS {
@@ -61,22 +63,24 @@ impl<'a> Neighbourhoods<'a> {
                 front.iter().flat_map(|&node| &self.neighbours[node as usize]).copied().collect();
             next.sort_unstable();
             next.dedup();
-            next.retain(|other| !seen.contains(other));
+            next.retain(|candidate| !seen.contains(candidate));
             seen.extend(&next);
-            found.extend(
-                next.iter().filter(|&&o| ring == 1 || !self.parted(node, o)).map(|&o| (ring, o)),
-            );
+            let visible = next.iter().filter(|&&other| ring == 1 || !self.parted(node, other));
+            candidates
+                .extend(visible.map(|&other| (ring, self.squared_distance(node, other), other)));
+
             // The nearest nodes may be one ring farther than the first ring that gives enough.
-            if found.len() > 2 * NODES || next.is_empty() {
+            if candidates.len() > 2 * NODES || next.is_empty() {
                 break;
             }
             front = next;
         }
-        found.sort_by(|&(ring, a), &(other, b)| {
-            let key = |ring: usize, of: u32| (ring.min(2), self.squared_distance(node, of));
-            let (one, two) = (key(ring, a), key(other, b));
-            one.0.cmp(&two.0).then(one.1.total_cmp(&two.1)).then(a.cmp(&b))
+
+        // Neighbours come before all other nodes, which are ordered by distance.
+        candidates.sort_by(|(ring_a, distance_a, a), (ring_b, distance_b, b)| {
+            let by_ring = (*ring_a).min(2).cmp(&(*ring_b).min(2));
+            by_ring.then(distance_a.total_cmp(distance_b)).then(a.cmp(b))
         });
-        found.into_iter().map(|(_, node)| node).take(NODES).collect()
+        candidates.into_iter().map(|(_, _, node)| node).take(NODES).collect()
     }
 }

@@ -10,32 +10,35 @@ use crate::rim::fits::{FittedStencil, StencilNode};
 /// Stencils about the nodes of a rim, in columns: curvatures along both yarns.
 #[derive(Debug, Clone)]
 pub(crate) struct Stencils {
-    /// Particle about which each stencil is.
+    /// Particle at the middle of each stencil.
     pub(crate) middles: Vec<u32>,
-    /// Nodes, one stencil after the other, and the index of the first node of each.
+    /// Nodes, one stencil after the other.
     nodes: Vec<StencilNode>,
+    /// Index of the first node of each stencil.
     offsets: Vec<usize>,
     /// Areas along warp and weft, in m²; zero in the padding.
     pub(crate) areas: [Vec<f64>; 2],
-    /// Rest curvatures that folds add along warp and weft, in 1/m; empty without folds.
+    /// Rest curvatures that folds add along warp and weft, in 1/m, empty without folds.
     pub(crate) folds: [Vec<f64>; 2],
-    /// Slots of the blocks of the nodes 00, 01, …, 11, 12, … of one stencil after the other, and
-    /// the index of the first slot of each.
+    /// Slots of the blocks of the nodes 00, 01, …, 11, 12, …, one stencil after the other.
     pub(crate) slots: Vec<u32>,
+    /// Index of the first slot of each stencil.
     pub(crate) slot_offsets: Vec<usize>,
     /// Number of stencils.
     pub(crate) count: usize,
-    /// Index of the first among the stencils of the cloth.
+    /// Index of the first stencil among the stencils of the cloth.
     pub(crate) base: usize,
 }
 
 impl Stencils {
-    /// Lays out the stencils of a panel whose first particle is `first`.
+    /// Lays out the stencils `fits` of a panel whose first particle is `first`. Their index in the
+    /// cloth begins at `base`.
     pub(crate) fn new(fits: &[FittedStencil], first: u32, base: usize) -> Self {
         let count = fits.len();
         let length = count.next_multiple_of(LANES);
         let mut middles: Vec<u32> = fits.iter().map(|fit| first + fit.middle).collect();
         middles.resize(length, first);
+        // Padding stencils have no nodes and no area.
         let (mut nodes, mut offsets) = (Vec::new(), vec![0]);
         for fit in fits {
             nodes.extend(
@@ -60,25 +63,24 @@ impl Stencils {
         Self { middles, nodes, offsets, areas, folds, slots, slot_offsets, count, base }
     }
 
-    /// Nodes of a stencil.
+    /// Returns the nodes of the stencil number `index`.
     #[inline(always)]
     pub(crate) fn nodes(&self, index: usize) -> &[StencilNode] {
         &self.nodes[self.offsets[index]..self.offsets[index + 1]]
     }
 
-    /// First indices of the batches.
+    /// Returns the first indices of the batches, multiples of [`LANES`].
     pub(crate) fn batches(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.middles.len()).step_by(LANES)
     }
 }
 
-/// Pairs of the nodes of a stencil, each with itself and those after it.
+/// Returns the pairs of the `nodes` of a stencil, each with itself and with later ones.
 pub(crate) fn pairs(nodes: &[StencilNode]) -> impl Iterator<Item = [u32; 2]> {
-    let with = |(k, node): (usize, &StencilNode)| {
+    nodes.iter().enumerate().flat_map(|(k, node)| {
         let row = node.node;
-        nodes[k..].iter().map(move |other| [row, other.node])
-    };
-    nodes.iter().enumerate().flat_map(with)
+        nodes[k..].iter().map(move |column| [row, column.node])
+    })
 }
 
 /// Second differences of a batch of stencils along both yarns, and the normals at their middles.
@@ -91,9 +93,9 @@ pub(crate) struct StencilMeasures<'a> {
 
 impl<'a> StencilMeasures<'a> {
     /// Measures the batch of stencils that begins at `start`: `$b = \sum b_i x_i$` along both
-    /// yarns.
+    /// yarns, at `positions`.
     #[inline(always)]
-    pub(crate) fn of(
+    pub(crate) fn new(
         stencils: &'a Stencils,
         start: usize,
         positions: &[f64],
@@ -105,6 +107,7 @@ impl<'a> StencilMeasures<'a> {
             second_differences: [VectorLanes::zero(); 2],
             normals: VectorLanes::zero(),
         };
+
         for lane in 0..LANES {
             let index = start + lane;
             let mut sums = [[0.0; 3]; 2];
@@ -123,7 +126,7 @@ impl<'a> StencilMeasures<'a> {
         measures
     }
 
-    /// Returns the batch as bending connectors of one direction.
+    /// Returns the batch as bending connectors along `direction`, with the laws of `yarns`.
     #[inline(always)]
     pub(crate) fn bending<'b>(&'b self, yarns: &'b Yarns, direction: usize) -> BendingLanes<'b> {
         BendingLanes {

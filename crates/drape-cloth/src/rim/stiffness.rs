@@ -3,6 +3,7 @@
 
 use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
+use crate::kernel::stiffness::positive_if;
 use crate::layout::columns::lanes;
 use crate::measure::half::{HALF, IN_HALF, TRANSPOSED};
 use crate::rim::connectors::RimShape;
@@ -10,7 +11,7 @@ use crate::rim::memories::RimMemories;
 use crate::rim::stencils::StencilMeasures;
 use crate::rim::triangles::TriangleMeasures;
 
-/// A rim, the memories at the start of the step, and which stiffness is computed.
+/// A rim, the memories at the start of the step, and the kind of stiffness to compute.
 #[derive(Clone, Copy)]
 pub(crate) struct RimStiffness<'a> {
     pub(crate) shape: RimShape<'a>,
@@ -22,38 +23,57 @@ pub(crate) struct RimStiffness<'a> {
 /// Second derivatives of the potential of a batch of triangles with respect to the columns `$p$`
 /// and `$q$` of the deformation gradient, in J.
 struct GradientHessian {
-    /// Upper halves of the blocks of `$p$` with itself and `$q$` with itself.
-    own: [[Lanes; 6]; 2],
+    /// Upper halves of the block of `$p$` with itself and of the block of `$q$` with itself.
+    diagonal: [[Lanes; 6]; 2],
     /// Block of `$p$` with `$q$`.
     mixed: [Lanes; 9],
 }
 
-/// Adds the derivatives of the forces of a rim, negated, to the blocks of its panel's rows, in N/m.
+/// Adds the negative derivatives of the forces of a rim to `values`, the blocks of its panel's
+/// rows, in N/m.
 #[inline(always)]
 pub(crate) fn add_stiffness(stiffness: &RimStiffness<'_>, values: &mut [f64]) {
-    let RimStiffness { shape, memories, definite } = *stiffness;
-    let first = shape.rim.blocks.start;
-    let mut put = |slot: u32, block: &[f64; 9]| {
-        let start = 9 * (slot as usize - first);
-        values[start..start + 9].iter_mut().zip(block).for_each(|(sum, entry)| *sum += entry);
-    };
-    let triangles = &shape.rim.triangles;
+    add_triangle_blocks(stiffness, values);
+    add_stencil_blocks(stiffness, values);
+}
+
+/// Adds `block` to the block at `slot` in `values`, which begin at the block `first`.
+#[inline(always)]
+fn add_block(values: &mut [f64], first: usize, slot: u32, block: &[f64; 9]) {
+    let start = 9 * (slot as usize - first);
+    values[start..start + 9].iter_mut().zip(block).for_each(|(sum, entry)| *sum += entry);
+}
+
+/// Adds the blocks of the corners of the rim's triangles to `values`.
+#[inline(always)]
+fn add_triangle_blocks(stiffness: &RimStiffness<'_>, values: &mut [f64]) {
+    let first = stiffness.shape.rim.blocks.start;
+    let triangles = &stiffness.shape.rim.triangles;
     for start in triangles.batches() {
         let blocks = corner_blocks(stiffness, start);
         for lane in 0..LANES.min(triangles.count - start) {
             for (&slot, block) in triangles.slots[start + lane].iter().zip(&blocks) {
-                put(slot, &block.map(|entry| entry[lane]));
+                add_block(values, first, slot, &block.map(|entry| entry[lane]));
             }
         }
     }
+}
+
+/// Adds the blocks of the nodes of the rim's stencils to `values`.
+#[inline(always)]
+fn add_stencil_blocks(stiffness: &RimStiffness<'_>, values: &mut [f64]) {
+    let RimStiffness { shape, memories, definite } = *stiffness;
+    let first = shape.rim.blocks.start;
     let stencils = &shape.rim.stencils;
     for start in stencils.batches() {
-        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
+        let measures = StencilMeasures::new(stencils, start, shape.positions, shape.normals);
         let halves = [0, 1].map(|direction| {
             let yarns = &shape.panel.yarns[direction];
             let memory = memories.bending[direction].batch(stencils.base + start);
             measures.bending(yarns, direction).blocks(&memory, 1.0, definite)
         });
+
+        // The block of two nodes is the block of the second difference times both weights.
         for lane in 0..LANES.min(stencils.count - start) {
             let index = start + lane;
             let [warp, weft] =
@@ -62,21 +82,22 @@ pub(crate) fn add_stiffness(stiffness: &RimStiffness<'_>, values: &mut [f64]) {
             let mut slots = stencils.slots[stencils.slot_offsets[index]..].iter();
             for (k, node) in nodes.iter().enumerate() {
                 let [v, u] = node.weights;
-                let row: [f64; 9] = std::array::from_fn(|k| v * warp[k]);
-                let other: [f64; 9] = std::array::from_fn(|k| u * weft[k]);
+                let warp_row: [f64; 9] = std::array::from_fn(|k| v * warp[k]);
+                let weft_row: [f64; 9] = std::array::from_fn(|k| u * weft[k]);
                 for (node, &slot) in nodes[k..].iter().zip(slots.by_ref()) {
                     let [v, u] = node.weights;
-                    put(slot, &std::array::from_fn(|k| v * row[k] + u * other[k]));
+                    let block = std::array::from_fn(|k| v * warp_row[k] + u * weft_row[k]);
+                    add_block(values, first, slot, &block);
                 }
             }
         }
     }
 }
 
-/// Returns the second derivatives with respect to `$p$` and `$q$`.
+/// Returns the second derivatives of the batch of triangles from `start` on, with respect to `$p$`
+/// and `$q$`.
 ///
-/// With load `$g$` and tangent `$t$` of the shear, and `$c = \hat{p}\cdot\hat{q}$`, those of the
-/// shear are
+/// With load `$g$` and tangent `$t$` of the shear, and `$c = \hat{p}\cdot\hat{q}$`, the shear adds
 ///
 /// ```math
 /// \frac{1}{|p|^2}\left[t\,\hat{q}\hat{q}^T - (tc+g)(\hat{q}\hat{p}^T+\hat{p}\hat{q}^T)
@@ -89,18 +110,21 @@ fn gradient_hessian(stiffness: &RimStiffness<'_>, start: usize) -> GradientHessi
     let RimStiffness { shape, memories, definite } = *stiffness;
     let triangles = &shape.rim.triangles;
     let index = triangles.base + start;
-    let measures = TriangleMeasures::of(triangles, start, shape.positions);
+    let measures = TriangleMeasures::new(triangles, start, shape.positions);
     let areas = lanes(&triangles.areas, start);
-    let positive = |x: f64| if definite && x < 0.0 { 0.0 } else { x };
+
+    // Loads and tangents of the shear, times areas.
     let mut shear = Responses::default();
     let memory = memories.shear.batch(index);
     shape.panel.shear.respond::<true>(&memory, &measures.sines, &mut shear);
     let (mut loads, mut slopes) = ([0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
         loads[lane] = if definite { 0.0 } else { shear.load[lane] * areas[lane] };
-        slopes[lane] = positive(shear.tangent[lane]) * areas[lane];
+        slopes[lane] = positive_if(definite, shear.tangent[lane]) * areas[lane];
     }
-    let mut own = [[[0.0; LANES]; 6]; 2];
+
+    // Blocks of each column with itself, from tension and shear.
+    let mut diagonal_blocks = [[[0.0; LANES]; 6]; 2];
     for direction in 0..2 {
         let mut tension = Responses::default();
         let memory = memories.traction[direction].batch(index);
@@ -109,8 +133,8 @@ fn gradient_hessian(stiffness: &RimStiffness<'_>, start: usize) -> GradientHessi
         for lane in 0..LANES {
             let (p, q) = (measures.unit(direction, lane), measures.unit(1 - direction, lane));
             let inverse = measures.inverse[direction][lane];
-            let stretch = positive(tension.tangent[lane]) * areas[lane];
-            let rotate = positive(tension.load[lane]) * areas[lane] * inverse;
+            let stretch = positive_if(definite, tension.tangent[lane]) * areas[lane];
+            let rotate = positive_if(definite, tension.load[lane]) * areas[lane] * inverse;
             let size = inverse * inverse;
             let (load, slope, cosine) =
                 (loads[lane] * size, slopes[lane] * size, measures.sines[lane]);
@@ -120,12 +144,14 @@ fn gradient_hessian(stiffness: &RimStiffness<'_>, start: usize) -> GradientHessi
             for (k, (row, column)) in HALF.into_iter().enumerate() {
                 let mixed = q[row] * p[column] + p[row] * q[column];
                 let diagonal = if row == column { across } else { 0.0 };
-                own[direction][k][lane] = slope * (q[row] * q[column]) - both * mixed
+                diagonal_blocks[direction][k][lane] = slope * (q[row] * q[column]) - both * mixed
                     + along * (p[row] * p[column])
                     + diagonal;
             }
         }
     }
+
+    // Block of both columns, from shear alone.
     let mut mixed = [[0.0; LANES]; 9];
     for lane in 0..LANES {
         let (p, q) = (measures.unit(0, lane), measures.unit(1, lane));
@@ -142,13 +168,14 @@ fn gradient_hessian(stiffness: &RimStiffness<'_>, start: usize) -> GradientHessi
             }
         }
     }
-    GradientHessian { own, mixed }
+    GradientHessian { diagonal: diagonal_blocks, mixed }
 }
 
-/// Returns the blocks of a batch of triangles: of the corners 00, 01, 02, 11, 12, 22.
+/// Returns the blocks of the batch of triangles from `start` on: of the corners 00, 01, 02, 11, 12,
+/// 22.
 #[inline(always)]
 fn corner_blocks(stiffness: &RimStiffness<'_>, start: usize) -> [[Lanes; 9]; 6] {
-    let GradientHessian { own: [warp, weft], mixed } = gradient_hessian(stiffness, start);
+    let GradientHessian { diagonal: [warp, weft], mixed } = gradient_hessian(stiffness, start);
     let [u1, u2, v1, v2] = stiffness.shape.rim.triangles.gradients.batch(start).0;
     let mut blocks = [[[0.0; LANES]; 9]; 6];
     for k in 0..9 {
@@ -157,16 +184,14 @@ fn corner_blocks(stiffness: &RimStiffness<'_>, start: usize) -> [[Lanes; 9]; 6] 
             let (u1, u2, v1, v2) = (u1[lane], u2[lane], v1[lane], v2[lane]);
             let (warp, weft) = (warp[half][lane], weft[half][lane]);
             let (mixed, transposed) = (mixed[k][lane], mixed[transposed][lane]);
-            let block = |(va, ua): (f64, f64), (vb, ub): (f64, f64)| {
-                (va * vb) * warp + (ua * ub) * weft + ((va * ub) * mixed + (ua * vb) * transposed)
-            };
             // The gradients of the corners sum to zero, since a translation changes nothing.
             let (b, c) = ((v1, u1), (v2, u2));
             let a = (-v1 - v2, -u1 - u2);
-            for (sum, (one, other)) in
-                blocks.iter_mut().zip([(a, a), (a, b), (a, c), (b, b), (b, c), (c, c)])
-            {
-                sum[k][lane] = block(one, other);
+            let corner_pairs = [(a, a), (a, b), (a, c), (b, b), (b, c), (c, c)];
+            for (block, ((va, ua), (vb, ub))) in blocks.iter_mut().zip(corner_pairs) {
+                block[k][lane] = (va * vb) * warp
+                    + (ua * ub) * weft
+                    + ((va * ub) * mixed + (ua * vb) * transposed);
             }
         }
     }

@@ -23,12 +23,13 @@ pub(crate) struct Triangles {
     pub(crate) slots: Vec<[u32; 6]>,
     /// Number of triangles.
     pub(crate) count: usize,
-    /// Index of the first among the triangles of the cloth.
+    /// Index of the first triangle among the triangles of the cloth.
     pub(crate) base: usize,
 }
 
 impl Triangles {
-    /// Lays out the rim of a panel whose first particle is `first`.
+    /// Lays out the rim of `lattice`, whose first particle is `first`. Its triangles have the index
+    /// `base` and later ones in the cloth.
     pub(crate) fn new(lattice: &Lattice, first: u32, base: usize) -> Self {
         let count = lattice.rim.len();
         let length = count.next_multiple_of(LANES);
@@ -36,6 +37,7 @@ impl Triangles {
         let mut corners: Vec<[u32; 3]> = lattice.rim.clone();
         corners.iter_mut().for_each(|triangle| triangle.sort_unstable());
         corners.resize(length, corners.last().copied().unwrap_or_default());
+        // Sorted corners put every block into the upper half of the matrix.
         for (index, triangle) in corners.iter_mut().enumerate() {
             let [a, b, c] = triangle.map(|node| lattice.coordinates[node as usize]);
             let inverse = 1.0 / twice_area([a, b, c]);
@@ -48,7 +50,7 @@ impl Triangles {
         Self { corners, gradients, areas, slots: Vec::new(), count, base }
     }
 
-    /// First indices of the batches.
+    /// Returns the first indices of the batches, multiples of [`LANES`].
     pub(crate) fn batches(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.areas.len()).step_by(LANES)
     }
@@ -57,8 +59,8 @@ impl Triangles {
 /// Measures of a batch of triangles.
 ///
 /// The deformation gradient takes the warp to `$p = \sum r_i x_i$` with the material gradient `$r$`
-/// along it, and the weft to `$q$` likewise \[VMF09\]. The strains are `$|p| - 1$` and `$|q| - 1$`,
-/// and the sine is that of the angle by which `$p$` and `$q$` are off a right one.
+/// along it, and the weft to `$q$` likewise \[VMF09\]. The strains are `$|p| - 1$` and `$|q| - 1$`.
+/// The sine belongs to the angle by which `$p$` and `$q$` deviate from a right angle.
 pub(crate) struct TriangleMeasures {
     /// Directions of warp and weft.
     pub(crate) units: [VectorLanes; 2],
@@ -71,9 +73,9 @@ pub(crate) struct TriangleMeasures {
 }
 
 impl TriangleMeasures {
-    /// Measures the batch of triangles that begins at `start`.
+    /// Measures the batch of triangles that begins at `start`, at `positions`.
     #[inline(always)]
-    pub(crate) fn of(triangles: &Triangles, start: usize, positions: &[f64]) -> Self {
+    pub(crate) fn new(triangles: &Triangles, start: usize, positions: &[f64]) -> Self {
         let mut sides = [VectorLanes::zero(); 2];
         for (lane, corners) in triangles.corners[start..start + LANES].iter().enumerate() {
             let [a, b, c] = corners.map(|corner| {
@@ -91,13 +93,14 @@ impl TriangleMeasures {
             strains: [[0.0; LANES]; 2],
             sines: [0.0; LANES],
         };
+        // Lengths and directions of the columns of the deformation gradient.
         for direction in 0..2 {
             let [first, second] = [2, 3].map(|k| gradients.0[k - 2 * direction]);
             for lane in 0..LANES {
                 let [b, c] = [0, 1].map(|side| sides[side].vector(lane));
                 let image = add(scale(b, first[lane]), scale(c, second[lane]));
                 let length = dot(image, image).sqrt();
-                // Not `max`, so that NaN stays NaN.
+                // Written so that NaN stays NaN, unlike with `max`.
                 let length = if length < EDGE_MIN { EDGE_MIN } else { length };
                 let inverse = 1.0 / length;
                 measures.inverse[direction][lane] = inverse;
@@ -106,6 +109,7 @@ impl TriangleMeasures {
                     if areas[lane] == 0.0 { 0.0 } else { length - 1.0 };
             }
         }
+        // Sines of the shear angles.
         for lane in 0..LANES {
             let sine = dot(measures.unit(0, lane), measures.unit(1, lane));
             measures.sines[lane] = if areas[lane] == 0.0 { 0.0 } else { sine };
@@ -113,7 +117,7 @@ impl TriangleMeasures {
         measures
     }
 
-    /// Direction of the warp or the weft in a lane.
+    /// Returns the unit vector of the warp (`direction` 0) or the weft in `lane`.
     #[inline(always)]
     pub(crate) fn unit(&self, direction: usize, lane: usize) -> Vector {
         self.units[direction].vector(lane)

@@ -11,22 +11,23 @@ use crate::seam::builder::{SeamBuilder, SeamProblem};
 use crate::seam::connector::SeamConnector;
 use crate::seam::description::Seam;
 
-/// Bending of seams, in addition to that of the panels, whose own connectors end at their outlines.
+/// Bending of seams, which is added to the bending of the panels, whose connectors end at their
+/// outlines.
 ///
-/// A seam adds a strip of its own, as wide as the mean height of the triangles beside it and
-/// [`Seam::stiffness`] times as stiff as the fabric. It stands for the layers of the allowances,
-/// and keeps the panels from turning freely about the seam.
+/// A seam adds a strip, as wide as the mean height of the triangles beside it and
+/// [`Seam::stiffness`] times as stiff as the fabric. The strip stands for the layers of the
+/// allowances, and keeps the panels from turning freely about the seam.
 ///
 /// * **Across** a segment the second difference is `$(\hat{p} + \hat{q})/w$` with the directions
 ///   `$\hat{p}$`, `$\hat{q}$` in which the two triangles leave the segment and the mean height
 ///   `$w$`. Its length is `$\frac{2}{w}\sin\frac{\theta}{2}$` with the angle `$\theta$` between the
-///   panels, and the curvature follows as for a triple of a yarn: `$\theta/w$`.
-/// * **Along** the seam the second difference is, on each side, that of three nodes in a row, and
-///   of the next node inside where they do not lie on a line, so that a curved seam on a flat panel
-///   has none. In a gather it is that of the shorter side alone, which the longer one follows.
+///   panels. The curvature follows as for a triple of a yarn: `$\theta/w$`.
+/// * **Along** the seam, each side has the second difference of three nodes in a row. Where they do
+///   not lie on a line, it includes the next node inside, so that a curved seam on a flat panel has
+///   no curvature. In a gather only the shorter side bends, and the longer one follows it.
 ///
-/// A curvature `$\kappa$` in a direction at an angle `$\vartheta$` to a yarn bends it by
-/// `$\kappa\cos^2\vartheta$`, as on a cylinder. Each side has the laws of its own two yarns, with
+/// A curvature `$\kappa$` in a direction at an angle `$\vartheta$` to a yarn bends the yarn by
+/// `$\kappa\cos^2\vartheta$`, as on a cylinder. Each side has the laws of its two yarns, with
 /// friction, for half of the strip.
 ///
 /// ```
@@ -62,23 +63,24 @@ pub struct SeamBending {
     particles: usize,
 }
 
-/// Memories of seams, and the normals at the last commit. Only [`SeamBending::commit`] writes it.
+/// Memories of seams, and the normals at the last commit. Only [`SeamBending::commit`] writes them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SeamState {
+pub struct SeamBendingState {
     memories: Vec<Memory>,
     normals: Vec<Vector>,
 }
 
-impl SeamState {
-    /// Returns whether this may follow another state of the same seams: it has as many memories, and
-    /// normals that are finite.
+impl SeamBendingState {
+    /// Returns whether this may follow `earlier`, another state of the same seams: it has as many
+    /// memories, and normals that are finite.
     #[must_use]
-    pub fn may_follow(&self, other: &Self) -> bool {
-        let lengths = |own: &Self| [own.memories.len(), own.normals.len()];
-        lengths(self) == lengths(other) && self.normals.iter().flatten().all(|x| x.is_finite())
+    pub fn may_follow(&self, earlier: &Self) -> bool {
+        self.memories.len() == earlier.memories.len()
+            && self.normals.len() == earlier.normals.len()
+            && self.normals.iter().flatten().all(|x| x.is_finite())
     }
 
-    /// All memories, for hashing and comparing, in a fixed order.
+    /// Returns each [`Memory`], for hashes and comparisons, in a fixed order.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
         self.memories.iter().copied()
     }
@@ -98,51 +100,55 @@ impl ConnectorState<'_> {
 }
 
 impl SeamBending {
-    /// Returns the seams of a [`Cloth`](crate::Cloth) of the same panels, whose particles have the
-    /// same numbers.
+    /// Returns the seams of a [`Cloth`](crate::Cloth) of the same `panels`. Particles have the
+    /// numbers of the cloth.
     ///
-    /// Where two neighbours on one side are the same particle, as where a seam runs over the mouth
-    /// of a dart, and at the breaks of a seam, nothing bends between them.
+    /// Where two neighbours on one side are one particle, as where a seam runs over the mouth of a
+    /// dart, and at the breaks of a seam, nothing bends between them.
     ///
     /// # Errors
-    /// When a seam has fewer than two pairs, a particle does not exist, neighbours on a side of the
-    /// seam are not neighbours on the outline of the panel, a particle is tied to particles that are not
-    /// on the other side of the seam, or a stiffness or an angle is out of range.
+    /// A seam has fewer than two pairs; a particle does not exist; neighbours on a side of the seam
+    /// are not neighbours on the outline of the panel; a particle is tied to particles that are not
+    /// on the other side of the seam; or a stiffness or an angle is out of range.
     pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, Error> {
-        let builder = SeamBuilder::of(panels);
+        let builder = SeamBuilder::new(panels);
         let mut connectors = Vec::new();
         for (index, seam) in seams.iter().enumerate() {
-            let wrong = |problem: SeamProblem| Error::Seam {
+            builder.append(seam, &mut connectors).map_err(|problem: SeamProblem| Error::Seam {
                 seam: index,
                 pair: problem.pair,
                 what: problem.what,
-            };
-            builder.append(seam, &mut connectors).map_err(wrong)?;
+            })?;
         }
-        Ok(Self { connectors, particles: builder.particles() })
+        Ok(Self { connectors, particles: builder.particle_count() })
     }
 
-    /// Returns the state of seams that start at given positions without friction.
+    /// Returns the state of seams that start at `positions` without friction.
     ///
     /// # Errors
-    /// When there are not three numbers for every particle.
-    pub fn state(&self, positions: &[f64]) -> Result<SeamState, Error> {
+    /// There are not three numbers for every particle.
+    pub fn state(&self, positions: &[f64]) -> Result<SeamBendingState, Error> {
         if positions.len() != 3 * self.particles {
             let (found, particles) = (positions.len(), self.particles);
             return Err(Error::Positions { found, particles });
         }
         let connectors = self.connectors.iter();
-        let normals: Vec<Vector> = connectors.map(|one| one.normal(positions)).collect();
-        let memory = |(connector, normal): (&SeamConnector, &Vector)| {
-            let position = connector.curvature(positions, *normal);
-            Memory { position, peak: position.abs(), ..Memory::default() }
-        };
-        let memories = self.connectors.iter().zip(&normals).map(memory).collect();
-        Ok(SeamState { memories, normals })
+        let normals: Vec<Vector> =
+            connectors.map(|connector| connector.normal(positions)).collect();
+        let memories = self
+            .connectors
+            .iter()
+            .zip(&normals)
+            .map(|(connector, normal)| {
+                let position = connector.curvature(positions, *normal);
+                Memory { position, peak: position.abs(), ..Memory::default() }
+            })
+            .collect();
+        Ok(SeamBendingState { memories, normals })
     }
 
-    /// Pairs of particles that seams join, the first of each less than the second; some occur more
-    /// than once.
+    /// Returns the pairs of particles that seams join, the lower number first. Some pairs occur
+    /// more than once.
     pub fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
         self.connectors.iter().flat_map(|connector| {
             let nodes = connector.nodes.iter().enumerate();
@@ -152,7 +158,11 @@ impl SeamBending {
         })
     }
 
-    fn each<'a>(&'a self, state: &'a SeamState) -> impl Iterator<Item = ConnectorState<'a>> {
+    /// Returns all connectors with their memories and normals in `state`.
+    fn with_state<'a>(
+        &'a self,
+        state: &'a SeamBendingState,
+    ) -> impl Iterator<Item = ConnectorState<'a>> {
         let all = self.connectors.iter().zip(&state.memories).zip(&state.normals);
         all.map(|((connector, memory), normal)| ConnectorState {
             connector,
@@ -161,43 +171,43 @@ impl SeamBending {
         })
     }
 
-    /// Adds the forces of all seams at trial positions, in N.
-    pub fn add_forces(&self, state: &SeamState, trial: &[f64], forces: &mut [f64]) {
-        for one in self.each(state) {
-            let moment = one.respond(trial, false).gradient;
-            for &WeightedNode { node, weight } in &one.connector.nodes {
-                add_at(forces, node, scale(moment, -one.connector.area * weight));
+    /// Adds the forces of all seams at the positions `trial` to `forces`, in N.
+    pub fn add_forces(&self, state: &SeamBendingState, trial: &[f64], forces: &mut [f64]) {
+        for current in self.with_state(state) {
+            let moment = current.respond(trial, false).gradient;
+            for &WeightedNode { node, weight } in &current.connector.nodes {
+                add_at(forces, node, scale(moment, -current.connector.area * weight));
             }
         }
     }
 
-    /// Returns the potential of the seams within a step, in J: its negative derivative is
-    /// [`SeamBending::add_forces`]. Only differences at one state are meaningful.
+    /// Returns the potential of the seams within a step at the positions `trial`, in J. Its
+    /// negative derivative is [`SeamBending::add_forces`]. Only differences at one `state` are
+    /// meaningful.
     #[must_use]
-    pub fn potential(&self, state: &SeamState, trial: &[f64]) -> f64 {
-        let energy =
-            |one: ConnectorState<'_>| one.connector.area * one.respond(trial, false).energy;
-        self.each(state).map(energy).sum()
+    pub fn potential(&self, state: &SeamBendingState, trial: &[f64]) -> f64 {
+        let current = self.with_state(state);
+        current.map(|c| c.connector.area * c.respond(trial, false).energy).sum()
     }
 
-    /// Passes the derivative of the forces with respect to the trial positions, negated, in N/m, to
-    /// `put`: blocks of nine numbers, row by row, with the particles of row and column, the row
-    /// never greater than the column.
+    /// Passes the negative derivative of the forces with respect to `trial`, in N/m, to `put`: the
+    /// particles of row and column, and the block of nine numbers, row by row. The row is never
+    /// greater than the column.
     ///
-    /// Every block is symmetric. A block of two different particles stands for its transpose too;
-    /// where both are sewn into one particle, it counts twice there. With `definite`, parts that
+    /// Every block is symmetric. A block of two different particles stands for its transpose too.
+    /// Where both are sewn into one particle, it counts twice there. With `definite`, parts that
     /// make the matrix indefinite are left out.
     pub fn add_stiffness(
         &self,
-        state: &SeamState,
+        state: &SeamBendingState,
         trial: &[f64],
         definite: bool,
         mut put: impl FnMut(u32, u32, [f64; 9]),
     ) {
-        for one in self.each(state) {
-            let hessian = one.respond(trial, definite).hessian;
+        for current in self.with_state(state) {
+            let hessian = current.respond(trial, definite).hessian;
             let hessian = hessian.as_flattened();
-            let SeamConnector { nodes, area, .. } = one.connector;
+            let SeamConnector { nodes, area, .. } = current.connector;
             for (k, row) in nodes.iter().enumerate() {
                 for column in &nodes[k..] {
                     let size = area * row.weight * column.weight;
@@ -207,9 +217,9 @@ impl SeamBending {
         }
     }
 
-    /// Accepts a step: advances all memories and normals, which nothing else writes. Returns the
-    /// energy dissipated by friction, in J.
-    pub fn commit(&self, state: &mut SeamState, positions: &[f64]) -> f64 {
+    /// Accepts a step to `positions`: advances all memories and normals of `state`, which nothing
+    /// else writes. Returns the energy dissipated by friction, in J.
+    pub fn commit(&self, state: &mut SeamBendingState, positions: &[f64]) -> f64 {
         let mut dissipated = 0.0;
         let memories = state.memories.iter_mut().zip(&mut state.normals);
         for (connector, (memory, normal)) in self.connectors.iter().zip(memories) {
@@ -224,15 +234,16 @@ impl SeamBending {
         dissipated
     }
 
-    /// Returns the energy that the seams can return, in J; the positions are those of the last
-    /// accepted step.
+    /// Returns the energy that the seams can return at `state`, in J. `positions` must belong to
+    /// the last accepted step.
     #[must_use]
-    pub fn stored(&self, state: &SeamState, positions: &[f64]) -> f64 {
-        let energy = |one: ConnectorState<'_>| {
-            // At the remembered positions the friction has done no work since.
-            let elastic = one.respond(positions, false).energy;
-            one.connector.area * (elastic + one.connector.law.friction.stored(one.memory.friction))
-        };
-        self.each(state).map(energy).sum()
+    pub fn stored(&self, state: &SeamBendingState, positions: &[f64]) -> f64 {
+        let energies = self.with_state(state).map(|current| {
+            // At the positions of the last commit the friction has done no work since.
+            let elastic = current.respond(positions, false).energy;
+            let friction = &current.connector.law.friction;
+            current.connector.area * (elastic + friction.stored(current.memory.friction))
+        });
+        energies.sum()
     }
 }

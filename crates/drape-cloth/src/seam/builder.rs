@@ -10,10 +10,10 @@ use crate::panel::triangle::twice_area;
 use crate::seam::connector::{Face, SeamConnector};
 use crate::seam::description::Seam;
 
-/// Least fraction of a curvature that bends a yarn; below, the yarn is at a right angle, or nearly.
+/// Least fraction of a curvature that bends a yarn. Below it the yarn is nearly at a right angle.
 const FRACTION_MIN: f64 = 1e-3;
 
-/// Reason why a seam cannot be built, and the pair at which.
+/// Reason why a seam cannot be built, and the number of the pair at fault.
 pub(crate) struct SeamProblem {
     pub(crate) pair: usize,
     pub(crate) what: &'static str,
@@ -50,8 +50,8 @@ struct SideTriangle {
     along: bool,
 }
 
-/// Connector of a seam before its laws: along each yarn it takes a fraction of the curvature.
-struct Draft<'a> {
+/// Connector of a seam before it has laws. Along each yarn it takes a fraction of the curvature.
+struct ConnectorDraft<'a> {
     /// Particle whose panel gives the laws.
     node: u32,
     /// Fractions of the curvature along warp and weft.
@@ -68,7 +68,8 @@ struct Draft<'a> {
 }
 
 impl SeamBuilder {
-    pub(crate) fn of(panels: &[(&Lattice, &Fabric)]) -> Self {
+    /// Returns the builder for seams between `panels`.
+    pub(crate) fn new(panels: &[(&Lattice, &Fabric)]) -> Self {
         let mut builder =
             Self { coordinates: Vec::new(), laws: Vec::new(), sides: BTreeMap::new() };
         for (lattice, fabric) in panels {
@@ -81,6 +82,7 @@ impl SeamBuilder {
                     faces.entry([a.min(b), a.max(b)]).or_default().push(side);
                 }
             }
+            // A side with one triangle is on the outline.
             let outer = faces.into_iter().filter(|(_, faces)| faces.len() == 1);
             builder.sides.extend(outer.map(|(side, faces)| (side, faces[0])));
             builder.coordinates.extend(&lattice.coordinates);
@@ -90,15 +92,18 @@ impl SeamBuilder {
         builder
     }
 
-    pub(crate) fn particles(&self) -> usize {
+    /// Returns the number of particles of all panels.
+    pub(crate) fn particle_count(&self) -> usize {
         self.coordinates.len()
     }
 
+    /// Returns the material coordinates of `node`, in m.
     fn at(&self, node: u32) -> [f64; 2] {
         self.coordinates[node as usize]
     }
 
-    /// Returns the triangle beside a segment of a pair and the next.
+    /// Returns the triangle beside the segment from `from` to `to`, which begins at the pair number
+    /// `pair`.
     fn side_triangle(&self, pair: usize, from: u32, to: u32) -> Result<SideTriangle, SeamProblem> {
         let Some(side) = self.sides.get(&[from.min(to), from.max(to)]) else {
             let what = "the particles of one side and the next are not neighbours on an outline";
@@ -111,13 +116,14 @@ impl SeamBuilder {
         Ok(SideTriangle { corners, length, height, along: side.rising == (from < to) })
     }
 
-    /// Appends the connectors of a seam.
+    /// Appends the connectors of `seam` to `connectors`.
     pub(crate) fn append(
         &self,
         seam: &Seam,
         connectors: &mut Vec<SeamConnector>,
     ) -> Result<(), SeamProblem> {
         self.check(seam)?;
+        // Triangles on both sides of each segment, `None` where nothing bends.
         let mut ties = seam.ties.iter().peekable();
         let mut segments = Vec::new();
         for (pair, ends) in seam.pairs.windows(2).enumerate() {
@@ -134,57 +140,67 @@ impl SeamBuilder {
             // jumps. Where darts meet, and between edges that are apart, both sides jump.
             let stays = [0, 1].iter().any(|&side| ends[0][side] == ends[1][side]);
             let is_broken = stays || seam.breaks.contains(&pair);
-            let triangles = |side: &Vec<u32>| -> Result<Vec<SideTriangle>, SeamProblem> {
-                side.windows(2).map(|two| self.side_triangle(pair, two[0], two[1])).collect()
-            };
             segments.push(if is_broken {
                 None
             } else {
-                Some([triangles(&sides[0])?, triangles(&sides[1])?])
+                Some([self.side_triangles(pair, &sides[0])?, self.side_triangles(pair, &sides[1])?])
             });
         }
         if ties.next().is_some() {
             let what = "a particle is tied to others than those of the other side, in their order";
             return Err(SeamProblem { pair: 0, what });
         }
+
         for sides in segments.iter().flatten() {
             self.append_across(seam, sides, connectors);
         }
         for pair in segments.windows(2) {
             let [Some(here), Some(there)] = pair else { continue };
-            let mean = |side: &Vec<SideTriangle>| {
+            let means = here.iter().chain(there).map(|side| {
                 side.iter().map(|triangle| triangle.height).sum::<f64>() / side.len() as f64
-            };
-            let width = 0.25 * here.iter().chain(there).map(mean).sum::<f64>();
-            for (one, next) in here.iter().zip(there) {
-                if let ([one], [next]) = (&one[..], &next[..]) {
-                    self.append_along(seam, [one, next], width, connectors);
+            });
+            let width = 0.25 * means.sum::<f64>();
+            for (side, next_side) in here.iter().zip(there) {
+                if let ([triangle], [next]) = (&side[..], &next_side[..]) {
+                    self.append_along(seam, [triangle, next], width, connectors);
                 }
             }
         }
         Ok(())
     }
 
+    /// Returns the triangles beside a line of `particles` from the pair number `pair` to the next.
+    fn side_triangles(
+        &self,
+        pair: usize,
+        particles: &[u32],
+    ) -> Result<Vec<SideTriangle>, SeamProblem> {
+        particles.windows(2).map(|ends| self.side_triangle(pair, ends[0], ends[1])).collect()
+    }
+
+    /// Checks the numbers of `seam` and that its particles exist.
     fn check(&self, seam: &Seam) -> Result<(), SeamProblem> {
-        let wrong = |pair, what| Err(SeamProblem { pair, what });
         if seam.pairs.len() < 2 {
-            return wrong(0, "a seam has two pairs at least");
+            return Err(SeamProblem { pair: 0, what: "a seam has two pairs at least" });
         }
         if !(seam.stiffness >= 0.0 && seam.stiffness.is_finite()) {
-            return wrong(0, "the stiffness is not a number of at least 0");
+            let what = "the stiffness is not a number of at least 0";
+            return Err(SeamProblem { pair: 0, what });
         }
         if seam.rest_angle.is_nan() || seam.rest_angle.abs() > Seam::REST_ANGLE_MAX {
-            return wrong(0, "the angle at rest is beyond 140°");
+            return Err(SeamProblem { pair: 0, what: "the angle at rest is beyond 140°" });
         }
-        let lost =
-            |pair: &[u32; 2]| pair.iter().any(|&node| node as usize >= self.coordinates.len());
-        match seam.pairs.iter().position(lost) {
-            Some(pair) => wrong(pair, "a particle of it does not exist"),
+        let missing = seam
+            .pairs
+            .iter()
+            .position(|pair| pair.iter().any(|&node| node as usize >= self.coordinates.len()));
+        match missing {
+            Some(pair) => Err(SeamProblem { pair, what: "a particle of it does not exist" }),
             None => Ok(()),
         }
     }
 
-    /// Appends the connectors between the triangles of both sides from one pair to the next.
+    /// Appends the connectors between the triangles of both `sides` from one pair to the next.
     fn append_across(
         &self,
         seam: &Seam,
@@ -194,19 +210,16 @@ impl SeamBuilder {
         let [first, second] = sides;
         let arcs = first.len().max(second.len());
         for k in 0..arcs {
-            // A side with one triangle has the same one for all of the other side's.
-            let [one, other] =
-                [first, second].map(|side| (&side[k.min(side.len() - 1)], side.len()));
-            let length = |(triangle, own): (&SideTriangle, usize)| {
-                triangle.length * own as f64 / arcs as f64
-            };
-            let lengths = length(one) + length(other);
-            self.append_between(seam, [one.0, other.0], lengths, connectors);
+            // A side with one triangle has it opposite all triangles of the other side.
+            let triangles = [first, second].map(|side| &side[k.min(side.len() - 1)]);
+            let [length, second_length] =
+                [0, 1].map(|side| triangles[side].length * sides[side].len() as f64 / arcs as f64);
+            self.append_between(seam, triangles, length + second_length, connectors);
         }
     }
 
-    /// Appends the connectors of a segment between two triangles, whose sides there have the given
-    /// sum of lengths, in m.
+    /// Appends the connectors of a segment between two `triangles`. `lengths` is the sum of the
+    /// lengths of their sides there, in m.
     fn append_between(
         &self,
         seam: &Seam,
@@ -214,9 +227,11 @@ impl SeamBuilder {
         lengths: f64,
         connectors: &mut Vec<SeamConnector>,
     ) {
-        let [one, other] = triangles;
-        let width = 0.5 * (one.height + other.height);
+        let [first, second] = triangles;
+        let width = 0.5 * (first.height + second.height);
         let area = 0.25 * lengths * width * seam.stiffness;
+
+        // Each triangle adds the direction in which its third corner leaves the segment.
         let mut nodes = Vec::new();
         for triangle in triangles {
             let [a, b, c] = triangle.corners.map(|node| self.at(node));
@@ -230,14 +245,14 @@ impl SeamBuilder {
         }
         // The wrong side of the second panel is up if the seam runs anticlockwise along both
         // outlines, or clockwise along both.
-        let sign = if one.along == other.along { -1.0 } else { 1.0 };
-        let faces = [one.face(1.0), other.face(sign)];
+        let sign = if first.along == second.along { -1.0 } else { 1.0 };
+        let faces = [first.face(1.0), second.face(sign)];
         for triangle in triangles {
             let [a, b, _] = triangle.corners.map(|node| self.at(node));
             let direction = [(b[0] - a[0]) / triangle.length, (b[1] - a[1]) / triangle.length];
-            let draft = Draft {
+            let draft = ConnectorDraft {
                 node: triangle.corners[0],
-                // Across the segment: the warp where the segment is along the weft.
+                // Across the segment: the warp takes most where the segment is along the weft.
                 fractions: direction.map(|part| part * part),
                 rest_curvature: seam.rest_angle / width,
                 nodes: &nodes,
@@ -249,36 +264,40 @@ impl SeamBuilder {
         }
     }
 
-    /// Appends the connectors of one side along two segments.
+    /// Appends the connectors of one side of `seam` along two segments, with a strip of `width`, in
+    /// m.
     fn append_along(
         &self,
         seam: &Seam,
-        [one, next]: [&SideTriangle; 2],
+        [triangle, next]: [&SideTriangle; 2],
         width: f64,
         connectors: &mut Vec<SeamConnector>,
     ) {
-        let higher = if one.height < next.height { next } else { one };
-        let nodes = [one.corners[0], one.corners[1], next.corners[1], higher.corners[2]];
+        let higher = if triangle.height < next.height { next } else { triangle };
+        let nodes = [triangle.corners[0], triangle.corners[1], next.corners[1], higher.corners[2]];
         let [a, b, c, d] = nodes.map(|node| self.at(node));
-        // The one combination of four points that is zero on linear functions.
+        // Only this combination of four points is zero on linear functions.
         let weights = [
             twice_area([b, c, d]),
             -twice_area([a, c, d]),
             twice_area([a, b, d]),
             -twice_area([a, b, c]),
         ];
+        // Its scale makes it one on half of the squared length along the seam.
         let span = (c[0] - a[0]).hypot(c[1] - a[1]);
         let direction = [(c[0] - a[0]) / span, (c[1] - a[1]) / span];
-        let square = |p: [f64; 2]| {
-            let along = (p[0] - b[0]) * direction[0] + (p[1] - b[1]) * direction[1];
-            0.5 * along * along
-        };
-        let scale: f64 = weights.iter().zip([a, b, c, d]).map(|(w, p)| w * square(p)).sum();
-        let weighted = nodes.into_iter().zip(weights);
-        let weighted = weighted.map(|(node, weight)| WeightedNode { node, weight: weight / scale });
-        let weighted: Vec<WeightedNode> = weighted.collect();
-        let length = 0.5 * (one.length + next.length);
-        let draft = Draft {
+        let terms = weights.iter().zip([a, b, c, d]).map(|(weight, point)| {
+            let along = (point[0] - b[0]) * direction[0] + (point[1] - b[1]) * direction[1];
+            weight * (0.5 * along * along)
+        });
+        let scale: f64 = terms.sum();
+        let weighted: Vec<WeightedNode> = nodes
+            .into_iter()
+            .zip(weights)
+            .map(|(node, weight)| WeightedNode { node, weight: weight / scale })
+            .collect();
+        let length = 0.5 * (triangle.length + next.length);
+        let draft = ConnectorDraft {
             node: nodes[1],
             fractions: [direction[1] * direction[1], direction[0] * direction[0]],
             rest_curvature: 0.0,
@@ -290,9 +309,9 @@ impl SeamBuilder {
         self.append_yarns(&draft, connectors);
     }
 
-    /// Appends the connectors of both yarns of a particle's panel, each with its fraction of a
-    /// curvature.
-    fn append_yarns(&self, draft: &Draft<'_>, connectors: &mut Vec<SeamConnector>) {
+    /// Appends the connectors of both yarns of a particle's panel, each with its fraction of the
+    /// curvature of `draft`.
+    fn append_yarns(&self, draft: &ConnectorDraft<'_>, connectors: &mut Vec<SeamConnector>) {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
         for &WeightedNode { node, weight } in draft.nodes {
             *sums.entry(node).or_insert(0.0) += weight;
@@ -315,8 +334,8 @@ impl SeamBuilder {
     }
 }
 
-/// Returns the law of a yarn that takes a fraction `$c$` of a curvature as a law of the whole
-/// curvature: `$M'(\kappa) = c\,M(c\,\kappa)$`.
+/// Returns `law`, the law of a yarn that takes the fraction `$c$` of a curvature, as a law of the
+/// whole curvature: `$M'(\kappa) = c\,M(c\,\kappa)$`.
 fn law_of_fraction(law: BendingLaw, fraction: f64) -> BendingLaw {
     let backbone = match law.backbone {
         BendingBackbone::Linear { rigidity } => {
@@ -333,6 +352,8 @@ fn law_of_fraction(law: BendingLaw, fraction: f64) -> BendingLaw {
             })
         }
     };
+
+    // Friction turns with the yarn, over a longer path of the whole curvature.
     let elements = law.friction.elements.map(|element| Dahl {
         plateau: fraction * element.plateau,
         length: element.length / fraction,

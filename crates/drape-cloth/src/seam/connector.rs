@@ -17,7 +17,7 @@ pub(crate) struct SeamConnector {
     pub(crate) length: f64,
     /// Area times relative stiffness, in m².
     pub(crate) area: f64,
-    /// Triangles whose mean normal is the connector's.
+    /// Triangles whose mean normal is the normal of the connector.
     pub(crate) faces: Vec<Face>,
 }
 
@@ -26,12 +26,12 @@ pub(crate) struct SeamConnector {
 pub(crate) struct Face {
     /// Corners, anticlockwise on the right side of its panel.
     pub(crate) corners: [u32; 3],
-    /// −1 if its wrong side is on the right side of the seam, 1 otherwise.
+    /// −1 if the triangle's wrong side is on the right side of the seam, 1 otherwise.
     pub(crate) sign: f64,
 }
 
 impl SeamConnector {
-    /// Returns the unit normal of the seam: the mean of those of its faces.
+    /// Returns the unit normal of the seam at `positions`: the mean of the normals of its `faces`.
     pub(crate) fn normal(&self, positions: &[f64]) -> Vector {
         let mut sum = [0.0; 3];
         for &Face { corners, sign } in &self.faces {
@@ -51,13 +51,13 @@ impl SeamConnector {
         BendingMeasure { second_difference, normal, length: self.length }
     }
 
-    /// Returns the curvature about a normal, in 1/m.
+    /// Returns the curvature at `positions` about `normal`, in 1/m.
     pub(crate) fn curvature(&self, positions: &[f64], normal: Vector) -> f64 {
         self.measure(positions, normal).curvature()
     }
 
-    /// Returns energy per area and derivatives. With a rest angle the curvature is counted about
-    /// the normal, as the friction is.
+    /// Returns energy per area and derivatives at `positions`. With a rest angle the curvature,
+    /// like the friction, is counted about `normal`.
     pub(crate) fn respond(
         &self,
         memory: &Memory,

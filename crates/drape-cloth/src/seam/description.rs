@@ -3,15 +3,15 @@
 /// Seam: the nodes that are sewn to each other, and how it bends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seam {
-    /// Pairs of particles, one of each side, in the order of the seam; both may be the same
-    /// particle, as at the tip of a dart.
+    /// Pairs of particles, one of each side, in the order of the seam. Both may be one particle, as
+    /// at the tip of a dart.
     pub pairs: Vec<[u32; 2]>,
-    /// Particles of the longer side of a gather between the pairs, in the order of the seam.
+    /// Particles of a gather's longer side between the pairs, in the order of the seam.
     pub ties: Vec<Tie>,
-    /// Numbers of the pairs, from 0, after which the seam goes on elsewhere: the next pair is no
+    /// Numbers of the pairs, from 0, after which the seam continues elsewhere: the next pair is no
     /// neighbour on the outlines.
     pub breaks: Vec<usize>,
-    /// Stiffness of the strip along the seam that is added to the panels, over that of the fabric.
+    /// Stiffness of the strip that the seam adds to the panels, over the stiffness of the fabric.
     pub stiffness: f64,
     /// Angle by which the panels are turned towards their right sides at rest, in rad: 0 if the
     /// seam is pressed open.
@@ -21,23 +21,25 @@ pub struct Seam {
 /// Particle that is tied to a point between two others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tie {
-    /// The tied particle.
+    /// Number of the tied particle.
     pub particle: u32,
-    /// The two particles that it lies between: those of the other side of two consecutive pairs.
+    /// The two particles between which it lies: particles of the other side, of two consecutive
+    /// pairs.
     pub ends: [u32; 2],
-    /// Position between them: 0 at the first, 1 at the second.
+    /// Position between the ends: 0 at the first, 1 at the second.
     pub fraction: f64,
 }
 
 impl Seam {
-    /// Stiffness of a seam if none is chosen: more than that of two layers that slide on each
-    /// other, twice that of one, and less than that of two that do not slide, eight times.
+    /// Default stiffness of a seam. Two layers that slide on each other would be twice as stiff as
+    /// one layer, two layers that do not slide eight times. The default lies between.
     pub const STIFFNESS: f64 = 3.0;
 
-    /// Largest rest angle, in rad: up to it angles are exact.
+    /// Largest rest angle, in rad. Up to this value angles are exact.
     pub const REST_ANGLE_MAX: f64 = 140.0 * std::f64::consts::PI / 180.0;
 
-    /// Returns a seam of the usual stiffness that is pressed open.
+    /// Returns a seam of `pairs` with the default stiffness that is pressed open.
+
     #[must_use]
     pub fn new(pairs: Vec<[u32; 2]>) -> Self {
         let (ties, breaks) = (Vec::new(), Vec::new());

@@ -1,6 +1,6 @@
 //! Forces and stiffness against finite differences, conservation, the reference, and bits.
 
-use drape_cloth::{Breen, Cloth, Error, Fold, Grain, Lattice, Mesh, Reference, State};
+use drape_cloth::{Breen, Cloth, Error, Fold, Grain, Lattice, Mesh, ReferenceCloth, State};
 use drape_fabric::Fabric;
 
 use crate::panels::{LINEN, RICH, fabric, rectangle, shape};
@@ -176,7 +176,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
     let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &rich)).collect();
     let cloth = Cloth::new(&panels);
     let mut state = cloth.state(wave(&cloth, 0.0)).expect("it fits");
-    let mut reference = Reference::new(&panels, cloth.sparsity(), &state);
+    let mut reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
     let rest = vec![0.0; 3 * cloth.particles()];
     let mut random = Random(3);
     for step in 0..6 {

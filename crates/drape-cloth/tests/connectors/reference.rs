@@ -1,6 +1,6 @@
 //! The cloth on its grid against its connectors one by one.
 
-use drape_cloth::{Cloth, Grain, Lattice, Reference};
+use drape_cloth::{Cloth, Grain, Lattice, ReferenceCloth};
 use drape_fabric::Fabric;
 
 use crate::panels::{RICH, fabric};
@@ -51,7 +51,7 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
             flat.map(|x| x + shake * random.next()).collect()
         };
         let mut state = cloth.state(place(0.0, 0.0)).expect("it fits");
-        let mut reference = Reference::new(panels, cloth.sparsity(), &state);
+        let mut reference = ReferenceCloth::new(panels, cloth.sparsity(), &state);
         let rest = vec![0.0; 3 * cloth.particles()];
         for step in 0..6 {
             let time = f64::from(step % 4) * 0.3;

@@ -1,6 +1,6 @@
 //! Bending of seams.
 
-use drape_cloth::{Cloth, Error, Lattice, Seam, SeamBending, SeamState, Tie};
+use drape_cloth::{Cloth, Error, Lattice, Seam, SeamBending, SeamBendingState, Tie};
 
 use crate::bias::{dot, outline, solve};
 use crate::panels::{LINEAR, RICH, fabric, garment, rectangle, shape};
@@ -116,7 +116,7 @@ fn cylinder(radius: f64, angle: f64) -> impl Fn([f64; 2]) -> [f64; 3] {
 }
 
 /// Seams with history in a shaken shape, and a trial.
-fn worn(sewn: &Sewn, text: &str, rest_angle: f64) -> (SeamBending, SeamState, Vec<f64>) {
+fn worn(sewn: &Sewn, text: &str, rest_angle: f64) -> (SeamBending, SeamBendingState, Vec<f64>) {
     let bending = sewn.bending(text, |seam| seam.rest_angle = rest_angle);
     let mut random = Random(9);
     let mut bent = |radius: f64| -> Vec<f64> {

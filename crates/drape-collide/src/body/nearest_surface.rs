@@ -1,4 +1,4 @@
-//! Distance of points from a surface of triangles, closed or not.
+//! Distance of points from a triangle surface, closed or open.
 
 use parry3d_f64::math::Vector as ParryVector;
 use parry3d_f64::query::PointQueryWithLocation;
@@ -6,7 +6,7 @@ use parry3d_f64::shape::TriMesh;
 
 use crate::error::Error;
 
-/// Surface of triangles from which distances are measured; it need not be closed.
+/// Triangle surface, closed or open, from which distances are measured.
 pub struct NearestSurface(TriMesh);
 
 impl std::fmt::Debug for NearestSurface {
@@ -16,21 +16,22 @@ impl std::fmt::Debug for NearestSurface {
 }
 
 impl NearestSurface {
-    /// Makes a surface of vertices in m and triangles of three vertex numbers.
+    /// Returns the surface with `vertices`, in m, and `triangles` of three vertex numbers each.
     ///
     /// # Errors
-    /// A surface without triangles.
+    /// There are no triangles, or a triangle names a vertex that does not exist.
     pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<NearestSurface, Error> {
-        let empty = || Error::EmptyMesh { vertices: vertices.len() };
-        let known = |&corner: &u32| (corner as usize) < vertices.len();
-        if triangles.is_empty() || !triangles.iter().flatten().all(known) {
-            return Err(empty());
+        let empty = Error::EmptyMesh { vertices: vertices.len() };
+        let all_known =
+            triangles.iter().flatten().all(|&corner| (corner as usize) < vertices.len());
+        if triangles.is_empty() || !all_known {
+            return Err(empty);
         }
         let points = vertices.iter().map(|v| ParryVector::new(v[0], v[1], v[2])).collect();
-        TriMesh::new(points, triangles.to_vec()).map(NearestSurface).map_err(|_| empty())
+        TriMesh::new(points, triangles.to_vec()).map(NearestSurface).map_err(|_| empty)
     }
 
-    /// Returns the distance of a point from the surface, in m, if it is at most `limit`.
+    /// Returns the distance of a point from the surface, in m, or `None` beyond `limit`.
     #[must_use]
     pub fn distance(&self, [x, y, z]: [f64; 3], limit: f64) -> Option<f64> {
         let point = ParryVector::new(x, y, z);

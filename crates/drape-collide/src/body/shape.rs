@@ -1,4 +1,4 @@
-//! Shapes of bodies, in the body's own frame.
+//! Shapes of bodies, in the body's frame.
 
 use super::mesh::Mesh;
 use super::primitive;
@@ -6,7 +6,7 @@ use super::signed_distance::SignedDistance;
 use crate::error::{Error, check};
 use crate::vector::Vector;
 
-/// Shape of a body in its own frame.
+/// Shape of a body, in the body's frame.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Shape {
@@ -15,60 +15,50 @@ pub enum Shape {
         /// Radius, in m.
         radius: f64,
     },
-    /// Box about the origin with its sides along the axes.
+    /// Box about the origin, with its sides along the axes.
     Box {
         /// Half of the length of each side, in m.
         half_extents: [f64; 3],
-        /// Radius to which edges and corners are rounded, in m; 0 for sharp ones.
+        /// Radius to which edges and corners are rounded, in m; 0 gives sharp edges.
         edge_radius: f64,
     },
-    /// Cylinder about the origin with its axis along y and flat ends.
+    /// Cylinder about the origin with its axis along y and with flat ends.
     Cylinder {
         /// Radius, in m.
         radius: f64,
         /// Half of the height, in m.
         half_height: f64,
-        /// Radius to which the rims are rounded, in m; 0 for sharp ones.
+        /// Radius to which the rims are rounded, in m; 0 gives sharp rims.
         edge_radius: f64,
     },
-    /// Half-space of all points with negative y: a floor whose upper side is the surface.
+    /// Half-space of all points with negative y: a floor whose upper side is at y = 0.
     Plane,
     /// Closed triangle surface.
     Mesh(Mesh),
 }
 
 impl Shape {
-    /// Checks the lengths of the shape of a body with a name.
+    /// Checks the lengths of this shape. Errors name the body `name`.
     pub(super) fn check(&self, name: &str) -> Result<(), Error> {
-        let length = |what: &str, value: f64| {
-            check(format!("{what} of the body `{name}`"), value, "a length above 0 m", value > 0.0)
-        };
-        let rounding = |value: f64, smallest: f64| {
-            check(
-                format!("the edge radius of the body `{name}`"),
-                value,
-                "a length in m from 0 to the smallest half extent",
-                (0.0..=smallest).contains(&value),
-            )
-        };
         match self {
-            Shape::Sphere { radius } => length("the radius", *radius),
+            Shape::Sphere { radius } => check_length("the radius", name, *radius),
             Shape::Box { half_extents: [x, y, z], edge_radius } => {
-                length("the half extent along x", *x)?;
-                length("the half extent along y", *y)?;
-                length("the half extent along z", *z)?;
-                rounding(*edge_radius, x.min(*y).min(*z))
+                check_length("the half extent along x", name, *x)?;
+                check_length("the half extent along y", name, *y)?;
+                check_length("the half extent along z", name, *z)?;
+                check_edge_radius(name, *edge_radius, x.min(*y).min(*z))
             }
+
             Shape::Cylinder { radius, half_height, edge_radius } => {
-                length("the radius", *radius)?;
-                length("the half height", *half_height)?;
-                rounding(*edge_radius, radius.min(*half_height))
+                check_length("the radius", name, *radius)?;
+                check_length("the half height", name, *half_height)?;
+                check_edge_radius(name, *edge_radius, radius.min(*half_height))
             }
             Shape::Plane | Shape::Mesh(_) => Ok(()),
         }
     }
 
-    /// Returns the signed distance of a finite point of the body's own frame.
+    /// Returns the [`SignedDistance`] of `point`, which must be finite and in the body's frame.
     pub(super) fn signed_distance(&self, point: Vector) -> SignedDistance {
         match self {
             Shape::Sphere { radius } => primitive::sphere(point, *radius),
@@ -84,4 +74,19 @@ impl Shape {
             Shape::Mesh(mesh) => mesh.signed_distance(point),
         }
     }
+}
+
+/// Checks that `value`, the length `what` of the body `name`, is positive.
+fn check_length(what: &str, name: &str, value: f64) -> Result<(), Error> {
+    check(format!("{what} of the body `{name}`"), value, "a length above 0 m", value > 0.0)
+}
+
+/// Checks that `edge_radius` of the body `name` is at most its `smallest` half extent, in m.
+fn check_edge_radius(name: &str, edge_radius: f64, smallest: f64) -> Result<(), Error> {
+    check(
+        format!("the edge radius of the body `{name}`"),
+        edge_radius,
+        "a length in m from 0 to the smallest half extent",
+        (0.0..=smallest).contains(&edge_radius),
+    )
 }

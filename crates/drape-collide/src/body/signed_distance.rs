@@ -1,6 +1,6 @@
 //! Signed distance of a point from a body, with its derivatives.
 
-use super::pose::Frame;
+use super::pose::BodyFrame;
 use crate::vector::{Vector, rotated};
 
 /// Signed distance of a point from the surface of a body, with its derivatives.
@@ -12,13 +12,13 @@ pub struct SignedDistance {
     pub normal: [f64; 3],
     /// Curvature: second derivative `$\nabla^2 d$` of the distance, row by row, in 1/m.
     ///
-    /// It is zero at flat faces. On the border of two regions of the surface it jumps, and the
-    /// value of either side is given.
+    /// The curvature is zero at flat faces. On the border of two regions of the surface it jumps,
+    /// and this field holds the value of either side.
     pub curvature: [f64; 9],
 }
 
 impl SignedDistance {
-    /// Signed distance from a flat face.
+    /// Returns the signed distance from a flat face with the unit `normal`; `distance` is in m.
     pub(crate) fn flat(distance: f64, normal: Vector) -> SignedDistance {
         SignedDistance { distance, normal, curvature: [0.0; 9] }
     }
@@ -27,8 +27,8 @@ impl SignedDistance {
     pub(crate) const UNKNOWN: SignedDistance =
         SignedDistance { distance: f64::NAN, normal: [f64::NAN; 3], curvature: [f64::NAN; 9] };
 
-    /// Returns the same seen from the world's axes.
-    pub(crate) fn to_world(self, frame: &Frame) -> SignedDistance {
+    /// Returns this signed distance, given in `frame`, in the axes of the world.
+    pub(crate) fn to_world(self, frame: &BodyFrame) -> SignedDistance {
         SignedDistance {
             distance: self.distance,
             normal: frame.rotate(self.normal),

@@ -7,34 +7,35 @@ use super::triangulation::Triangulation;
 use super::{obj, ply, stl};
 use crate::error::Error;
 
-/// Largest size of a file of a mesh or of its motion, in bytes: a tenth of it holds a million
-/// triangles, and all of it twenty thousand vertices for a thousand frames.
+/// Largest size of the file of a mesh or of its motion, in bytes. A tenth of it holds a million
+/// triangles. All of it holds twenty thousand vertices for a thousand frames.
 pub const MESH_BYTES_MAX: u64 = 1 << 28;
 
-/// Reads a Wavefront OBJ, STL (text or binary) or PLY (text or binary) file, by the extension of
-/// its name.
+/// Reads the Wavefront OBJ, STL (text or binary) or PLY (text or binary) file at `path`. The
+/// extension of the file's name decides the format.
 ///
-/// All groups and objects of an OBJ file are one surface; polygons become fans of triangles.
-/// Normals, texture coordinates, colours and materials are ignored. Each corner of an STL triangle
-/// is a vertex of its own. Coordinates are in units of the file, vertices in its order.
+/// All groups and objects of an OBJ file are one surface. Polygons become fans of triangles.
+/// Normals, texture coordinates, colours and materials are ignored. The triangles of an STL file
+/// share no vertices. Coordinates keep the unit of the file, vertices their order.
 ///
 /// # Errors
-/// If the file is none of these, is cut off, is no regular file or is longer than 256 MiB.
+/// The file is of none of these formats, is cut off, is no regular file, or is longer than 256 MiB.
 pub fn read_mesh(path: impl AsRef<Path>) -> Result<Triangulation, Error> {
     read_mesh_within(path, MESH_BYTES_MAX)
 }
 
-/// Reads a mesh file of at most `limit` bytes, as [`read_mesh`] does.
+/// Reads the mesh file at `path`, of at most `limit` bytes, as [`read_mesh`] does.
 ///
 /// # Errors
-/// As for [`read_mesh`], with the limit in place of 256 MiB.
+/// As for [`read_mesh`], with `limit` in place of 256 MiB.
 pub fn read_mesh_within(path: impl AsRef<Path>, limit: u64) -> Result<Triangulation, Error> {
     let path = path.as_ref();
     let parser = parser(path)?;
     parse(path, &read_bytes(path, limit)?, parser)
 }
 
-/// Returns the triangles of the content of a file, as [`read_mesh`] does of the file.
+/// Returns the triangles of `bytes`, the content of a file with the name `path`, as [`read_mesh`]
+/// does for the file.
 ///
 /// # Errors
 /// As for [`read_mesh`].
@@ -46,7 +47,7 @@ pub fn parse_mesh(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Triangulation,
 /// Parser of the content of a mesh file.
 type Parser = fn(&[u8]) -> Result<Triangulation, String>;
 
-/// Returns the parser of a file, by the extension of its name.
+/// Returns the parser for the file at `path`, by the extension of its name.
 fn parser(path: &Path) -> Result<Parser, Error> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
@@ -61,22 +62,26 @@ fn parse(path: &Path, bytes: &[u8], parser: Parser) -> Result<Triangulation, Err
     parser(bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
 }
 
-/// Returns the content of a regular file of at most `limit` bytes.
+/// Returns the content of the regular file at `path`, of at most `limit` bytes.
 pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
-    let unreadable = |reason: String| Error::UnreadableFile { path: path.to_path_buf(), reason };
-    let fail = |error: std::io::Error| unreadable(error.to_string());
-    // Asked before it is opened: opening a pipe would wait for its writer.
-    let metadata = std::fs::metadata(path).map_err(fail)?;
+    // The kind of file is checked first: opening a pipe would wait for its writer.
+    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, error))?;
     if !metadata.is_file() {
-        return Err(unreadable("it is no regular file".to_string()));
+        return Err(unreadable(path, "it is no regular file"));
     }
     if metadata.len() > limit {
         let (path, bytes) = (path.to_path_buf(), metadata.len());
         let times = bytes.div_ceil(MESH_BYTES_MAX);
         return Err(Error::FileTooLong { path, bytes, limit, times });
     }
+
     let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(fail)?;
-    file.take(limit).read_to_end(&mut bytes).map_err(fail)?;
+    let file = std::fs::File::open(path).map_err(|error| unreadable(path, error))?;
+    file.take(limit).read_to_end(&mut bytes).map_err(|error| unreadable(path, error))?;
     Ok(bytes)
+}
+
+/// Returns the error of a file at `path` that cannot be read, with the `reason`.
+fn unreadable(path: &Path, reason: impl ToString) -> Error {
+    Error::UnreadableFile { path: path.to_path_buf(), reason: reason.to_string() }
 }

@@ -2,7 +2,7 @@
 
 use super::triangulation::Triangulation;
 
-/// Returns the vertices and triangles of a Wavefront OBJ text.
+/// Returns the vertices and triangles of `bytes`, a Wavefront OBJ text.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     let (text, count) = surface_lines(&String::from_utf8_lossy(bytes));
     let options = tobj::LoadOptions {
@@ -11,6 +11,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
         ignore_lines: true,
         ..tobj::LoadOptions::default()
     };
+    // Materials are ignored: the loader gets an empty list.
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| {
         Ok((Vec::new(), Default::default()))
     })
@@ -20,8 +21,8 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     for model in &models {
         let (positions, _) = model.mesh.positions.as_chunks::<3>();
         let (colours, _) = model.mesh.vertex_color.as_chunks::<3>();
-        let (faces, rest) = model.mesh.indices.as_chunks::<3>();
-        if !rest.is_empty() {
+        let (faces, remainder) = model.mesh.indices.as_chunks::<3>();
+        if !remainder.is_empty() {
             return Err("a face has fewer than three corners".to_string());
         }
         let numbers: Vec<u32> = colours.iter().map(|colour| colour[0] as u32).collect();
@@ -29,8 +30,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
             *vertices.get_mut(number as usize).ok_or("a vertex has no number")? = *position;
         }
         for face in faces {
-            let corner = |index: u32| numbers.get(index as usize).copied();
-            let corners = face.map(corner);
+            let corners = face.map(|index| numbers.get(index as usize).copied());
             let [Some(a), Some(b), Some(c)] = corners else {
                 return Err("a face names a vertex that does not exist".to_string());
             };
@@ -40,19 +40,19 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     Ok(Triangulation { vertices, triangles })
 }
 
-/// Returns the vertices and faces of an OBJ text, the faces without normals and texture
-/// coordinates, and the number of vertices.
+/// Returns the lines of vertices and faces of the OBJ `text`, and the number of vertices. Faces
+/// lose their normals and texture coordinates.
 ///
-/// The parser would split the surface by groups and materials, and fail on files that are careless
-/// about what is not used here. It also numbers vertices in the order in which faces use them:
-/// their numbers in the file are passed on as their colours.
+/// The parser would split the surface by groups and materials, and fail on careless files for
+/// reasons that do not matter here. It also renumbers vertices in the order in which faces use
+/// them. The numbers in the file are therefore passed on as colours of the vertices.
 fn surface_lines(text: &str) -> (String, usize) {
     let mut kept = String::with_capacity(text.len());
     let mut count = 0;
     for line in text.lines() {
         let mut words = line.split_whitespace();
         match words.next() {
-            // A colour may follow the coordinates.
+            // A colour may follow the coordinates in the file.
             Some("v") => {
                 let coordinates: Vec<&str> = words.take(3).collect();
                 kept.extend(["v"].iter().chain(&coordinates).flat_map(|w| [*w, " "]));

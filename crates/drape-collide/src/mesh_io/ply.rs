@@ -3,17 +3,17 @@
 use std::io::Cursor;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{Payload, Property, PropertyAccess, PropertyAccessResult};
 
 use super::triangulation::Triangulation;
 
-/// Element of a file: a vertex with its position or a face with its corners.
+/// Element of a file: a vertex with its position, or a face with its corners.
 #[derive(Debug, Default)]
 struct Element {
     position: [Option<f64>; 3],
     corners: Option<Vec<u32>>,
-    /// Whether its corners are no vertex numbers, such as negative ones.
-    wrong: bool,
+    /// Whether the corners are no vertex numbers, such as negative ones.
+    has_bad_corners: bool,
 }
 
 impl PropertyAccess for Element {
@@ -22,6 +22,7 @@ impl PropertyAccess for Element {
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        // Coordinates may be numbers of any type. Corners must be unsigned.
         let axis = ["x", "y", "z"].iter().position(|axis| *axis == name);
         match (axis, name) {
             (Some(axis), _) => {
@@ -39,7 +40,7 @@ impl PropertyAccess for Element {
             }
             (None, "vertex_indices" | "vertex_index") => {
                 self.corners = property.to_u32_list();
-                self.wrong = self.corners.is_none();
+                self.has_bad_corners = self.corners.is_none();
             }
             _ => return PropertyAccessResult::Ignored,
         }
@@ -47,12 +48,12 @@ impl PropertyAccess for Element {
     }
 }
 
-/// Returns the vertices and triangles of a PLY file.
+/// Returns the vertices and triangles of `bytes`, a PLY file.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     let parser = Parser::<Element>::new();
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = parser.read_header(&mut reader).map_err(message)?;
-    // Each element takes a byte at least: larger counts would make the parser reserve too much
+    // Each element takes at least a byte. With larger counts the parser would reserve too much
     // memory or loop without end.
     for element in header.elements.values() {
         let (name, count) = (&element.name, element.count);
@@ -64,19 +65,21 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
             return Err(format!("it says that it has {count} of \"{name}\", in {have} bytes"));
         }
     }
+
     let mut payload = parser.read_payload(&mut reader, &header).map_err(message)?;
-    let mut element = |name: &str| {
-        payload.shift_remove(name).ok_or_else(|| format!("it has no element \"{name}\""))
-    };
-    let position = |(number, vertex): (usize, Element)| match vertex.position {
-        [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
-        _ => Err(format!("vertex {number} has no x, y and z")),
-    };
-    let vertices: Result<Vec<[f64; 3]>, String> =
-        element("vertex")?.into_iter().enumerate().map(position).collect();
+    let vertices: Result<Vec<[f64; 3]>, String> = take_elements(&mut payload, "vertex")?
+        .into_iter()
+        .enumerate()
+        .map(|(number, vertex)| match vertex.position {
+            [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+            _ => Err(format!("vertex {number} has no x, y and z")),
+        })
+        .collect();
+
+    // Polygons become fans of triangles.
     let mut triangles = Vec::new();
-    for (number, face) in element("face")?.into_iter().enumerate() {
-        let corners = face.corners.filter(|_| !face.wrong);
+    for (number, face) in take_elements(&mut payload, "face")?.into_iter().enumerate() {
+        let corners = face.corners.filter(|_| !face.has_bad_corners);
         let corners = corners.ok_or_else(|| format!("face {number} has no vertex_indices"))?;
         if corners.len() < 3 {
             return Err(format!("face {number} has {} corners", corners.len()));
@@ -86,7 +89,12 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     Ok(Triangulation { vertices: vertices?, triangles })
 }
 
-/// Returns the parser's message in one line.
+/// Removes the list of elements called `name` from `payload` and returns it.
+fn take_elements(payload: &mut Payload<Element>, name: &str) -> Result<Vec<Element>, String> {
+    payload.shift_remove(name).ok_or_else(|| format!("it has no element \"{name}\""))
+}
+
+/// Returns the message of `error` in one line.
 fn message(error: ParseError) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! Point caches: positions of a mesh's vertices from frame to frame, in files of the format PC2.
+//! Point caches: positions of a mesh's vertices from frame to frame, in PC2 files.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::error::Error;
 /// Size of the header before the coordinates, in bytes.
 const HEADER: usize = 32;
 
-/// Positions of a mesh's vertices from frame to frame, as a file of the format PC2 has them.
+/// Positions of a mesh's vertices from frame to frame, as stored in a PC2 file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointCache {
     /// Number of frames from one sample to the next.
@@ -18,22 +18,22 @@ pub struct PointCache {
 }
 
 impl PointCache {
-    /// Reads a point cache of at most [`MESH_BYTES_MAX`].
+    /// Reads the point cache at `path`, of at most [`MESH_BYTES_MAX`].
     ///
     /// Its content, little-endian: `POINTCACHE2` and a zero byte; the version 1; number of
     /// vertices; first frame; frames per sample; number of samples; and the coordinates as 32-bit
     /// floats, sample after sample.
     ///
     /// # Errors
-    /// A file that is longer, is no point cache, is cut off, or has a coordinate that is not finite.
+    /// The file is longer, is no point cache, is cut off, or has a coordinate that is not finite.
     pub fn read(path: impl AsRef<Path>) -> Result<PointCache, Error> {
         Self::read_within(path, MESH_BYTES_MAX)
     }
 
-    /// Reads a point cache of at most `limit` bytes, as [`read`](Self::read) does.
+    /// Reads the point cache at `path`, of at most `limit` bytes, as [`read`](Self::read) does.
     ///
     /// # Errors
-    /// As for [`read`](Self::read).
+    /// As for [`read`](Self::read), with `limit` in place of [`MESH_BYTES_MAX`].
     pub fn read_within(path: impl AsRef<Path>, limit: u64) -> Result<PointCache, Error> {
         let path = path.as_ref();
         let bytes = read_bytes(path, limit)?;
@@ -43,9 +43,11 @@ impl PointCache {
 
 fn parse(bytes: &[u8]) -> Result<PointCache, String> {
     let (words, _) = bytes.as_chunks::<4>();
-    let [_, _, _, version, points, _, frames_per_sample, samples, values @ ..] = words else {
+    let [_, _, _, version, points, _, frames_per_sample, samples, coordinates @ ..] = words else {
         return Err(format!("its {} bytes are no point cache, or it is cut off", bytes.len()));
     };
+
+    // The header.
     if !bytes.starts_with(b"POINTCACHE2\0") {
         return Err("it does not begin with POINTCACHE2".to_string());
     }
@@ -62,18 +64,21 @@ fn parse(bytes: &[u8]) -> Result<PointCache, String> {
     let (Some(count), true) = (count, samples > 0) else {
         return Err(format!("it has {points} vertices and {samples} samples"));
     };
-    // Of the largest counts the product is beyond 64 bits.
+    // The product of the largest counts needs more than 64 bits.
     let needed = 12 * count as u128 * samples as u128;
-    let found = (bytes.len() - HEADER) as u128;
-    if needed != found {
+    let available = (bytes.len() - HEADER) as u128;
+    if needed != available {
         return Err(format!(
-            "{samples} samples of {points} vertices take {needed} bytes, and it has {found}"
+            "{samples} samples of {points} vertices take {needed} bytes, and it has {available}"
         ));
     }
-    let positions = values.as_chunks::<3>().0.iter();
-    let positions = positions.map(|three| three.map(|value| f64::from(f32::from_le_bytes(value))));
-    let positions: Vec<[f64; 3]> = positions.collect();
-    if let Some(bad) = positions.iter().position(|three| !three.iter().all(|x| x.is_finite())) {
+
+    // The coordinates.
+    let triples = coordinates.as_chunks::<3>().0.iter();
+    let positions: Vec<[f64; 3]> =
+        triples.map(|triple| triple.map(|value| f64::from(f32::from_le_bytes(value)))).collect();
+    let first_bad = positions.iter().position(|p| !p.iter().all(|x| x.is_finite()));
+    if let Some(bad) = first_bad {
         let (sample, vertex) = (bad / count, bad % count);
         return Err(format!("vertex {vertex} of sample {sample} is at {:?}", positions[bad]));
     }

@@ -12,26 +12,40 @@ pub struct Triangulation {
 }
 
 impl Triangulation {
-    /// Returns the mesh with coordinates multiplied by a factor, such as m per unit of a file.
+    /// Returns the mesh with coordinates multiplied by `factor`, such as m per unit of a file.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Triangulation {
         self.vertices.iter_mut().flatten().for_each(|value| *value *= factor);
         self
     }
 
-    /// Returns the outward unit normals of the vertices: means of those of their triangles,
-    /// weighted by area.
+    /// Returns the outward unit normals of the vertices: means of the normals of the triangles
+    /// around each vertex, weighted by area.
     #[must_use]
     pub fn normals(&self) -> Vec<[f64; 3]> {
         let mut sums = vec![[0.0; 3]; self.vertices.len()];
         for corners in &self.triangles {
-            let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
+            let [a, b, c] = self.corners(*corners);
             let doubled = cross(subtract(b, a), subtract(c, a));
             for &corner in corners {
                 sums[corner as usize] = add(sums[corner as usize], doubled);
             }
         }
-        let unit = |sum: Vector| if norm(sum) > 0.0 { scale(sum, 1.0 / norm(sum)) } else { sum };
-        sums.into_iter().map(unit).collect()
+        sums.into_iter().map(unit_or_zero).collect()
     }
+
+    /// Returns the position of `vertex`, in m.
+    pub(crate) fn point(&self, vertex: u32) -> Vector {
+        self.vertices[vertex as usize]
+    }
+
+    /// Returns the positions of the corners of `triangle`, in m.
+    pub(crate) fn corners(&self, triangle: [u32; 3]) -> [Vector; 3] {
+        triangle.map(|vertex| self.point(vertex))
+    }
+}
+
+/// Returns the unit vector in the direction of `sum`, or `sum` if it is zero.
+fn unit_or_zero(sum: Vector) -> Vector {
+    if norm(sum) > 0.0 { scale(sum, 1.0 / norm(sum)) } else { sum }
 }

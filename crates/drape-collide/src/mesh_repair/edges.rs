@@ -1,11 +1,11 @@
-//! Edges of a triangulation, with the triangles on their sides.
+//! Edges of a triangulation, with the triangles beside them.
 
 use std::collections::BTreeMap;
 
 use crate::mesh_io::Triangulation;
 
-/// Side of a triangle: the triangle, and whether its corners run from the smaller to the larger
-/// vertex number of the edge.
+/// Side of an edge: the triangle there, and whether the corners of the triangle run from the
+/// smaller to the larger vertex number of the edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Side {
     pub(crate) triangle: u32,
@@ -19,7 +19,7 @@ pub(crate) struct Edges {
 }
 
 impl Edges {
-    /// Returns the edges of some triangles.
+    /// Returns the edges of `triangles`.
     pub(crate) fn new(triangles: &[[u32; 3]]) -> Edges {
         let mut sides: BTreeMap<[u32; 2], Vec<Side>> = BTreeMap::new();
         for (triangle, corners) in triangles.iter().enumerate() {
@@ -32,31 +32,31 @@ impl Edges {
         Edges { sides }
     }
 
-    /// Returns the edges with their sides.
+    /// Returns all edges with their sides.
     pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Side])> {
         self.sides.iter().map(|(edge, sides)| (*edge, &sides[..]))
     }
 
-    /// Returns the sides of an edge.
+    /// Returns the sides of an edge, empty for an edge that no triangle has.
     pub(crate) fn sides(&self, [a, b]: [u32; 2]) -> &[Side] {
         self.sides.get(&[a.min(b), a.max(b)]).map_or(&[], |sides| &sides[..])
     }
 
-    /// Returns for each triangle the number of its part: of the triangles that share edges with it,
-    /// and theirs.
-    pub(crate) fn parts(&self, triangles: usize) -> Vec<u32> {
-        let mut parts: Vec<u32> = (0..triangles as u32).collect();
+    /// Returns the number of the part of each triangle. Triangles that share an edge belong to one
+    /// part. `triangle_count` is the number of triangles.
+    pub(crate) fn parts(&self, triangle_count: usize) -> Vec<u32> {
+        let mut parts: Vec<u32> = (0..triangle_count as u32).collect();
         for (_, sides) in self.iter() {
             for pair in sides.windows(2) {
-                let [one, other] = [pair[0], pair[1]].map(|side| root(&mut parts, side.triangle));
-                parts[one.max(other) as usize] = one.min(other);
+                let [a, b] = [pair[0], pair[1]].map(|side| root(&mut parts, side.triangle));
+                parts[a.max(b) as usize] = a.min(b);
             }
         }
-        (0..triangles as u32).map(|triangle| root(&mut parts, triangle)).collect()
+        (0..triangle_count as u32).map(|triangle| root(&mut parts, triangle)).collect()
     }
 }
 
-/// Returns the first triangle of the part of a triangle, and shortens the way to it.
+/// Returns the first triangle of the part of `triangle`, and shortens the path to it in `parts`.
 fn root(parts: &mut [u32], triangle: u32) -> u32 {
     let mut top = triangle;
     while parts[top as usize] != top {
@@ -66,9 +66,9 @@ fn root(parts: &mut [u32], triangle: u32) -> u32 {
     top
 }
 
-/// Returns six times the volume between a triangle and a point, in m³.
+/// Returns six times the signed volume between `triangle` and the point `origin`, in m³.
 pub(crate) fn volume_six(mesh: &Triangulation, triangle: [u32; 3], origin: [f64; 3]) -> f64 {
     use crate::vector::{cross, dot, subtract};
-    let [a, b, c] = triangle.map(|vertex| subtract(mesh.vertices[vertex as usize], origin));
+    let [a, b, c] = mesh.corners(triangle).map(|corner| subtract(corner, origin));
     dot(a, cross(b, c))
 }

@@ -17,8 +17,8 @@ pub(crate) struct Quadric {
 }
 
 impl Quadric {
-    /// Returns the quadric of the plane of a triangle; of no plane for one without area.
-    pub(crate) fn of_triangle([p, q, r]: [Vector; 3]) -> Quadric {
+    /// Returns the quadric of the plane of a triangle, or zero for a triangle without area.
+    pub(crate) fn from_triangle([p, q, r]: [Vector; 3]) -> Quadric {
         let doubled = cross(subtract(q, p), subtract(r, p));
         let area = 0.5 * norm(doubled);
         if !(area > 0.0) {
@@ -30,8 +30,8 @@ impl Quadric {
         Quadric { a: a.map(|x| area * x), b: scale(n, area * d), c: area * d * d, area }
     }
 
-    /// Returns the mean squared distance of a point from the planes, in m²; rounding never makes it
-    /// negative.
+    /// Returns the mean squared distance of the point `x` from the planes, in m². The result is
+    /// never negative.
     pub(crate) fn mean_square(&self, x: Vector) -> f64 {
         let [xx, xy, xz, yy, yz, zz] = self.a;
         let ax = [
@@ -63,11 +63,11 @@ mod tests {
 
     #[test]
     fn the_value_is_the_squared_distance_to_the_plane() {
-        let quadric = Quadric::of_triangle([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
+        let quadric = Quadric::from_triangle([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
         for (point, distance) in [([3.0, -2.0, 1.0], 0.0), ([0.4, 0.7, 3.5], 2.5)] {
             let found = quadric.mean_square(point).sqrt();
             assert!((found - distance).abs() < 1e-12, "{found}, not {distance}");
         }
-        assert_eq!(Quadric::of_triangle([[1.0; 3]; 3]).mean_square([0.0; 3]), 0.0);
+        assert_eq!(Quadric::from_triangle([[1.0; 3]; 3]).mean_square([0.0; 3]), 0.0);
     }
 }

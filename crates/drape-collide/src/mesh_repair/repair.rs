@@ -1,4 +1,4 @@
-//! Repair of a triangulation, step by step, with a note on each.
+//! Repair of a triangulation, step by step, with a note on each step.
 
 use std::fmt;
 
@@ -12,24 +12,24 @@ use crate::body::Mesh;
 use crate::mesh_io::Triangulation;
 use crate::vector::Vector;
 
-/// What a repair may do, in m.
+/// Limits of a repair, all lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RepairSettings {
     /// Distance below which vertices are merged. 1 µm is far below what cloth feels, and far above
-    /// the digits that files have.
+    /// the precision of files.
     pub merge_distance: f64,
-    /// Length of the longest hole that is closed: larger ones are openings, such as a neck.
+    /// Length of the longest hole that is closed. Longer ones are openings, such as a neck.
     pub hole_length: f64,
-    /// Distance by which the surface may move where it is thinned; 0 keeps all triangles.
+    /// Distance by which thinning may move the surface. 0 keeps all triangles.
     pub thinning_distance: f64,
-    /// Length of the longest edge that thinning makes.
+    /// Length of the longest edge that thinning creates.
     pub edge_length: f64,
 }
 
 impl RepairSettings {
-    /// Returns the settings for cloth of a spacing, in m: holes up to twelve spacings long are
-    /// closed, and thinning moves the surface by up to a fiftieth of a spacing and makes no edge
-    /// longer than one.
+    /// Returns the settings for cloth with `spacing`, in m. Holes up to twelve spacings long are
+    /// closed. Thinning moves the surface by up to a fiftieth of `spacing` and creates no edge
+    /// longer than `spacing`.
     #[must_use]
     pub fn for_spacing(spacing: f64) -> RepairSettings {
         RepairSettings {
@@ -41,57 +41,57 @@ impl RepairSettings {
     }
 }
 
-/// Note on something that a repair did, or left.
+/// Note on a change that a repair made, or on a hole that it left open.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RepairNote {
-    /// Vertices were merged with others at the same position.
+    /// Vertices were merged with others at their position.
     Merged {
-        /// Number of the vertices.
+        /// Number of merged vertices.
         vertices: usize,
     },
-    /// Triangles without area, or that were there twice, were left out.
+    /// Triangles that had no area or occurred twice were left out.
     Dropped {
-        /// Number of the triangles.
+        /// Number of these triangles.
         triangles: usize,
     },
-    /// Triangles were turned, so that all have their outside outside.
+    /// Triangles were turned, so that all face outwards.
     Turned {
-        /// Number of the triangles.
+        /// Number of turned triangles.
         triangles: usize,
     },
     /// A hole was closed.
     Closed {
-        /// Number of its edges.
+        /// Number of edges around the hole.
         edges: usize,
-        /// Their length, in m.
+        /// Length of these edges together, in m.
         length: f64,
-        /// Its middle, in m.
+        /// Middle of the hole, in m.
         place: [f64; 3],
     },
-    /// A hole is longer than those that are closed.
+    /// A hole was left open: it is too long, or triangles cannot close it.
     Left {
-        /// Number of its edges.
+        /// Number of edges around the hole.
         edges: usize,
-        /// Their length, in m.
+        /// Length of these edges together, in m.
         length: f64,
-        /// Its middle, in m.
+        /// Middle of the hole, in m.
         place: [f64; 3],
     },
-    /// Triangles were merged into fewer.
+    /// Triangles were merged into fewer ones.
     Thinned {
-        /// Number before.
+        /// Number of triangles before.
         from: usize,
-        /// Number after.
+        /// Number of triangles after.
         to: usize,
-        /// Largest distance of a vertex that was there from the new surface, in m.
+        /// Largest distance of an earlier vertex from the new surface, in m.
         distance: f64,
     },
 }
 
 impl fmt::Display for RepairNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let at = |[x, y, z]: Vector| format!("({x:.4}, {y:.4}, {z:.4}) m");
+        // Each note is one sentence for a report.
         match self {
             Self::Merged { vertices } => {
                 write!(f, "{vertices} vertices were merged with others at the same position")
@@ -107,14 +107,14 @@ impl fmt::Display for RepairNote {
                     f,
                     "a hole of {edges} edges, {:.1} mm long, was closed at {}",
                     1e3 * length,
-                    at(*place)
+                    place_text(*place)
                 )
             }
             Self::Left { edges, length, place } => write!(
                 f,
                 "a hole of {edges} edges, {:.1} mm long, at {} is larger than those that are closed, or a lid does not close it",
                 1e3 * length,
-                at(*place)
+                place_text(*place)
             ),
             Self::Thinned { from, to, distance } => write!(
                 f,
@@ -125,20 +125,31 @@ impl fmt::Display for RepairNote {
     }
 }
 
-/// Mesh that was repaired.
+/// Returns `place`, in m, as text with four decimals.
+fn place_text([x, y, z]: Vector) -> String {
+    format!("({x:.4}, {y:.4}, {z:.4}) m")
+}
+
+/// Result of [`repair`]: the repaired mesh and notes on all changes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Repaired {
-    /// The mesh.
+pub struct RepairedMesh {
+    /// Repaired mesh.
     pub mesh: Triangulation,
-    /// What was done, in the order in which it was.
+    /// Notes on the changes, in the order in which they were made.
     pub notes: Vec<RepairNote>,
 }
 
-/// Repairs a mesh as far as that is safe: vertices are merged, triangles without area left out, all
-/// turned outside, small holes closed, and fine meshes thinned.
+/// Fractions of the merge distance that are tried one after the other.
 ///
-/// What it leaves (larger holes, edges with more than two triangles, intersections), an inspection
-/// of the result says. A step that would leave a worse body is not taken
+/// Vertices that join at a small distance need no large one, at which sheets that nearly touch
+/// would be joined as well.
+const MERGE_FRACTIONS: [f64; 3] = [0.01, 0.1, 1.0];
+
+/// Repairs `mesh` as far as that is safe: merges vertices, leaves out triangles without area, turns
+/// triangles outwards, closes small holes, and thins fine meshes within `settings`.
+///
+/// Larger holes, edges with more than two triangles, and intersections remain; an inspection of the
+/// result shows them. A step that would leave a worse body is undone
 /// ([`MeshInspection::is_worse_than`]).
 ///
 /// ```
@@ -152,91 +163,99 @@ pub struct Repaired {
 /// assert!(Mesh::new(&closed.vertices, &closed.triangles).is_ok());
 /// ```
 #[must_use]
-pub fn repair(mesh: &Triangulation, settings: &RepairSettings) -> Repaired {
+pub fn repair(mesh: &Triangulation, settings: &RepairSettings) -> RepairedMesh {
     let mut mesh = mesh.clone();
     let mut notes = Vec::new();
-    let (vertices, triangles) = (mesh.vertices.len(), mesh.triangles.len());
-    // First as a body is made, so that what is right already stays as it is.
+    let (vertices_before, triangles_before) = (mesh.vertices.len(), mesh.triangles.len());
+
+    // Merging as `Mesh` does comes first, so that a mesh without faults stays as it is.
     merge_coincident(&mut mesh);
-    for part in MERGE_PARTS {
-        no_worse(&mut mesh, |mesh| merge_vertices(mesh, part * settings.merge_distance));
+    for fraction in MERGE_FRACTIONS {
+        step_or_undo(&mut mesh, |mesh| merge_vertices(mesh, fraction * settings.merge_distance));
     }
-    let vertices = vertices - mesh.vertices.len();
+    let vertices = vertices_before - mesh.vertices.len();
     if vertices > 0 {
         notes.push(RepairNote::Merged { vertices });
     }
-    no_worse(&mut mesh, drop_degenerate);
-    let triangles = triangles - mesh.triangles.len();
-    if triangles > 0 {
-        notes.push(RepairNote::Dropped { triangles });
+
+    step_or_undo(&mut mesh, drop_degenerate);
+    let dropped = triangles_before - mesh.triangles.len();
+    if dropped > 0 {
+        notes.push(RepairNote::Dropped { triangles: dropped });
     }
     drop_unused(&mut mesh);
-    let turned = no_worse(&mut mesh, orient).unwrap_or_default();
+
+    let turned = step_or_undo(&mut mesh, orient).unwrap_or_default();
     notes.extend(close_holes(&mut mesh, settings.hole_length));
-    // With its holes closed a part has a volume, which decides about its outside.
-    let triangles = turned.max(no_worse(&mut mesh, orient).unwrap_or_default());
-    if triangles > 0 {
-        notes.push(RepairNote::Turned { triangles });
+    // A part whose holes are closed has a volume, which decides about its outside.
+    let turned = turned.max(step_or_undo(&mut mesh, orient).unwrap_or_default());
+    if turned > 0 {
+        notes.push(RepairNote::Turned { triangles: turned });
     }
-    notes.extend(no_worse(&mut mesh, |mesh| thinned(mesh, settings)).flatten());
-    Repaired { mesh, notes }
+
+    notes.extend(step_or_undo(&mut mesh, |mesh| thin_within(mesh, settings)).flatten());
+    RepairedMesh { mesh, notes }
 }
 
-/// Parts of the distance of merging that are tried one after the other: what joins at a small one needs no
-/// large one, at which sheets that nearly touch are joined as well.
-const MERGE_PARTS: [f64; 3] = [0.01, 0.1, 1.0];
-
-/// Closes the holes of a mesh up to a length, in m; returns a note on each hole.
+/// Closes the holes of `mesh` that are at most `length_max` long, in m. Returns a note on each
+/// hole.
 fn close_holes(mesh: &mut Triangulation, length_max: f64) -> Vec<RepairNote> {
     let holes = find_holes(mesh, &Edges::new(&mesh.triangles));
     let (short, long): (Vec<&Hole>, Vec<&Hole>) =
         holes.iter().partition(|hole| hole.length <= length_max);
-    let close_all = |mesh: &mut Triangulation, holes: &[&Hole]| {
-        let lids: Vec<[u32; 3]> = holes.iter().flat_map(|hole| close(mesh, hole)).collect();
-        mesh.triangles.extend(lids);
-    };
-    let all_closed = no_worse(mesh, |mesh| close_all(mesh, &short)).is_some();
-    let left = long.into_iter().map(|hole| hole.left());
-    let mut notes: Vec<RepairNote> = left.collect();
+    let mut notes: Vec<RepairNote> = long.into_iter().map(Hole::left_note).collect();
+
+    // If the holes cannot be closed together, each is tried alone.
+    let all_closed = step_or_undo(mesh, |mesh| add_lids(mesh, &short)).is_some();
     for hole in short {
-        // Of lids that do not close all together, those are kept that close alone.
-        let is_closed = all_closed || no_worse(mesh, |mesh| close_all(mesh, &[hole])).is_some();
-        notes.push(if is_closed { hole.closed() } else { hole.left() });
+        let is_closed = all_closed || step_or_undo(mesh, |mesh| add_lids(mesh, &[hole])).is_some();
+        notes.push(if is_closed { hole.closed_note() } else { hole.left_note() });
     }
     notes
 }
 
+/// Adds the triangles that close `holes` to `mesh`.
+fn add_lids(mesh: &mut Triangulation, holes: &[&Hole]) {
+    let lids: Vec<[u32; 3]> = holes.iter().flat_map(|hole| close(mesh, hole)).collect();
+    mesh.triangles.extend(lids);
+}
+
 impl Hole {
-    fn closed(&self) -> RepairNote {
+    fn closed_note(&self) -> RepairNote {
         let (edges, length, place) = (self.vertices.len(), self.length, self.place);
         RepairNote::Closed { edges, length, place }
     }
 
-    fn left(&self) -> RepairNote {
+    fn left_note(&self) -> RepairNote {
         let (edges, length, place) = (self.vertices.len(), self.length, self.place);
         RepairNote::Left { edges, length, place }
     }
 }
 
-/// Takes a step of a repair and returns its result; or undoes it where it leaves a worse body.
-fn no_worse<T>(mesh: &mut Triangulation, step: impl FnOnce(&mut Triangulation) -> T) -> Option<T> {
+/// Runs `step` on `mesh` and returns its result. Undoes the step and returns `None` if it leaves a
+/// worse body.
+fn step_or_undo<T>(
+    mesh: &mut Triangulation,
+    step: impl FnOnce(&mut Triangulation) -> T,
+) -> Option<T> {
     let before = mesh.clone();
-    let done = step(mesh);
+    let result = step(mesh);
     if *mesh == before {
-        return Some(done);
+        return Some(result);
     }
     let is_worse = MeshInspection::new(mesh).is_worse_than(&MeshInspection::new(&before));
     if is_worse {
         *mesh = before;
     }
-    (!is_worse).then_some(done)
+    (!is_worse).then_some(result)
 }
 
-/// Number of attempts to thin a mesh, each with half the distance of the one before.
+/// Number of attempts to thin a mesh. Each takes half the distance of the attempt before.
 const ATTEMPTS: usize = 5;
 
-/// Thins a closed mesh, and measures how far its surface moved; a mesh that is open stays as it is.
-fn thinned(mesh: &mut Triangulation, settings: &RepairSettings) -> Option<RepairNote> {
+/// Thins `mesh` within `settings` and returns a note with the distance by which its surface moved.
+/// An open mesh stays as it is.
+fn thin_within(mesh: &mut Triangulation, settings: &RepairSettings) -> Option<RepairNote> {
     if !(settings.thinning_distance > 0.0) {
         return None;
     }
@@ -244,17 +263,23 @@ fn thinned(mesh: &mut Triangulation, settings: &RepairSettings) -> Option<Repair
     let from = mesh.triangles.len();
     let mut limits =
         ThinningLimits { distance: settings.thinning_distance, edge_length: settings.edge_length };
+
     for _ in 0..ATTEMPTS {
         let mut thin_mesh = mesh.clone();
         thin(&mut thin_mesh, limits);
         let to = thin_mesh.triangles.len();
-        // A few triangles less are not worth another surface.
+        // A small saving is not worth another surface.
         if 10 * to > 9 * from {
             return None;
         }
+
+        // The limits hold for mean distances, so the largest one is measured.
         let surface = Mesh::new(&thin_mesh.vertices, &thin_mesh.triangles).ok()?;
-        let distance = |vertex: &Vector| surface.signed_distance(*vertex).distance.abs();
-        let distance = mesh.vertices.iter().map(distance).fold(0.0, f64::max);
+        let distance = mesh
+            .vertices
+            .iter()
+            .map(|vertex| surface.signed_distance(*vertex).distance.abs())
+            .fold(0.0, f64::max);
         if distance <= settings.thinning_distance {
             *mesh = thin_mesh;
             return Some(RepairNote::Thinned { from, to, distance });

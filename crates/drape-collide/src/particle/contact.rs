@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::detection::{ActiveParticle, Chunk, Nearest};
+use super::detection::{ActiveParticle, NearestBody, ParticleChunk};
 use super::friction::Friction;
 use super::settings::ParticleSettings;
-use super::summary::{ParticleSummary, touching_particles};
+use super::summary::{ParticleSummary, touching_particle_count};
 use crate::barrier::Barrier;
 use crate::body::{Body, Pose, SignedDistance, Solid};
 use crate::error::Error;
@@ -19,13 +19,13 @@ use crate::vector::{Vector, at, combine, dot, outer};
 /// opened. The forces are exactly the negative gradient of
 /// [`potential`](ParticleContact::potential).
 ///
-/// Only particles are tested: a triangle or a yarn between two particles can cut through a convex
-/// edge of a body by about its length squared over eight radii of the edge.
+/// Only particles are tested. A triangle or a yarn between two particles can cut through a convex
+/// edge of a body by about the square of its length over eight radii of the edge.
 ///
-/// A position that is not finite gives NaN for its force, its stiffness and the potential, so that
-/// a solver cannot take it for a position away from bodies.
+/// A position that is not finite gives NaN for its force, its stiffness and the potential. A solver
+/// therefore cannot take it for a position away from bodies.
 ///
-/// After the first step nothing is allocated, but by [`summary`](ParticleContact::summary).
+/// After the first step, only [`summary`](ParticleContact::summary) allocates memory.
 #[derive(Debug, Clone)]
 pub struct ParticleContact {
     bodies: Vec<Body>,
@@ -33,8 +33,8 @@ pub struct ParticleContact {
     settings: ParticleSettings,
     areas: Vec<f64>,
     has_mesh: bool,
-    chunks: Vec<Chunk>,
-    /// Positions at which the chunks' active particles were detected, in m.
+    chunks: Vec<ParticleChunk>,
+    /// Positions at which the active particles of the chunks were detected, in m.
     detected_at: Vec<f64>,
     frictions: Vec<Friction>,
     /// Slip `$\epsilon$` below which a particle sticks in the open step, in m.
@@ -42,24 +42,25 @@ pub struct ParticleContact {
 }
 
 impl ParticleContact {
-    /// Makes the contact of as many particles as there are lumped areas, in m².
+    /// Returns the contact of particles with `bodies`. `areas` holds the lumped area of each
+    /// particle, in m².
     ///
     /// # Errors
-    /// A body, a setting or an area out of range.
+    /// A body, a setting or an area is out of range.
     pub fn new(
         bodies: Vec<Body>,
         settings: ParticleSettings,
         areas: Vec<f64>,
     ) -> Result<ParticleContact, Error> {
         settings.check()?;
-        let bad = |(_, area): &(usize, &f64)| !area.is_finite() || **area < 0.0;
-        if let Some((particle, &area)) = areas.iter().enumerate().find(bad) {
-            return Err(Error::InvalidArea { particle, area });
+        if let Some(particle) = areas.iter().position(|area| !area.is_finite() || *area < 0.0) {
+            return Err(Error::InvalidArea { particle, area: areas[particle] });
         }
+
         let solids = bodies.iter().map(Body::solid).collect::<Result<Vec<_>, _>>()?;
         Ok(ParticleContact {
             has_mesh: solids.iter().any(Solid::is_mesh),
-            chunks: Chunk::cover(areas.len(), bodies.len()),
+            chunks: ParticleChunk::cover(areas.len(), bodies.len()),
             detected_at: Vec::new(),
             frictions: Vec::new(),
             sticking_slip: f64::NAN,
@@ -70,30 +71,31 @@ impl ParticleContact {
         })
     }
 
-    /// Bodies, in the order in which they were given.
+    /// Returns the bodies, in the order in which [`new`](ParticleContact::new) took them.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies
     }
 
-    /// Settings.
+    /// Returns the settings.
     #[must_use]
     pub fn settings(&self) -> &ParticleSettings {
         &self.settings
     }
 
-    /// Opens a step of `dt` seconds: friction takes its normal forces and tangent planes from the
-    /// start positions, and slip is measured from there.
+    /// Opens a step of `dt` seconds. Friction takes its normal forces and tangent planes from the
+    /// positions `start`, in m, and slip is measured from there.
     ///
-    /// A particle that comes into contact during the step has no friction until the next. Without
-    /// an open step, contact is frictionless.
+    /// A particle that comes into contact during the step has no friction until the next step.
+    /// Without an open step, contact is frictionless.
     ///
     /// # Panics
     ///
-    /// Like all methods that take positions, if there are not three coordinates per particle.
+    /// If there are not three coordinates per particle, like all methods that take positions.
     pub fn begin(&mut self, start: &[f64], dt: f64) {
         self.detect(start);
         self.sticking_slip = if dt > 0.0 { self.settings.slip_speed * dt } else { f64::NAN };
+        // The list is taken out while `self` is read, and keeps its memory.
         let mut frictions = std::mem::take(&mut self.frictions);
         frictions.clear();
         for active in self.active() {
@@ -113,10 +115,11 @@ impl ParticleContact {
         self.frictions = frictions;
     }
 
-    /// Moves a body within the open step: friction resists the slip of the cloth over the body.
+    /// Moves `body` to `pose` within the open step. Friction resists the slip of the cloth over the
+    /// body.
     ///
     /// # Errors
-    /// A pose out of range.
+    /// The pose is out of range.
     pub fn move_body(&mut self, body: usize, pose: Pose) -> Result<(), Error> {
         if self.bodies[body].pose == pose {
             return Ok(());
@@ -133,7 +136,8 @@ impl ParticleContact {
         Ok(())
     }
 
-    /// Returns the work that the bodies have done by friction on the cloth in the open step, in J.
+    /// Returns the work of friction that the moved bodies did on the cloth at `positions` in the
+    /// open step, in J.
     #[must_use]
     pub fn body_friction_work(&self, positions: &[f64]) -> f64 {
         let works = self.frictions.iter().map(|friction| {
@@ -143,17 +147,17 @@ impl ParticleContact {
         works.sum()
     }
 
-    /// Adds the contact and friction forces, in N.
+    /// Adds the contact and friction forces at `positions`, in N, to `forces`.
     pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         self.detect(positions);
-        self.each_force(positions, &mut |particle, _, force| {
+        self.for_each_force(positions, &mut |particle, _, force| {
             for (k, value) in force.iter().enumerate() {
                 forces[3 * particle + k] += value;
             }
         });
     }
 
-    /// Returns the energy of contact plus the friction potential of the step, in J.
+    /// Returns the energy of contact at `positions` plus the friction potential of the step, in J.
     pub fn potential(&mut self, positions: &[f64]) -> f64 {
         self.detect(positions);
         let barrier = Barrier::new(self.settings.activation_distance);
@@ -164,17 +168,18 @@ impl ParticleContact {
         self.settings.stiffness * contact + self.friction_potential(positions)
     }
 
-    /// Returns the friction of the step in [`potential`](ParticleContact::potential), in J.
+    /// Returns the friction part of [`potential`](ParticleContact::potential), in J.
     #[must_use]
     pub fn friction_potential(&self, positions: &[f64]) -> f64 {
         self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.sticking_slip)).sum()
     }
 
-    /// Calls `add` with the blocks `$-\partial f_i / \partial x_i$`, row by row, in N/m.
+    /// Calls `add` with the particle and the block `$-\partial f_i / \partial x_i$`, row by row, in
+    /// N/m.
     ///
-    /// There are no others: a particle's contact depends on its own position only. A particle may
-    /// have several blocks, which add up. With `definite` the curvature of surfaces, which
-    /// softens, is left out and no block has a negative eigenvalue.
+    /// A particle's contact depends on its position only, so there are no blocks between particles.
+    /// A particle may have several blocks, which add up. With `definite`, the curvature of
+    /// surfaces, which softens, is left out and no block has a negative eigenvalue.
     pub fn add_stiffness(
         &mut self,
         positions: &[f64],
@@ -197,7 +202,7 @@ impl ParticleContact {
         }
     }
 
-    /// Returns counts, distances and loads at given positions.
+    /// Returns counts, distances and loads at `positions`.
     ///
     /// # Panics
     ///
@@ -209,7 +214,7 @@ impl ParticleContact {
         let nearest = || current.nearest(positions);
         let bodies = current.bodies.len();
         let mut summary = ParticleSummary::new(current.active(), nearest, positions, bodies);
-        current.each_force(positions, &mut |_, body, force| {
+        current.for_each_force(positions, &mut |_, body, force| {
             for (load, value) in summary.loads[body].iter_mut().zip(force) {
                 *load -= value;
             }
@@ -217,16 +222,16 @@ impl ParticleContact {
         summary
     }
 
-    /// Returns the number of particles within the activation distance of at least one body, as the
-    /// [`summary`](ParticleContact::summary) has it, without allocating.
-    pub fn touching_particles(&mut self, positions: &[f64]) -> usize {
+    /// Returns the number of particles within the activation distance of at least one body, like
+    /// [`summary`](ParticleContact::summary), without allocating memory.
+    pub fn touching_particle_count(&mut self, positions: &[f64]) -> usize {
         self.detect(positions);
-        touching_particles(self.active())
+        touching_particle_count(self.active())
     }
 
-    /// Calls `visit` with particle, body and force of every contact; the active particles must be
-    /// those of the positions.
-    fn each_force(&self, positions: &[f64], visit: &mut dyn FnMut(usize, usize, Vector)) {
+    /// Calls `visit` with particle, body and force, in N, of every contact. The active particles
+    /// must have been detected at `positions`.
+    fn for_each_force(&self, positions: &[f64], visit: &mut dyn FnMut(usize, usize, Vector)) {
         for active in self.active() {
             let size = self.areas[active.particle] * self.settings.pressure(active.signed.distance);
             let force = active.signed.normal.map(|n| n * size);
@@ -238,20 +243,21 @@ impl ParticleContact {
         }
     }
 
-    /// Finds all particles within the activation distance of a body.
+    /// Detects all particles within the activation distance of a body at `positions`.
     fn detect(&mut self, positions: &[f64]) {
         assert_eq!(
             positions.len(),
             3 * self.areas.len(),
             "contact needs three coordinates for each particle"
         );
-        // Force, potential and stiffness are mostly asked for at the same positions. NaN is never
-        // equal, and so is detected each time.
+        // Force, potential and stiffness are mostly evaluated at equal positions. NaN is never
+        // equal, so positions of NaN are detected each time.
         if self.detected_at == positions {
             return;
         }
         self.detected_at.clear();
         self.detected_at.extend_from_slice(positions);
+
         let (solids, activation_distance) = (&self.solids, self.settings.activation_distance);
         if self.has_mesh {
             let chunks = self.chunks.par_iter_mut();
@@ -263,13 +269,13 @@ impl ParticleContact {
         }
     }
 
-    /// Active particles, sorted by particle and body.
+    /// Returns each [`ActiveParticle`], sorted by particle and body.
     fn active(&self) -> impl Iterator<Item = &ActiveParticle> {
         self.chunks.iter().flat_map(|chunk| &chunk.active)
     }
 
-    /// Returns the smallest distance of a particle from a body.
-    fn nearest(&self, positions: &[f64]) -> Option<Nearest> {
+    /// Returns the smallest signed distance of a particle at `positions` from a body.
+    fn nearest(&self, positions: &[f64]) -> Option<NearestBody> {
         let chunks = self.chunks.iter();
         chunks.fold(None, |nearest, chunk| chunk.nearest(&self.solids, positions, nearest))
     }

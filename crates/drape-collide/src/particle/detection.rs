@@ -1,18 +1,18 @@
 //! Detection of the particles within the activation distance of a body.
 //!
-//! A distance changes by no more than the particle moves, so a particle that was far from a body is
-//! not looked at again until it has moved far enough.
+//! A distance changes by at most the displacement of the particle. A particle far from a body is
+//! therefore checked again only after it has moved far enough.
 
 use crate::body::{DistanceBound, SignedDistance, Solid};
 use crate::vector::{Vector, at, norm, subtract};
 
-/// Number of particles of a chunk, for one thread at a time.
+/// Number of particles in a chunk, which one thread handles at a time.
 ///
-/// It is constant, so that no result depends on the number of threads. Some hundred queries of a
-/// mesh take a fraction of a millisecond, far more than passing them to another thread.
+/// The number is constant, so no result depends on the number of threads. Some hundred queries of a
+/// mesh take a fraction of a millisecond, far longer than passing them to another thread.
 pub(super) const CHUNK: usize = 256;
 
-/// Relative rounding that is taken off a known distance.
+/// Relative rounding error that is subtracted from a known distance.
 const ROUNDING: f64 = 1e-9;
 
 /// Particle within the activation distance of a body.
@@ -25,15 +25,15 @@ pub(crate) struct ActiveParticle {
 
 /// Signed distance of a particle from a body, in m.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Nearest {
+pub(crate) struct NearestBody {
     pub(crate) distance: f64,
     pub(crate) particle: usize,
     pub(crate) body: usize,
 }
 
-/// Lower bound of the distance of a particle from a body at an earlier position.
+/// Lower bound of a particle's distance from a body, at an earlier position of the particle.
 ///
-/// A body that moves voids it.
+/// The bound is dropped when the body moves.
 #[derive(Debug, Clone, Copy)]
 struct KnownDistance {
     position: Vector,
@@ -43,28 +43,28 @@ struct KnownDistance {
 impl KnownDistance {
     const NONE: KnownDistance = KnownDistance { position: [0.0; 3], distance: f64::NEG_INFINITY };
 
-    /// Returns a lower bound of the distance at a point, in m.
+    /// Returns a lower bound of the distance at `point`, in m.
     fn bound(&self, point: Vector) -> f64 {
         self.distance * (1.0 - ROUNDING) - norm(subtract(point, self.position)) * (1.0 + ROUNDING)
     }
 }
 
-/// Consecutive particles with their known distances and those that are active.
+/// Consecutive particles with their known distances, and the active ones among them.
 #[derive(Debug, Clone)]
-pub(crate) struct Chunk {
+pub(crate) struct ParticleChunk {
     first: usize,
-    /// For each particle and body.
+    /// Known distances for each particle and body, particle by particle.
     known: Vec<KnownDistance>,
-    /// Sorted by particle and body.
+    /// Active particles, sorted by particle and body.
     pub(crate) active: Vec<ActiveParticle>,
 }
 
-impl Chunk {
-    /// Chunks for numbers of particles and of bodies.
-    pub(crate) fn cover(particles: usize, bodies: usize) -> Vec<Chunk> {
+impl ParticleChunk {
+    /// Returns chunks that cover numbers of `particles` and `bodies`.
+    pub(crate) fn cover(particles: usize, bodies: usize) -> Vec<ParticleChunk> {
         let firsts = (0..particles).step_by(CHUNK);
         firsts
-            .map(|first| Chunk {
+            .map(|first| ParticleChunk {
                 first,
                 known: vec![KnownDistance::NONE; CHUNK.min(particles - first) * bodies],
                 active: Vec::new(),
@@ -72,20 +72,20 @@ impl Chunk {
             .collect()
     }
 
-    /// Drops the known distances of one of so many bodies, because it moved.
-    pub(crate) fn forget(&mut self, body: usize, bodies: usize) {
-        let known = self.known.iter_mut().skip(body).step_by(bodies);
+    /// Drops the known distances of `body`, which moved. `body_count` is the number of all bodies.
+    pub(crate) fn forget(&mut self, body: usize, body_count: usize) {
+        let known = self.known.iter_mut().skip(body).step_by(body_count);
         known.for_each(|known| *known = KnownDistance::NONE);
     }
 
-    /// Finds the particles nearer than the activation distance to a solid.
+    /// Detects the particles that are nearer than `activation_distance`, in m, to one of `solids`.
     pub(crate) fn detect(&mut self, solids: &[Solid], activation_distance: f64, positions: &[f64]) {
         self.active.clear();
         for (k, known) in self.known.chunks_mut(solids.len().max(1)).enumerate() {
             let particle = self.first + k;
             let point = at(positions, particle);
             for (body, (solid, known)) in solids.iter().zip(known).enumerate() {
-                // The bound of a point of NaN is NaN, so its distance is asked for.
+                // The bound of a point of NaN is NaN, so the distance is evaluated.
                 if known.bound(point) >= activation_distance {
                     continue;
                 }
@@ -101,13 +101,13 @@ impl Chunk {
         }
     }
 
-    /// Returns the particle with the smallest distance, if it is smaller than that at hand.
+    /// Returns the particle with the smallest distance if it is below `nearest`, else `nearest`.
     pub(crate) fn nearest(
         &self,
         solids: &[Solid],
         positions: &[f64],
-        mut nearest: Option<Nearest>,
-    ) -> Option<Nearest> {
+        mut nearest: Option<NearestBody>,
+    ) -> Option<NearestBody> {
         for (k, known) in self.known.chunks(solids.len().max(1)).enumerate() {
             let particle = self.first + k;
             let point = at(positions, particle);
@@ -116,7 +116,7 @@ impl Chunk {
                 if known.bound(point) < limit {
                     let distance = solid.signed_distance(point).distance;
                     if distance < limit {
-                        nearest = Some(Nearest { distance, particle, body });
+                        nearest = Some(NearestBody { distance, particle, body });
                     }
                 }
             }

@@ -4,7 +4,7 @@
 //! E = k A\, m\, b(d - \xi)
 //! ```
 //!
-//! The two-stage barrier `$b$` is infinite at the minimum separation `$\xi$` \[Li21\]; the
+//! The two-stage barrier `$b$` is infinite at the minimum separation `$\xi$` \[Li21\]. The
 //! mollifier `$m$` makes the energy of two edges continuous where they become parallel
 //! \[Li20, §5\]. All pairs of vertices with triangles and of edges are summed, whatever features
 //! the closest points lie on.

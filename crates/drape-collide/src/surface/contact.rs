@@ -2,15 +2,15 @@
 //!
 //! In a step of time the solver calls, on a [`SurfaceContact`]:
 //!
-//! 1. `set_seam_gaps`, while seams are open, and `grow_distances`, if surfaces started nearer than
+//! 1. `set_seam_gaps` while seams are open, and `grow_distances` if surfaces started nearer than
 //!    their distances,
 //! 2. `begin`: bodies get their positions at the end of the step, friction its normal forces,
 //! 3. `set_obstacle_time`, `add_forces`, `potential`, `add_stiffness` at trial positions, and
-//!    `limit_step` before each of them is taken,
-//! 4. `intersections`, and `commit` if there are none; `restore` if the step is rejected.
+//!    `limit_step` before the solver takes a trial step,
+//! 4. `intersections`, and `commit` if there are none, or `restore` if the step is rejected.
 //!
-//! It uses all other chapters of [`surface`](super), and owns their buffers: after the first steps
-//! nothing is allocated.
+//! This chapter uses all other chapters of [`surface`](super), and owns their buffers. After the
+//! first steps it allocates no memory.
 
 mod active_pairs;
 mod growth;
@@ -24,7 +24,7 @@ mod settings;
 mod summary;
 mod surface_contact;
 #[cfg(test)]
-mod thrown_sheet;
+mod thrown_sheet_tests;
 
 pub use pinch::PinchedVertices;
 pub use placing::SewnPlacement;

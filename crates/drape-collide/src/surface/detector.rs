@@ -1,26 +1,29 @@
 //! Detector of candidate pairs: the broad phase with its lists.
 
-use super::broad_phase::{CandidatePairs, Detection, Limit, PastDetection, Query, Scan, Sweep};
+use super::broad_phase::{
+    CandidatePairs, Detection, PairLimit, PairQuery, PairScan, PastDetection, Sweep,
+};
 use super::contact_surface::Surface;
 use super::placement::Placement;
 use crate::error::{Error, check};
 
-/// Largest number of pairs of a list, unless another one is given.
+/// Largest number of pairs in a list, if [`Detector::with_capacity`] sets no other.
 ///
-/// It is a hundred for each of half a million vertices, and 4 GB: more is a mistake of the input.
+/// The limit means a hundred pairs for each of half a million vertices, in 4 GB. More is a mistake
+/// of the input.
 const CAPACITY: usize = 50_000_000;
 
 /// Detector of candidate pairs.
 ///
-/// It keeps boxes and lists between calls and allocates only when they grow; it may be used for
-/// one surface after another.
+/// The detector keeps boxes and lists between calls and allocates memory only when they grow. It
+/// may be used for one surface after another.
 #[derive(Debug, Clone)]
 pub struct Detector {
-    scan: Scan,
+    scan: PairScan,
     pairs: CandidatePairs,
     capacity: usize,
-    /// Revision of the bodies' positions and margin that their boxes in the trees are of; none if they
-    /// are not to be kept.
+    /// Revision of the bodies' positions and margin for which the boxes of the bodies were fitted;
+    /// `None` if these boxes cannot be kept.
     fitted: Option<(u64, f64)>,
 }
 
@@ -31,28 +34,33 @@ impl Default for Detector {
 }
 
 impl Detector {
-    /// Makes a detector whose list may hold so many pairs, instead of 50 million.
+    /// Returns a detector whose list may hold `capacity` pairs, instead of 50 million.
     #[must_use]
     pub fn with_capacity(capacity: usize) -> Detector {
-        Detector { scan: Scan::default(), pairs: CandidatePairs::default(), capacity, fitted: None }
+        Detector {
+            scan: PairScan::default(),
+            pairs: CandidatePairs::default(),
+            capacity,
+            fitted: None,
+        }
     }
 
-    /// Pairs of the last detection that succeeded.
+    /// Returns the pairs of the last detection that succeeded.
     #[must_use]
     pub fn pairs(&self) -> &CandidatePairs {
         &self.pairs
     }
 
-    /// Finds every pair whose distance is below its activation distance plus a margin, in m, at
-    /// flat positions.
+    /// Detects every pair whose distance at the flat `positions` is below its activation distance
+    /// plus `margin`, in m.
     ///
     /// Pairs that share a vertex, directly or through a seam, and pairs without a free vertex are
-    /// left out. On an error the pairs of the detection before stay.
+    /// left out. After an error the pairs of the previous detection remain.
     ///
     /// # Errors
     ///
-    /// If there are not three coordinates for each vertex, one is not finite or beyond 1000 km,
-    /// the margin is not a positive number, or the list would be too long.
+    /// There are not three coordinates for each vertex; a coordinate is not finite or beyond
+    /// 1000 km; `margin` is not a positive number; or the list would be too long.
     pub fn detect(
         &mut self,
         surface: &Surface,
@@ -62,12 +70,13 @@ impl Detector {
         self.detect_swept(surface, positions, Sweep::Still, margin)
     }
 
-    /// Finds every pair whose distance falls below its activation distance plus a margin, in m,
-    /// somewhere on trajectories from flat positions, and some that stay a little farther.
+    /// Detects every pair whose distance falls below its activation distance plus `margin`, in m,
+    /// anywhere on the trajectories `sweep` from the flat `positions`. Some pairs that stay a
+    /// little farther apart are listed too.
     ///
     /// # Errors
     ///
-    /// As of [`detect`](Detector::detect).
+    /// As for [`detect`](Detector::detect).
     pub fn detect_swept(
         &mut self,
         surface: &Surface,
@@ -78,8 +87,8 @@ impl Detector {
         self.run(surface, Detection { positions, revision: None, sweep, margin })
     }
 
-    /// Finds the same pairs at a placement. Boxes of bodies are kept as long as the revision is the
-    /// same.
+    /// Detects like [`detect_swept`](Detector::detect_swept) at `placement`. The boxes of bodies
+    /// are kept as long as the revision of `placement` is unchanged.
     pub(crate) fn detect_placed(
         &mut self,
         surface: &Surface,
@@ -93,6 +102,7 @@ impl Detector {
         )
     }
 
+    /// Checks `detection` and runs it.
     fn run(
         &mut self,
         surface: &Surface,
@@ -104,39 +114,44 @@ impl Detector {
             surface.check_displacements(displacements)?;
         }
         check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
+
+        // Subtracting the mean displacement makes the boxes of falling cloth smaller.
         let free = surface.free_count();
         let mean_displacement = sweep.mean_displacement(free, surface.vertex_count());
-        let query = Query {
+        let query = PairQuery {
             primitives: surface.primitives(),
             separations: &surface.separations,
             positions,
-            limit: Limit::Margin { margin, sweep },
+            limit: PairLimit::Margin { margin, sweep },
             mean_displacement: mean_displacement.unwrap_or_default(),
         };
+
+        // The boxes of bodies stay valid while bodies, margin and reference frame are unchanged.
         let fitted =
             revision.filter(|_| mean_displacement.is_none()).map(|revision| (revision, margin));
         let keeps_bodies = fitted.is_some() && fitted == self.fitted;
         self.fitted = fitted;
         self.scan.run(&query, self.capacity, keeps_bodies)?;
+
         self.pairs.replace(self.scan.pairs(), &detection, free);
         Ok(&self.pairs)
     }
 
-    /// Moves the reference positions of the pairs along their trajectories to where these come
-    /// nearest to flat positions, from where a [`CcdFilter`](crate::CcdFilter) then takes further
-    /// steps.
+    /// Moves the reference positions of the pairs along their trajectories to the points nearest to
+    /// the flat `positions`, in m. A [`CcdFilter`](crate::CcdFilter) then takes further steps from
+    /// there.
     pub fn follow_trajectories(&mut self, positions: &[f64]) {
         self.pairs.follow_trajectories(positions);
     }
 
-    /// Detects the pairs of an earlier detection again.
+    /// Repeats the detection `past`.
     pub(crate) fn repeat(&mut self, surface: &Surface, past: &PastDetection) -> Result<(), Error> {
         self.detect_swept(surface, &past.start, past.sweep(), past.margin)?;
-        self.pairs.follow_to(past);
+        self.pairs.restore_reference(past);
         Ok(())
     }
 
-    /// Drops the pairs, whose distances have changed.
+    /// Drops all pairs, because their distances have changed.
     pub(crate) fn clear(&mut self) {
         self.fitted = None;
         self.pairs.clear();
@@ -149,7 +164,7 @@ mod tests {
     use crate::surface::exact::IntersectionTest;
     use crate::{ContactDistances, SurfaceParts, intersections};
 
-    /// Square grid of so many vertices a side at a height, from a corner, in m: positions and triangles.
+    /// Returns positions and triangles of a square grid with `side` vertices per side, at `height`.
     fn grid(side: u32, spacing: f64, height: f64, first: u32) -> (Vec<f64>, Vec<[u32; 3]>) {
         let vertices = (0..side * side)
             .flat_map(|k| [spacing * f64::from(k % side), spacing * f64::from(k / side), height]);
@@ -215,7 +230,7 @@ mod tests {
             assert!(list == format!("{:?}", pairs.as_slice()), "round {round}");
             test.run_placed(&surface, &placement).unwrap();
             let expected = intersections(&surface, &placement).unwrap();
-            assert_eq!(test.found, expected, "round {round}");
+            assert_eq!(test.intersections, expected, "round {round}");
             met += expected.len();
         }
         assert!(found > 10_000 && met > 100 && kept > 10, "{found} pairs, {met} met, {kept} kept");

@@ -1,12 +1,12 @@
 //! Distances of primitives: closest points of a vertex and a triangle, and of two edges.
 //!
-//! The closest points are weights of the four vertices,
+//! The closest points are given by weights of the four vertices,
 //!
 //! ```math
 //! p = \sum_i w_i x_i, \qquad d = |p|, \qquad n = p / d, \qquad \nabla d = w \otimes n ,
 //! ```
 //!
-//! exact to rounding for slivers and nearly parallel edges too \[Eri05\].
+//! and are exact to rounding for slivers and nearly parallel edges too \[Eri05\].
 //!
 //! The broad phase, the barrier and the step filter take distances from here. This chapter uses
 //! vectors only.
@@ -14,5 +14,5 @@
 mod closest;
 mod height;
 
-pub(crate) use closest::{Closest, edge_edge, vertex_face};
+pub(crate) use closest::{ClosestPoints, edge_edge, vertex_face};
 pub(crate) use height::{Height, height};

@@ -1,9 +1,9 @@
 //! Coulomb friction of pairs, without creep.
 //!
-//! A pair is a spring that yields, the elastic and perfectly plastic element (Jenkins) that the
-//! fabric's friction has for its limit. Normal force and tangent plane are lagged: those at the
-//! start of the step \[Li20, §5\]. With the slip `$u$` of the step and the stretch `$e_0$` of the
-//! steps before, both in that plane, the stretch `$e = e_0 + u$` has the potential
+//! Each pair is a spring that yields: an elastic, perfectly plastic element (Jenkins), like the
+//! limit of the fabric's friction. Normal force and tangent plane are lagged: they are taken at the
+//! start of the step \[Li20, §5\]. With the slip `$u$` of the step and the stretch `$e_0$` from
+//! earlier steps, both in the tangent plane, the stretch `$e = e_0 + u$` has the potential
 //!
 //! ```math
 //! E = \frac{F}{2\delta} |e|^2 \;\; (|e| \le \delta), \qquad
@@ -11,10 +11,11 @@
 //! ```
 //!
 //! with `$F$` the coefficient times the normal force and `$\delta$` the sticking displacement.
-//! Stretch beyond `$\delta$` is lost when the step ends. Unlike friction that needs a speed to act,
-//! a load below Coulomb's limit comes to rest.
+//! Stretch beyond `$\delta$` is lost when the step ends. Friction that depends on speed creeps
+//! under any load. Here a load below Coulomb's limit comes to rest.
 //!
 //! [`contact`](super::contact) opens the friction of a step, evaluates it at trial positions and
+//! keeps the stretches when the step is accepted.
 //! keeps the stretches when the step is accepted.
 
 use serde::{Deserialize, Serialize};
@@ -28,9 +29,9 @@ use crate::vector::{
 /// Coulomb friction of all pairs of a contact, in a step and between steps.
 #[derive(Debug)]
 pub(crate) struct SurfaceFriction {
-    /// Coefficient of each two groups, row by row.
+    /// Coefficient of friction for each two groups, row by row.
     coefficients: Vec<f64>,
-    groups: usize,
+    group_count: usize,
     /// Sticking displacement `$\delta$`, in m.
     sticking_displacement: f64,
     pairs: Vec<PairFriction>,
@@ -44,7 +45,7 @@ struct PairFriction {
     vertices: [u32; 4],
     weights: [f64; 4],
     normal: Vector,
-    /// Anchor: `$\sum w_i x_i$` at the step's start less the stretch of the steps before, in m.
+    /// Anchor: `$\sum w_i x_i$` at the step's start less the stretch from earlier steps, in m.
     anchor: Vector,
     /// Largest friction force `$F$`, in N.
     limit: f64,
@@ -57,14 +58,14 @@ pub(crate) struct ActiveGap<'a> {
     pub(crate) gap: &'a Gap,
 }
 
-/// Energies of friction in a step.
+/// Energies of friction in the open step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionEnergy {
-    /// Potential of friction, the dissipated part included, in J.
+    /// Potential of friction, in J, including the dissipated part.
     pub potential: f64,
-    /// Dissipated part of the potential if the step ends here, in J.
+    /// Part of the potential that is dissipated if the step ends here, in J.
     pub dissipated: f64,
-    /// Dissipated part in the friction of cloth on cloth, in J.
+    /// Part of `dissipated` in the friction of cloth on cloth, in J.
     pub dissipated_on_cloth: f64,
 }
 
@@ -77,22 +78,28 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Returns whether stretches are finite and sorted as the pairs are, each once.
-    pub(crate) fn are_right(stretches: &[Stretch]) -> bool {
+    /// Returns whether `stretches` are finite and sorted by pair, with each pair once.
+    pub(crate) fn are_valid(stretches: &[Stretch]) -> bool {
         stretches.is_sorted_by(|a, b| a.key < b.key)
-            && stretches.iter().flat_map(|own| own.vector).all(f64::is_finite)
+            && stretches.iter().flat_map(|stretch| stretch.vector).all(f64::is_finite)
     }
 }
 
 impl SurfaceFriction {
-    /// No friction yet, for a number of groups.
+    /// Returns friction without pairs. `coefficients` holds a value for each two of `group_count`
+    /// groups, row by row.
     pub(crate) fn new(
         coefficients: Vec<f64>,
-        groups: usize,
+        group_count: usize,
         sticking_displacement: f64,
     ) -> SurfaceFriction {
-        let (pairs, stretches) = (Vec::new(), Vec::new());
-        SurfaceFriction { coefficients, groups, sticking_displacement, pairs, stretches }
+        SurfaceFriction {
+            coefficients,
+            group_count,
+            sticking_displacement,
+            pairs: Vec::new(),
+            stretches: Vec::new(),
+        }
     }
 
     /// Ends the friction of a step without keeping its stretches.
@@ -100,8 +107,9 @@ impl SurfaceFriction {
         self.pairs.clear();
     }
 
-    /// Adds the friction of an active pair of two groups, in the order of the pairs, from the
-    /// positions at the step's start, for a stiffness of contact in N/m³.
+    /// Adds the friction of the `active` pair between two `groups`. `positions` are those at the
+    /// step's start, in m, and `stiffness` is the stiffness of contact, in N/m³. Pairs are added in
+    /// their order.
     pub(crate) fn open_pair(
         &mut self,
         active: ActiveGap<'_>,
@@ -110,13 +118,14 @@ impl SurfaceFriction {
         stiffness: f64,
     ) {
         let [a, b] = groups.map(|group| group as usize);
-        let limit = self.coefficients[a * self.groups + b] * active.gap.normal_force(stiffness);
+        let coefficient = self.coefficients[a * self.group_count + b];
+        let limit = coefficient * active.gap.normal_force(stiffness);
         if limit > 0.0 {
             self.pairs.push(PairFriction::new(active, positions, limit, &self.stretches));
         }
     }
 
-    /// Ends the step at some positions: the stretch beyond the sticking displacement is lost.
+    /// Ends the step at `positions`. Stretch beyond the sticking displacement is lost.
     pub(crate) fn commit(&mut self, positions: &[f64]) {
         let sticking = self.sticking_displacement;
         self.stretches.clear();
@@ -124,24 +133,25 @@ impl SurfaceFriction {
         self.stretches.extend(pairs.map(|pair| pair.elastic_stretch(positions, sticking)));
     }
 
-    /// Returns the energies if the step ends at some positions, in J; the first vertices, so many,
-    /// are those of cloth.
-    pub(crate) fn energy(&self, positions: &[f64], free: usize) -> FrictionEnergy {
-        self.pairs.iter().fold(FrictionEnergy::default(), |sum, pair| {
+    /// Returns the energies if the step ends at `positions`. The first `free_count` vertices are
+    /// cloth.
+    pub(crate) fn energy(&self, positions: &[f64], free_count: usize) -> FrictionEnergy {
+        let mut total = FrictionEnergy::default();
+        for pair in &self.pairs {
             let FrictionEnergy { potential, dissipated, .. } =
                 pair.energy(positions, self.sticking_displacement);
-            let is_cloth = pair.vertices.iter().all(|vertex| (*vertex as usize) < free);
-            let on_cloth = if is_cloth { dissipated } else { 0.0 };
-            FrictionEnergy {
-                potential: sum.potential + potential,
-                dissipated: sum.dissipated + dissipated,
-                dissipated_on_cloth: sum.dissipated_on_cloth + on_cloth,
-            }
-        })
+            total.potential += potential;
+            total.dissipated += dissipated;
+            // Adding zero for other pairs keeps the sum's bits.
+            let is_cloth = pair.vertices.iter().all(|vertex| (*vertex as usize) < free_count);
+            total.dissipated_on_cloth += if is_cloth { dissipated } else { 0.0 };
+        }
+        total
     }
 
-    /// Calls `visit` with the vertices and the gradient of the potential of each pair, in N.
-    pub(crate) fn each_gradient(
+    /// Calls `visit` with the vertices of each pair and the gradient of its potential at
+    /// `positions`, in N.
+    pub(crate) fn for_each_gradient(
         &self,
         positions: &[f64],
         mut visit: impl FnMut(&[u32; 4], &Gradient),
@@ -151,8 +161,9 @@ impl SurfaceFriction {
         }
     }
 
-    /// Calls `visit` with the vertices, their weights and the stiffness of each pair, in N/m.
-    pub(crate) fn each_stiffness(
+    /// Calls `visit` with the vertices of each pair, their weights and the pair's stiffness at
+    /// `positions`, in N/m.
+    pub(crate) fn for_each_stiffness(
         &self,
         positions: &[f64],
         mut visit: impl FnMut([u32; 4], [f64; 4], &Matrix),
@@ -165,7 +176,8 @@ impl SurfaceFriction {
 }
 
 impl PairFriction {
-    /// Friction of a pair with a largest force, in N, from the positions at the step's start.
+    /// Returns the friction of an `active` pair with the largest force `limit`, in N. `positions`
+    /// are those at the step's start, `stretches` belong to earlier steps.
     fn new(
         active: ActiveGap<'_>,
         positions: &[f64],
@@ -174,9 +186,11 @@ impl PairFriction {
     ) -> PairFriction {
         let ActiveGap { pair, gap } = active;
         let (weights, normal) = (gap.weights(), gap.normal());
-        let found = stretches.binary_search_by_key(&pair.key(), |stretch| stretch.key);
-        let stretch = found.map_or([0.0; 3], |index| stretches[index].vector);
-        let stretch = subtract(stretch, scale(normal, dot(stretch, normal)));
+        let earlier = stretches.binary_search_by_key(&pair.key(), |stretch| stretch.key);
+        let earlier = earlier.map_or([0.0; 3], |index| stretches[index].vector);
+
+        // The tangent plane has turned since, so a part along the normal is removed.
+        let stretch = subtract(earlier, scale(normal, dot(earlier, normal)));
         let mut friction = PairFriction {
             key: pair.key(),
             vertices: pair.vertices,
@@ -189,7 +203,7 @@ impl PairFriction {
         friction
     }
 
-    /// Returns `$\sum w_i x_i$`, in m.
+    /// Returns `$\sum w_i x_i$` at `positions`, in m.
     fn offset(&self, positions: &[f64]) -> Vector {
         let mut sum = [0.0; 3];
         for (weight, vertex) in self.weights.iter().zip(self.vertices) {
@@ -198,34 +212,34 @@ impl PairFriction {
         sum
     }
 
-    /// Returns the stretch `$e$`, in m.
+    /// Returns the stretch `$e$` at `positions`, in m.
     fn stretch(&self, positions: &[f64]) -> Vector {
         let moved = subtract(self.offset(positions), self.anchor);
         subtract(moved, scale(self.normal, dot(moved, self.normal)))
     }
 
-    /// Returns the energies if the step ends at some positions.
+    /// Returns the energies if the step ends at `positions`, for the displacement `sticking`, in m.
     fn energy(&self, positions: &[f64], sticking: f64) -> FrictionEnergy {
         let length = norm(self.stretch(positions));
-        let over = (length - sticking).max(0.0);
-        let held = length - over;
-        let lost = self.limit * over;
+        let excess = (length - sticking).max(0.0);
+        let kept = length - excess;
+        let lost = self.limit * excess;
         FrictionEnergy {
-            potential: 0.5 * self.limit * held * held / sticking + lost,
+            potential: 0.5 * self.limit * kept * kept / sticking + lost,
             dissipated: lost,
             dissipated_on_cloth: 0.0,
         }
     }
 
-    /// Returns the gradient of the potential, in N.
+    /// Returns the gradient of the potential at `positions`, in N.
     fn gradient(&self, positions: &[f64], sticking: f64) -> Gradient {
         let stretch = self.stretch(positions);
         let pull = self.limit / norm(stretch).max(sticking);
         std::array::from_fn(|k| self.weights[k / 3] * pull * stretch[k % 3])
     }
 
-    /// Returns the second derivative of the potential by `$\sum w_i x_i$`, positive semidefinite,
-    /// in N/m.
+    /// Returns the second derivative of the potential with respect to `$\sum w_i x_i$` at
+    /// `positions`, row by row, in N/m. The matrix is positive semidefinite.
     fn stiffness(&self, positions: &[f64], sticking: f64) -> Matrix {
         let stretch = self.stretch(positions);
         let length = norm(stretch);
@@ -235,11 +249,11 @@ impl PairFriction {
         combine(&plane, pull, &outer(stretch), -along)
     }
 
-    /// Returns the elastic stretch when the step ends at some positions.
+    /// Returns the elastic [`Stretch`] if the step ends at `positions`.
     fn elastic_stretch(&self, positions: &[f64], sticking: f64) -> Stretch {
         let stretch = self.stretch(positions);
         let length = norm(stretch);
-        let part = if length > sticking { sticking / length } else { 1.0 };
-        Stretch { key: self.key, vector: scale(stretch, part) }
+        let fraction = if length > sticking { sticking / length } else { 1.0 };
+        Stretch { key: self.key, vector: scale(stretch, fraction) }
     }
 }

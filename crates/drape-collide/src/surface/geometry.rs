@@ -1,17 +1,17 @@
-//! Surface at rest: what never changes while it moves.
+//! Surface at rest: constant data of all primitives and pairs.
 //!
-//! From triangles at rest come their edges, the area that each primitive (vertex, edge, triangle)
-//! stands for, the order of the primitives in space, and the distances of each pair:
+//! From the triangles at rest follow their edges, the area of each primitive (vertex, edge,
+//! triangle), the order of the primitives in space, and the distances of each pair:
 //!
 //! ```math
 //! \hat d_{ij} = \hat d_i + \hat d_j, \qquad \xi_{ij} = \xi_i + \xi_j
 //! ```
 //!
-//! or less where two primitives lie close at rest, where distances still grow, where bodies pinch and
-//! between the sides of an open seam. Primitives that share a vertex, or are joined by a closed seam,
-//! are exempt.
+//! The distances are smaller where two primitives lie close at rest, where distances still grow,
+//! where bodies pinch cloth, and between the sides of an open seam. Primitives that share a vertex,
+//! or that a closed seam joins, are exempt.
 //!
-//! The broad phase reads all of this. This chapter uses vectors, errors and
+//! The broad phase reads this data. This chapter uses vectors, errors and
 //! [`mesh_io`](crate::mesh_io).
 
 mod order;
@@ -21,7 +21,7 @@ mod seam_exemptions;
 mod separations;
 mod topology;
 
-pub(crate) use order::{Order, Run, WIDTH};
+pub(crate) use order::{PrimitiveRun, SpatialOrder, WIDTH};
 pub use parts::{ContactDistances, SurfaceParts};
 pub(crate) use primitives::Primitives;
 pub(crate) use separations::{

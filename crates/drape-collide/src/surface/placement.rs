@@ -1,16 +1,16 @@
-//! Placement: positions of all vertices, and the revision of those of bodies at rest.
+//! Placement: positions of all vertices, with a revision number for bodies at rest.
 
 use std::ops::Deref;
 
 /// Positions of all vertices of a surface, the free ones first.
 ///
-/// Placements of the same revision have the same positions of all bodies, so that only the free
-/// vertices are copied and compared: a body may have a hundred times as many as the cloth on it.
+/// Placements of one revision have equal positions of all bodies. Then only the free vertices are
+/// copied and compared, because a body may have a hundred times more vertices than the cloth on it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Placement {
-    /// Flat, in m.
+    /// Flat positions, in m.
     positions: Vec<f64>,
-    /// Revision of the bodies' positions; none while they move.
+    /// Revision of the bodies' positions, `None` while bodies move.
     revision: Option<u64>,
 }
 
@@ -23,13 +23,13 @@ impl Deref for Placement {
 }
 
 impl Placement {
-    /// Revision of the bodies' positions; none while they move.
+    /// Returns the revision of the bodies' positions, `None` while bodies move.
     pub(crate) fn revision(&self) -> Option<u64> {
         self.revision
     }
 
-    /// Sets the positions of the free vertices, and those of the bodies unless they have the revision
-    /// already.
+    /// Sets the positions of the `free` vertices, and the positions of `bodies` unless this
+    /// placement has their `revision` already.
     pub(crate) fn place(
         &mut self,
         free: &[f64],
@@ -47,13 +47,11 @@ impl Placement {
         self.revision = revision;
     }
 
-    /// Returns whether another placement has the same positions; `free` is the number of free vertices.
-    /// A free vertex with NaN in its position is never the same.
-    pub(crate) fn is_same(&self, other: &Placement, free: usize) -> bool {
-        let compared = match self.revision.is_some() && self.revision == other.revision {
-            true => 3 * free,
-            false => self.positions.len(),
-        };
+    /// Returns whether `other` has equal positions. `free_count` is the number of free vertices. A
+    /// NaN in the position of a free vertex makes placements differ.
+    pub(crate) fn is_same(&self, other: &Placement, free_count: usize) -> bool {
+        let bodies_equal = self.revision.is_some() && self.revision == other.revision;
+        let compared = if bodies_equal { 3 * free_count } else { self.positions.len() };
         self.positions.len() == other.positions.len()
             && self.positions[..compared] == other.positions[..compared]
     }
@@ -70,13 +68,13 @@ impl Placement {
 pub(crate) struct StepStart<'a> {
     /// Flat positions of all vertices, in m.
     pub(crate) positions: &'a [f64],
-    /// Number of the first vertices, which may differ from the reference positions of the candidate
-    /// pairs; the others do not.
+    /// Number of leading vertices that may differ from the reference positions of the candidate
+    /// pairs. All later vertices are at their reference positions.
     pub(crate) moved: usize,
 }
 
 impl StepStart<'_> {
-    /// Start at which every vertex may differ from the reference positions.
+    /// Returns a start at which every vertex of `positions` may differ from its reference position.
     pub(crate) fn new(positions: &[f64]) -> StepStart<'_> {
         StepStart { positions, moved: positions.len() / 3 }
     }

@@ -1,4 +1,4 @@
-//! Candidate pairs that are kept up to date while the vertices of a surface drift.
+//! Candidate pairs that are kept valid while the vertices of a surface drift.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,13 +14,13 @@ use crate::vector::{at, norm, subtract};
 pub(crate) struct TrackedPairs {
     detector: Detector,
     margin: AdaptiveMargin,
-    /// Distance of each vertex from the reference positions of the pairs, in m; of the first ones if
-    /// the others have not moved.
+    /// Distance of each vertex from the reference positions of the pairs, in m. Vertices beyond the
+    /// end of the list have not moved.
     pub(crate) drift: Vec<f64>,
 }
 
-/// State of tracked pairs, from which they are made again. Steps that are truncated vertex by vertex
-/// depend on the pairs at hand, however far these are.
+/// State of tracked pairs, from which a run resumes. Steps that are truncated vertex by vertex
+/// depend on all listed pairs, however far apart the primitives are.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct TrackedMemory {
     detection: PastDetection,
@@ -29,34 +29,37 @@ pub(crate) struct TrackedMemory {
 }
 
 impl TrackedMemory {
-    /// Returns whether it is that of flat positions of a length, and numbers are finite.
-    pub(crate) fn is_of(&self, numbers: usize) -> bool {
+    /// Returns whether this memory fits a surface with `coordinate_count` coordinates and holds
+    /// only finite values.
+    pub(crate) fn fits(&self, coordinate_count: usize) -> bool {
         self.margin.is_finite()
-            && (self.detection.start.is_empty() || self.detection.is_of(numbers))
+            && (self.detection.start.is_empty() || self.detection.fits(coordinate_count))
     }
 }
 
 impl TrackedPairs {
-    /// Returns the state.
+    /// Returns the state, from which [`restore`](TrackedPairs::restore) resumes.
     pub(crate) fn memory(&self) -> TrackedMemory {
         TrackedMemory { detection: self.pairs().detection(), margin: self.margin.value() }
     }
 
-    /// Returns to an earlier state.
+    /// Restores the state `memory` of the pairs of `surface`.
     pub(crate) fn restore(
         &mut self,
         surface: &Surface,
         memory: &TrackedMemory,
     ) -> Result<(), Error> {
-        match memory.detection.start.is_empty() {
-            true => self.detector.clear(),
-            false => self.detector.repeat(surface, &memory.detection)?,
+        if memory.detection.start.is_empty() {
+            self.detector.clear();
+        } else {
+            self.detector.repeat(surface, &memory.detection)?;
         }
         self.margin.set(memory.margin);
         Ok(())
     }
 
-    /// No pairs yet, of surfaces with an activation distance and edges of a length, in m.
+    /// Returns tracked pairs without any pair. The lengths `activation_distance` and `edge`, in m,
+    /// limit the margin.
     pub(crate) fn new(activation_distance: f64, edge: f64) -> TrackedPairs {
         TrackedPairs {
             detector: Detector::default(),
@@ -65,17 +68,18 @@ impl TrackedPairs {
         }
     }
 
-    /// Pairs of the last detection.
+    /// Returns the pairs of the last detection.
     pub(crate) fn pairs(&self) -> &CandidatePairs {
         self.detector.pairs()
     }
 
-    /// Drops the pairs, whose distances have changed.
+    /// Drops all pairs, because their distances have changed.
     pub(crate) fn clear(&mut self) {
         self.detector.clear();
     }
 
-    /// Detects the pairs at a placement or on trajectories from there, and adapts the margin.
+    /// Detects the pairs at `placement` or on the trajectories `sweep` from there, and adapts the
+    /// margin.
     pub(crate) fn detect(
         &mut self,
         surface: &Surface,
@@ -83,29 +87,37 @@ impl TrackedPairs {
         sweep: Sweep<'_>,
     ) -> Result<(), Error> {
         let margin = self.margin.value();
-        let found = self.detector.detect_placed(surface, placement, sweep, margin)?;
-        self.margin.adapt(found.as_slice().len(), surface.vertex_count());
+        let pairs = self.detector.detect_placed(surface, placement, sweep, margin)?;
+        self.margin.adapt(pairs.as_slice().len(), surface.vertex_count());
         Ok(())
     }
 
-    /// Moves the reference positions along the trajectories to where these come nearest to flat
-    /// positions.
+    /// Moves the reference positions along the trajectories to the points nearest to the flat
+    /// `positions`, in m.
     pub(crate) fn follow_trajectories(&mut self, positions: &[f64]) {
         self.detector.follow_trajectories(positions);
     }
 
-    /// Measures the drift of each vertex and returns the largest, in m; infinite without a
-    /// detection.
+    /// Measures the drift of each vertex at `placement` and returns the largest, in m. Without a
+    /// detection the drift is infinite.
     pub(crate) fn measure_drift(&mut self, placement: &Placement) -> f64 {
         let pairs = self.detector.pairs();
         self.drift.clear();
         if pairs.positions().len() != placement.len() {
             return f64::INFINITY;
         }
-        let drift = |vertex| norm(subtract(at(placement, vertex), at(pairs.positions(), vertex)));
-        self.drift.extend((0..pairs.step_start(placement).moved).map(drift));
-        // A maximum that passes NaN on.
-        let larger = |most: f64, drift: f64| drift > most || drift.is_nan();
-        self.drift.iter().fold(0.0, |most, &drift| if larger(most, drift) { drift } else { most })
+        let moved = pairs.step_start(placement).moved;
+        self.drift
+            .extend((0..moved).map(|vertex| {
+                norm(subtract(at(placement, vertex), at(pairs.positions(), vertex)))
+            }));
+        // A maximum that keeps NaN.
+        let mut largest = 0.0;
+        for &drift in &self.drift {
+            if drift > largest || drift.is_nan() {
+                largest = drift;
+            }
+        }
+        largest
     }
 }

@@ -3,8 +3,8 @@
 use crate::sheets::{Between, KEPT, WIDE, level, sheets, surface};
 use crate::support::Dice;
 use drape_collide::{
-    CandidatePairs, CcdFilter, ContactDistances, Detector, Error, PinchPolicy, StepLimit, Surface,
-    SurfaceParts, intersections,
+    CandidatePairs, CcdFilter, ContactDistances, Detector, Error, FractionLimit, PinchPolicy,
+    Surface, SurfaceParts, intersections,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -158,14 +158,14 @@ fn a_step_beyond_the_pairs_is_limited_or_refused() {
     // All together, so that only the budget can be in the displacement.
     let up: Vec<f64> = (0..positions.len()).map(|k| 1e-2 * f64::from(k % 3 == 1)).collect();
     let fraction = filter.common_fraction(pairs, &positions, &up).unwrap();
-    assert_eq!(fraction.limit, StepLimit::DriftBudget);
+    assert_eq!(fraction.limit, FractionLimit::DriftBudget);
     assert!((fraction.value - 0.45 * margin / 1e-2).abs() < 1e-9, "{fraction:?}");
     let moved: Vec<f64> = positions.iter().zip(&up).map(|(x, u)| x + fraction.value * u).collect();
     let fraction = filter.common_fraction(pairs, &moved, &up).unwrap();
-    assert!(fraction.value < 1e-9 && fraction.limit == StepLimit::DriftBudget, "{fraction:?}");
+    assert!(fraction.value < 1e-9 && fraction.limit == FractionLimit::DriftBudget, "{fraction:?}");
     let back: Vec<f64> = up.iter().map(|u| -0.03 * u).collect();
     let fraction = filter.common_fraction(pairs, &moved, &back).unwrap();
-    assert_eq!((fraction.value, fraction.limit), (1.0, StepLimit::None));
+    assert_eq!((fraction.value, fraction.limit), (1.0, FractionLimit::None));
     let truncation = filter.truncate(pairs, &moved, &mut up.clone()).unwrap();
     assert_eq!(truncation.at_drift_budget, surface.vertex_count());
 

@@ -1,6 +1,6 @@
 //! Hash of a state to the last bit.
 
-use drape_cloth::SeamState;
+use drape_cloth::SeamBendingState;
 
 use crate::world::World;
 
@@ -11,7 +11,7 @@ pub(crate) fn state_hash(world: &World) -> String {
     for value in state.positions.iter().chain(&state.velocities) {
         hasher.update(&value.to_le_bytes());
     }
-    let seams = world.internal.seam_state().into_iter().flat_map(SeamState::memories);
+    let seams = world.internal.seam_state().into_iter().flat_map(SeamBendingState::memories);
     for memory in state.memories().chain(seams) {
         let [first, second] = memory.friction;
         for value in [memory.position, first, second, memory.peak] {

@@ -60,7 +60,9 @@ impl Statistics {
                 self.exempt_depth_max = self.exempt_depth_max.max(exempt.depth);
                 near.touching
             }
-            Contact::Particles(bodies) => bodies.contact.touching_particles(&world.state.positions),
+            Contact::Particles(bodies) => {
+                bodies.contact.touching_particle_count(&world.state.positions)
+            }
         };
         self.pairs_max = self.pairs_max.max(touching);
         self.steps += 1;

@@ -5,7 +5,7 @@
 //! seams or closing springs couple more pairs than the connectors do, the connectors' stiffness is
 //! assembled in a matrix of its own and then scattered.
 
-use drape_cloth::{Breen, Cloth, SeamBending, SeamState, State, Trial, Workspace};
+use drape_cloth::{Breen, Cloth, SeamBending, SeamBendingState, State, Trial, Workspace};
 use drape_implicit::{BlockMatrix, Sparsity};
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub(crate) struct InternalForces {
 /// Memory of the internal forces between two steps, apart from the state of the cloth.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct SavedForces {
-    seams: Option<SeamState>,
+    seams: Option<SeamBendingState>,
     breen: Option<SavedPairs>,
 }
 
@@ -47,7 +47,7 @@ struct SavedPairs {
 #[derive(Debug)]
 struct BentSeams {
     bending: SeamBending,
-    state: SeamState,
+    state: SeamBendingState,
 }
 
 /// Matrix of the connectors, and the place of each of its blocks in the whole matrix.
@@ -131,12 +131,12 @@ impl InternalForces {
     }
 
     /// Memory of the seams.
-    pub(crate) fn seam_state(&self) -> Option<&SeamState> {
+    pub(crate) fn seam_state(&self) -> Option<&SeamBendingState> {
         self.seams.as_ref().map(|seams| &seams.state)
     }
 
     /// Restores a memory of the seams.
-    pub(crate) fn restore_seams(&mut self, state: Option<SeamState>) {
+    pub(crate) fn restore_seams(&mut self, state: Option<SeamBendingState>) {
         if let (Some(seams), Some(state)) = (&mut self.seams, state) {
             seams.state = state;
         }

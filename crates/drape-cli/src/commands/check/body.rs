@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::collide::{
-    Mesh, MeshInspection, Places, RepairSettings, Triangulation, read_mesh_within, repair,
+    FaultPlaces, Mesh, MeshInspection, RepairSettings, Triangulation, read_mesh_within, repair,
 };
 use drape::input::{Diagnostic, Diagnostics};
 use drape::scene::MESH_LIMIT;
@@ -123,9 +123,9 @@ pub(crate) fn mend(path: &Path, measure: Measure, to: &Path) -> Result<String, F
         let message = format!(
             "the repair is not written: it leaves {} faults of the surface and {} edges through it, and the body \
              has {} and {}",
-            inspection.faults(),
+            inspection.fault_count(),
             inspection.intersections.count,
-            before.faults(),
+            before.fault_count(),
             before.intersections.count
         );
         let help = "mend it where it was made, in a modelling program";
@@ -231,7 +231,7 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
     text
 }
 
-fn places_line(places: &Places, what: &str) -> String {
+fn places_line(places: &FaultPlaces, what: &str) -> String {
     match places.first.first() {
         Some(first) => format!("  {} {what}; the first is at {}\n", places.count, place(*first)),
         None => String::new(),

@@ -8,44 +8,46 @@ use crate::vector::{Vector, cross, dot, subtract};
 /// m = c (2 - c), \qquad c = \min(1, |e_1 \times e_2|^2 / \epsilon)
 /// ```
 ///
-/// with the threshold `$\epsilon$` of the pair \[Li20, eq. 24\]. It is continuous with its
-/// gradient, and 1 throughout for a vertex and a triangle.
+/// with the threshold `$\epsilon$` of the pair \[Li20, eq. 24\]. The factor is continuous with its
+/// gradient. For a vertex and a triangle it is 1 throughout.
 #[derive(Debug, Clone)]
 pub(crate) struct Mollifier {
-    along: Vector,
-    other: Vector,
+    /// Vector `$e_1$` of the first edge, in m.
+    first: Vector,
+    /// Vector `$e_2$` of the second edge, in m.
+    second: Vector,
     threshold: f64,
     /// Fraction `$c$`.
     fraction: f64,
 }
 
 impl Mollifier {
-    /// Mollifier of the edges between the first two points and between the last two.
+    /// Returns the mollifier of the edges between the first two and the last two `points`.
     pub(crate) fn new(points: [Vector; 4], threshold: f64) -> Mollifier {
-        let (along, other) = (subtract(points[1], points[0]), subtract(points[3], points[2]));
-        let normal = cross(along, other);
+        let (first, second) = (subtract(points[1], points[0]), subtract(points[3], points[2]));
+        let normal = cross(first, second);
         let square = dot(normal, normal);
         let fraction = if square < threshold { square / threshold } else { 1.0 };
-        Mollifier { along, other, threshold, fraction }
+        Mollifier { first, second, threshold, fraction }
     }
 
-    /// Returns whether it varies.
+    /// Returns whether the factor varies.
     pub(crate) fn is_active(&self) -> bool {
         self.fraction < 1.0
     }
 
-    /// Value `$m$`.
+    /// Returns the value `$m$`.
     pub(crate) fn value(&self) -> f64 {
         self.fraction * (2.0 - self.fraction)
     }
 
-    /// Returns the derivative of `$m$`, in 1/m.
+    /// Returns the derivative of `$m$` with respect to the coordinates of the four ends, in 1/m.
     pub(crate) fn gradient(&self) -> [f64; 12] {
         let factor = 2.0 * (1.0 - self.fraction) / self.threshold;
         self.square_gradient().map(|component| factor * component)
     }
 
-    /// Adds a multiple of the second derivative of `$m$`.
+    /// Adds `factor` times the second derivative of `$m$` to `hessian`.
     pub(crate) fn add_hessian(&self, hessian: &mut [[f64; 12]; 12], factor: f64) {
         let curvature = -2.0 * factor / self.threshold.powi(2);
         let slope = 2.0 * factor * (1.0 - self.fraction) / self.threshold;
@@ -57,10 +59,10 @@ impl Mollifier {
         }
     }
 
-    /// Returns the derivative of `$|e_1 \times e_2|^2$`: `$2 (|e_2|^2 e_1 - (e_1 \cdot e_2) e_2)$`
-    /// by `$e_1$`, and likewise by `$e_2$`.
+    /// Returns the derivative of `$|e_1 \times e_2|^2$`. With respect to `$e_1$` it is
+    /// `$2 (|e_2|^2 e_1 - (e_1 \cdot e_2) e_2)$`, and likewise for `$e_2$`.
     fn square_gradient(&self) -> [f64; 12] {
-        let (a, b) = (self.along, self.other);
+        let (a, b) = (self.first, self.second);
         let [aa, ab, bb] = [dot(a, a), dot(a, b), dot(b, b)];
         std::array::from_fn(|k| {
             let axis = k % 3;
@@ -70,21 +72,24 @@ impl Mollifier {
         })
     }
 
-    /// Returns the second derivative of
+    /// Returns the entry at `row` and `column` of the second derivative of
     /// `$|e_1 \times e_2|^2 = |e_1|^2 |e_2|^2 - (e_1 \cdot e_2)^2$`.
     fn square_hessian(&self, row: usize, column: usize) -> f64 {
         let (i, j) = (row % 3, column % 3);
         let same = f64::from(i == j);
-        let (a, b) = (self.along, self.other);
-        let by_edges = match (row < 6, column < 6) {
-            (true, true) => dot(b, b) * same - b[i] * b[j],
-            (false, false) => dot(a, a) * same - a[i] * a[j],
-            (true, false) => 2.0 * a[i] * b[j] - b[i] * a[j] - dot(a, b) * same,
-            (false, true) => 2.0 * b[i] * a[j] - a[i] * b[j] - dot(a, b) * same,
+        let (a, b) = (self.first, self.second);
+        let by_edges = if row < 6 && column < 6 {
+            dot(b, b) * same - b[i] * b[j]
+        } else if row >= 6 && column >= 6 {
+            dot(a, a) * same - a[i] * a[j]
+        } else if row < 6 {
+            2.0 * a[i] * b[j] - b[i] * a[j] - dot(a, b) * same
+        } else {
+            2.0 * b[i] * a[j] - a[i] * b[j] - dot(a, b) * same
         };
         2.0 * SIGNS[row / 3] * SIGNS[column / 3] * by_edges
     }
 }
 
-/// Signs of the ends in the edge vectors.
+/// Signs of the four ends in the two edge vectors.
 const SIGNS: [f64; 4] = [-1.0, 1.0, -1.0, 1.0];

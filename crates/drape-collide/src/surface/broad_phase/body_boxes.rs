@@ -1,20 +1,20 @@
-//! Boxes of bodies, one for each chunk of runs of primitives: chunks far from all cloth are skipped.
+//! Boxes of bodies, one for each chunk of primitive runs. Chunks far from all cloth are skipped.
 
 use super::tree::Bounds;
-use crate::surface::geometry::Run;
+use crate::surface::geometry::PrimitiveRun;
 
-/// Box of each chunk of runs of primitives; none for chunks with free ones.
+/// Box of each chunk of primitive runs, `None` for chunks with free primitives.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BodyBoxes {
     boxes: Vec<Option<Bounds>>,
 }
 
 impl BodyBoxes {
-    /// Refits the boxes to chunks, unless they are kept. `is_free` tells whether a primitive is free,
-    /// `bounds` is its box.
+    /// Fits the boxes to `chunks`, unless `keeps_bodies` is set and they exist. `is_free` tells
+    /// whether a primitive is free, `bounds` returns its box.
     pub(crate) fn fit(
         &mut self,
-        chunks: std::slice::Chunks<'_, Run>,
+        chunks: std::slice::Chunks<'_, PrimitiveRun>,
         keeps_bodies: bool,
         is_free: impl Fn(u32) -> bool,
         bounds: impl Fn(u32) -> Bounds,
@@ -32,7 +32,7 @@ impl BodyBoxes {
         }));
     }
 
-    /// Returns whether a chunk may be near a box around all free primitives.
+    /// Returns whether the boxes of `chunk` and `free`, a box around all free primitives, overlap.
     pub(crate) fn may_meet(&self, chunk: usize, free: &Bounds) -> bool {
         self.boxes[chunk].is_none_or(|bounds| bounds.overlaps(free))
     }

@@ -8,7 +8,7 @@ use super::sweep::{Sweep, nearest_fraction};
 use crate::surface::pair::Pair;
 use crate::surface::placement::{Placement, StepStart};
 
-/// Sorted list of the pairs that come near each other at some positions or on trajectories from
+/// Sorted list of the pairs that come near each other at given positions or on trajectories from
 /// there.
 ///
 /// As long as no vertex is farther than half of the margin from its trajectory, no other pair is
@@ -16,18 +16,18 @@ use crate::surface::placement::{Placement, StepStart};
 #[derive(Debug, Clone, Default)]
 pub struct CandidatePairs {
     list: Vec<Pair>,
-    /// Reference positions: the points of the trajectories that were followed last, in m.
+    /// Reference positions, in m: of trajectories, the points that were followed last.
     positions: Vec<f64>,
     pub(crate) margin: f64,
     pub(crate) free: usize,
-    /// Revision of the bodies' positions; none while they move.
+    /// Revision of the bodies' positions, `None` while bodies move.
     revision: Option<u64>,
     /// Largest coordinate of the bodies' reference positions, in m.
     largest_of_bodies: f64,
-    /// Start of the trajectories, in m; empty if there are none.
+    /// Start of the trajectories, in m, empty without trajectories.
     start: Vec<f64>,
-    /// Displacements along the trajectories, in m; empty if there are none, those of the free vertices
-    /// alone if bodies rest.
+    /// Displacements along the trajectories, in m, empty without trajectories. Where bodies rest,
+    /// only free vertices have displacements.
     displacements: Vec<f64>,
     /// Whether all vertices move by a common fraction of their displacements.
     common: bool,
@@ -36,19 +36,19 @@ pub struct CandidatePairs {
 /// Positions, trajectories and margin of a detection.
 pub(crate) struct Detection<'a> {
     pub(crate) positions: &'a [f64],
-    /// Revision of the bodies' positions; none while they move.
+    /// Revision of the bodies' positions, `None` while bodies move.
     pub(crate) revision: Option<u64>,
     pub(crate) sweep: Sweep<'a>,
     pub(crate) margin: f64,
 }
 
-/// Detection of candidate pairs, from which it can be made again: its positions, its trajectories and
-/// how far these were followed.
+/// Record of a detection, from which it can be repeated: its positions, its trajectories and how
+/// far these were followed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct PastDetection {
-    /// Positions of the detection, in m; empty if there is none.
+    /// Positions of the detection, in m, empty without a detection.
     pub(crate) start: Vec<f64>,
-    /// Displacements along the trajectories, in m; empty if there are none.
+    /// Displacements along the trajectories, in m, empty without trajectories.
     pub(crate) displacements: Vec<f64>,
     /// Whether all vertices move by a common fraction of their displacements.
     common: bool,
@@ -58,28 +58,32 @@ pub(crate) struct PastDetection {
 }
 
 impl PastDetection {
-    /// Trajectories.
+    /// Returns the trajectories as a [`Sweep`].
     pub(crate) fn sweep(&self) -> Sweep<'_> {
-        match (self.displacements.is_empty(), self.common) {
-            (true, _) => Sweep::Still,
-            (false, true) => Sweep::Common(&self.displacements),
-            (false, false) => Sweep::Individual(&self.displacements),
+        if self.displacements.is_empty() {
+            Sweep::Still
+        } else if self.common {
+            Sweep::Common(&self.displacements)
+        } else {
+            Sweep::Individual(&self.displacements)
         }
     }
 
-    /// Returns whether lists have the length of flat positions, and numbers are finite.
-    pub(crate) fn is_of(&self, numbers: usize) -> bool {
+    /// Returns whether the lists fit flat positions with `coordinate_count` coordinates and hold
+    /// only finite values.
+    pub(crate) fn fits(&self, coordinate_count: usize) -> bool {
         let Self { start, displacements, reference, .. } = self;
-        let finite = |list: &Vec<f64>| list.iter().all(|x| x.is_finite());
-        let fits = |list: &Vec<f64>| list.len() == numbers && finite(list);
-        let length = displacements.len();
-        let swept = length <= numbers && length.is_multiple_of(3) && finite(displacements);
-        fits(start) && fits(reference) && swept && self.margin > 0.0 && self.margin.is_finite()
+        let lengths_fit = start.len() == coordinate_count
+            && reference.len() == coordinate_count
+            && displacements.len() <= coordinate_count
+            && displacements.len().is_multiple_of(3);
+        let mut values = start.iter().chain(reference).chain(displacements);
+        lengths_fit && values.all(|x| x.is_finite()) && self.margin > 0.0 && self.margin.is_finite()
     }
 }
 
 impl CandidatePairs {
-    /// Returns the detection of the pairs.
+    /// Returns the record of the detection that found these pairs, as a [`PastDetection`].
     pub(crate) fn detection(&self) -> PastDetection {
         let start = if self.start.is_empty() { &self.positions } else { &self.start };
         PastDetection {
@@ -91,40 +95,43 @@ impl CandidatePairs {
         }
     }
 
-    /// Moves the reference positions to where they were when a detection was told.
-    pub(crate) fn follow_to(&mut self, past: &PastDetection) {
+    /// Restores the reference positions stored in `past`.
+    pub(crate) fn restore_reference(&mut self, past: &PastDetection) {
         self.positions.clone_from(&past.reference);
         self.common = past.common;
     }
 
-    /// Pairs, sorted by kind and features.
+    /// Returns the pairs, sorted by [`Pair::key`].
     #[must_use]
     pub fn as_slice(&self) -> &[Pair] {
         &self.list
     }
 
-    /// Flat reference positions, in m: those of the detection or, of pairs along trajectories, the
-    /// points of these that were followed last.
+    /// Returns the flat reference positions, in m. They are the positions of the detection or,
+    /// along trajectories, the points that [`Detector::follow_trajectories`] reached last.
+    ///
+    /// [`Detector::follow_trajectories`]: crate::Detector::follow_trajectories
     #[must_use]
     pub fn positions(&self) -> &[f64] {
         &self.positions
     }
 
-    /// Margin: distance beyond the activation distance up to which pairs were detected, in m.
+    /// Returns the margin: the distance beyond the activation distance up to which pairs are
+    /// listed, in m.
     #[must_use]
     pub fn margin(&self) -> f64 {
         self.margin
     }
 
-    /// Replaces the pairs by those of another detection.
+    /// Replaces the pairs by the `lists` of a `detection` with `free` free vertices.
     pub(crate) fn replace<'a>(
         &mut self,
-        found: impl Iterator<Item = &'a [Pair]>,
+        lists: impl Iterator<Item = &'a [Pair]>,
         detection: &Detection<'_>,
         free: usize,
     ) {
         self.clear();
-        found.for_each(|pairs| self.list.extend_from_slice(pairs));
+        lists.for_each(|pairs| self.list.extend_from_slice(pairs));
         self.positions.extend_from_slice(detection.positions);
         if let Some(displacements) = detection.sweep.displacements()
             && !displacements.is_empty()
@@ -147,8 +154,8 @@ impl CandidatePairs {
         (*margin, *free, *common) = (0.0, 0, false);
     }
 
-    /// Moves the reference positions along the trajectories to where these come nearest to flat
-    /// positions.
+    /// Moves the reference positions along the trajectories to the points nearest to the flat
+    /// `positions`, in m.
     pub(crate) fn follow_trajectories(&mut self, positions: &[f64]) {
         let count = self.displacements.len();
         if count == 0 || positions.len() < count {
@@ -166,8 +173,9 @@ impl CandidatePairs {
         }
     }
 
-    /// Writes displacements from near the reference positions less their parts along the
-    /// trajectories, in m; with `common` if all vertices move by a common fraction of them.
+    /// Writes `displacements` less their parts along the trajectories to `off_trajectory`, in m.
+    /// `displacements` begin near the reference positions. With `common`, all vertices move by a
+    /// common fraction of them.
     pub(crate) fn write_off_trajectory(
         &self,
         displacements: &[f64],
@@ -180,7 +188,7 @@ impl CandidatePairs {
             return;
         }
         for part in self.parts() {
-            // Rest of the trajectory.
+            // What remains of the trajectory.
             let ahead = |k: usize| self.start[k] + self.displacements[k] - self.positions[k];
             let fraction = nearest_fraction(part.clone().map(|k| [ahead(k), displacements[k]]));
             for k in part {
@@ -189,36 +197,37 @@ impl CandidatePairs {
         }
     }
 
-    /// Returns whether the pairs were detected on trajectories of bodies.
+    /// Returns whether the [`Sweep`] of the detection moved bodies.
     pub(crate) fn have_moving_bodies(&self) -> bool {
         self.displacements.len() > 3 * self.free
     }
 
-    /// Returns the start of a step from a placement. Only free vertices may differ from the reference
-    /// positions if the bodies' positions have the same revision.
+    /// Returns the start of a step at `placement`. If the bodies of `placement` have the revision
+    /// of the pairs, only free vertices may differ from their reference positions.
     pub(crate) fn step_start<'a>(&self, placement: &'a Placement) -> StepStart<'a> {
-        match self.revision.is_some() && self.revision == placement.revision() {
-            true => StepStart { positions: placement, moved: self.free },
-            false => StepStart::new(placement),
+        if self.revision.is_some() && self.revision == placement.revision() {
+            StepStart { positions: placement, moved: self.free }
+        } else {
+            StepStart::new(placement)
         }
     }
 
-    /// Returns the largest coordinate at the start of a step, in m.
+    /// Returns the largest magnitude of a coordinate at `start`, in m.
     pub(crate) fn largest_coordinate(&self, start: StepStart<'_>) -> f64 {
         let StepStart { positions, moved } = start;
-        let others = if 3 * moved < positions.len() { self.largest_of_bodies } else { 0.0 };
-        largest(&positions[..3 * moved]).max(others)
+        let unmoved = if 3 * moved < positions.len() { self.largest_of_bodies } else { 0.0 };
+        largest(&positions[..3 * moved]).max(unmoved)
     }
 
-    /// Ranges of components that move by a common fraction of their displacements.
+    /// Returns the ranges of `displacements` that move by a common fraction.
     fn parts(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let count = self.displacements.len();
-        let part = if self.common { count.max(1) } else { 3 };
-        (0..count).step_by(part).map(move |first| first..first + part)
+        let length = if self.common { count.max(1) } else { 3 };
+        (0..count).step_by(length).map(move |first| first..first + length)
     }
 }
 
-/// Returns the largest magnitude of some numbers.
+/// Returns the largest magnitude in `list`, or 0 for an empty list.
 pub(crate) fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

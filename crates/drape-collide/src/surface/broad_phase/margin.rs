@@ -1,25 +1,27 @@
-//! Margin of detection, which follows the number of candidate pairs.
+//! Margin of detection, which adapts to the number of candidate pairs.
 
-/// Number of pairs for each vertex above which a list is too long: a solver evaluates all of it at
+/// Number of pairs per vertex above which a list is too long. A solver evaluates the whole list at
 /// every trial position.
 const CROWDED: f64 = 6.0;
 
-/// Number of pairs for each vertex below which a list may be longer.
+/// Number of pairs per vertex below which a list may become longer.
 const SPARSE: f64 = 2.0;
 
-/// Factor of a change of the margin.
+/// Factor by which the margin changes.
 const CHANGE: f64 = 1.5;
 
-/// Largest margin over the length of an edge. Beyond, neighbours in a panel are candidates.
+/// Largest margin over the length of an edge. With a larger one, neighbours in a panel would be
+/// candidates.
 const MOST: f64 = 0.5;
 
 /// Margin of detection that adapts to the number of pairs.
 ///
-/// A wide one lets vertices drift far before pairs are detected again, and a narrow one keeps the
-/// list short. A square metre of 2600 particles on a cube is detected a third as often as with a
-/// margin of its activation distance, and a band that is twisted a tenth as often, in half of the
-/// time; a stack of sheets keeps the narrow one. The forces do not depend on it; the displacements
-/// that the step filter leaves to single vertices may, for it takes farther pairs into account.
+/// A wide margin lets vertices drift far before pairs are detected again. A narrow margin keeps the
+/// list short. Compared with a margin of its activation distance, a square metre of 2600 particles
+/// on a cube is detected a third as often, and a twisted band a tenth as often, in half of the
+/// time. A stack of sheets keeps the narrow margin. Forces do not depend on the margin. The
+/// displacements that the step filter leaves to single vertices may depend on it, because the
+/// filter considers more distant pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AdaptiveMargin {
     least: f64,
@@ -28,7 +30,8 @@ pub(crate) struct AdaptiveMargin {
 }
 
 impl AdaptiveMargin {
-    /// Makes a margin that begins at the activation distance, for edges of a length, both in m.
+    /// Returns a margin that begins at `activation_distance`, for edges of length `edge`, both in
+    /// m.
     pub(crate) fn new(activation_distance: f64, edge: f64) -> AdaptiveMargin {
         AdaptiveMargin {
             least: activation_distance,
@@ -37,22 +40,22 @@ impl AdaptiveMargin {
         }
     }
 
-    /// Margin of the next detection, in m.
+    /// Returns the margin of the next detection, in m, as an `f64`.
     pub(crate) fn value(self) -> f64 {
         self.value
     }
 
-    /// Sets the margin of the next detection to one that is told, in m, within its limits.
+    /// Sets the margin of the next detection to `value`, in m, within its limits.
     pub(crate) fn set(&mut self, value: f64) {
         self.value = value.clamp(self.least, self.most);
     }
 
-    /// Adapts to a detection that found so many pairs of so many vertices.
+    /// Adapts the margin to a detection with numbers of `pairs` and `vertices`.
     pub(crate) fn adapt(&mut self, pairs: usize, vertices: usize) {
-        let crowd = pairs as f64 / vertices as f64;
-        if crowd > CROWDED {
+        let pairs_per_vertex = pairs as f64 / vertices as f64;
+        if pairs_per_vertex > CROWDED {
             self.value = (self.value / CHANGE).max(self.least);
-        } else if crowd < SPARSE {
+        } else if pairs_per_vertex < SPARSE {
             self.value = (self.value * CHANGE).min(self.most);
         }
     }

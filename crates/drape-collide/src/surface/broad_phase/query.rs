@@ -9,10 +9,10 @@ use crate::vector::{Vector, add, at, at_or_zero, subtract};
 /// Squared sine of the angle below which two edges count as parallel: 1.8° \[Li20, eq. 24\].
 const PARALLEL: f64 = 1e-3;
 
-/// Distance below which two primitives are a pair.
+/// Distance below which two primitives become a pair.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Limit<'a> {
-    /// Activation distance plus a margin, somewhere on trajectories.
+pub(crate) enum PairLimit<'a> {
+    /// Activation distance plus a margin, anywhere on trajectories.
     Margin {
         /// Margin, in m.
         margin: f64,
@@ -23,41 +23,43 @@ pub(crate) enum Limit<'a> {
     Rest,
 }
 
-/// Search for pairs of a surface at some positions.
-pub(crate) struct Query<'a> {
+/// Search for pairs of a surface at given positions.
+pub(crate) struct PairQuery<'a> {
     pub(crate) primitives: &'a Primitives,
     pub(crate) separations: &'a Separations,
     pub(crate) positions: &'a [f64],
-    pub(crate) limit: Limit<'a>,
-    /// Displacement that is taken off those of all vertices, in m: it changes no distance.
+    pub(crate) limit: PairLimit<'a>,
+    /// Displacement that is subtracted from the displacements of all vertices, in m. It changes no
+    /// distance.
     pub(crate) mean_displacement: Vector,
 }
 
-impl Query<'_> {
-    /// Returns the box of a primitive; those of two that are near enough overlap.
+impl PairQuery<'_> {
+    /// Returns the box of the primitive with `vertices`. Boxes of two primitives that are near
+    /// enough overlap.
     pub(crate) fn bounds<const N: usize>(&self, vertices: [u32; N]) -> Bounds {
         let group = self.primitives.group(vertices[0]);
         let distances = self.separations.groups[group as usize];
         let points = vertices.map(|vertex| at(self.positions, vertex as usize));
         // Each of the two boxes is widened by half of the limit.
         match self.limit {
-            Limit::Rest => Bounds::around(points, 2.0 * distances.activation_distance),
-            Limit::Margin { margin, sweep } => {
+            PairLimit::Rest => Bounds::around(points, 2.0 * distances.activation_distance),
+            PairLimit::Margin { margin, sweep } => {
                 let around = distances.activation_distance + 0.5 * margin;
                 let Some(displacements) = sweep.displacements() else {
                     return Bounds::around(points, around);
                 };
-                let displacement = |vertex: u32| {
-                    subtract(at_or_zero(displacements, vertex as usize), self.mean_displacement)
-                };
-                let ends = points.into_iter().zip(vertices);
-                let ends = ends.map(|(point, vertex)| add(point, displacement(vertex)));
+                let ends = points.into_iter().zip(vertices).map(|(point, vertex)| {
+                    let displacement = at_or_zero(displacements, vertex as usize);
+                    add(point, subtract(displacement, self.mean_displacement))
+                });
                 Bounds::around(points.into_iter().chain(ends), around)
             }
         }
     }
 
-    /// Returns the pair of two primitives that share no vertex, if they are near enough.
+    /// Returns the [`Pair`] of two primitives that share no vertex, or `None` if they are too far
+    /// apart or have no contact.
     pub(crate) fn pair(
         &self,
         kind: PairKind,
@@ -65,46 +67,44 @@ impl Query<'_> {
         vertices: [u32; 4],
     ) -> Option<Pair> {
         let (primitives, separations) = (self.primitives, self.separations);
-        let other = vertices[kind.first_vertices()];
-        let groups = [vertices[0], other].map(|vertex| primitives.group(vertex));
-        let mut distances = separations.of_groups(groups);
+        let second = vertices[kind.first_vertex_count()];
+        let groups = [vertices[0], second].map(|vertex| primitives.group(vertex));
+        let mut distances = separations.between_groups(groups);
         let same_group = groups[0] == groups[1];
         let points = vertices.map(|vertex| at(self.positions, vertex as usize));
         let distance = distance(&closest(kind, points));
         let approach = match self.limit {
-            Limit::Margin { sweep, .. } => sweep.largest_approach(kind, vertices),
-            Limit::Rest if same_group => 0.0,
-            Limit::Rest => return None,
+            PairLimit::Margin { sweep, .. } => sweep.largest_approach(kind, vertices),
+            PairLimit::Rest if same_group => 0.0,
+            PairLimit::Rest => return None,
         };
-        let is_near = |distances: ContactDistances| match self.limit {
-            Limit::Margin { margin, .. } => {
-                distance < distances.activation_distance + margin + approach
-            }
-            Limit::Rest => distance < 2.0 * distances.activation_distance,
-        };
-        if !is_near(distances) {
+
+        // Most pairs are too far apart even for the distances of their groups.
+        if !self.is_near(distance, approach, distances) {
             return None;
         }
         if same_group
             && !separations.close_at_rest.is_empty()
-            && let Some(close) = separations.of_close_pair(&(kind, features))
+            && let Some(close) = separations.close_pair_distances(&(kind, features))
         {
             distances = close;
         }
-        // The sides of a seam repel each other as strongly as others do, within a shorter range.
+
+        // The sides of a seam repel each other as strongly as other cloth, within a shorter range.
         let mut strengthening = 1.0;
         if !separations.seam_gaps.is_empty()
-            && let Some(open) = self.of_open_seam(kind, vertices)
+            && let Some(open) = self.at_open_seam(kind, vertices)
         {
             let range = distances.range();
             distances = distances.least(open);
             strengthening = range / distances.range();
         }
-        if !is_near(distances) {
+        if !self.is_near(distance, approach, distances) {
             return None;
         }
         distances.min_separation *= separations.pinch_fraction(primitives, &vertices)?;
         let [a, b] = features.map(|feature| feature as usize);
+
         let (area, parallel) = match kind {
             PairKind::VertexFace => (primitives.vertex_face_area(a, b), 0.0),
             PairKind::EdgeEdge => {
@@ -124,11 +124,23 @@ impl Query<'_> {
         })
     }
 
-    /// Returns the distances of the sides of an open seam for two primitives that it joins.
-    fn of_open_seam(&self, kind: PairKind, vertices: [u32; 4]) -> Option<ContactDistances> {
+    /// Returns whether two primitives at `distance` that come nearer by up to `approach`, both in
+    /// m, are a pair with contact `distances`.
+    fn is_near(&self, distance: f64, approach: f64, distances: ContactDistances) -> bool {
+        match self.limit {
+            PairLimit::Margin { margin, .. } => {
+                distance < distances.activation_distance + margin + approach
+            }
+            PairLimit::Rest => distance < 2.0 * distances.activation_distance,
+        }
+    }
+
+    /// Returns the distances of the two sides of an open seam that joins the primitives with
+    /// `vertices`, if any does.
+    fn at_open_seam(&self, kind: PairKind, vertices: [u32; 4]) -> Option<ContactDistances> {
         let seams = &self.primitives.seams;
         let classes = vertices.map(|vertex| seams.class(vertex));
-        let (one, other) = classes.split_at(kind.first_vertices());
-        self.separations.of_open_seam(seams, [one, other])
+        let (first, second) = classes.split_at(kind.first_vertex_count());
+        self.separations.at_open_seam(seams, [first, second])
     }
 }

@@ -1,42 +1,44 @@
 //! Pairs that lie close at rest.
 
-use super::query::{Limit, Query};
-use super::scan::Scan;
+use super::query::{PairLimit, PairQuery};
+use super::scan::PairScan;
 use crate::error::Error;
 use crate::surface::geometry::{ContactDistances, Primitives, RestProximity, Separations};
 
 /// Largest number of pairs that lie close at rest.
 ///
-/// More than this is a mistake of the input, and would take gigabytes.
+/// More pairs are a mistake of the input, and would take gigabytes.
 const CAPACITY: usize = 50_000_000;
 
-/// Smallest minimum separation of a pair that lies close at rest, in m: a thousand times the
+/// Smallest minimum separation of a pair that lies close at rest, in m. It is a thousand times the
 /// rounding of coordinates of 1 m, and far below any cloth.
 const LEAST: f64 = 1e-9;
 
-/// Returns the pairs of a group that lie within twice their activation distance at rest, sorted.
+/// Returns the pairs within a group whose distance at `rest_positions` is below twice their
+/// activation distance, sorted.
 ///
 /// Their activation distance is at most half of their distance at rest, so a fine mesh does not
-/// repel itself, and their minimum separation at most a quarter.
+/// repel itself. Their minimum separation is at most a quarter of it.
 pub(crate) fn close_at_rest(
     primitives: &Primitives,
     separations: &Separations,
     rest_positions: &[f64],
 ) -> Result<Vec<RestProximity>, Error> {
-    let query = Query {
+    let query = PairQuery {
         primitives,
         separations,
         positions: rest_positions,
-        limit: Limit::Rest,
+        limit: PairLimit::Rest,
         mean_displacement: [0.0; 3],
     };
-    let mut scan = Scan::default();
+    let mut scan = PairScan::default();
     scan.run(&query, CAPACITY, false)?;
+
     let mut close = Vec::new();
     for pair in scan.pairs().flatten() {
         let activation_distance = pair.activation_distance.min(0.5 * pair.distance);
         let min_separation = pair.min_separation.min(0.25 * pair.distance);
-        // NaN fails.
+        // A separation of NaN fails the comparison.
         if !(min_separation >= LEAST) {
             return Err(Error::ContactAtRest {
                 vertices: pair.vertices,

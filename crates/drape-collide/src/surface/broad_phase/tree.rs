@@ -5,22 +5,22 @@ use std::borrow::Borrow;
 use rayon::prelude::*;
 use wide::{f32x4, u32x4};
 
-use crate::surface::geometry::{Order, WIDTH};
+use crate::surface::geometry::{SpatialOrder, WIDTH};
 use crate::vector::Vector;
 
-/// Number of nodes of a chunk, for one thread at a time.
+/// Number of nodes in a chunk, which one thread handles at a time.
 const CHUNK: usize = 1024;
 
-/// Capacity of the stack of nodes still to be visited: three for each level of a tree of 4^16
-/// primitives, and one.
+/// Capacity of the stack of nodes to visit: three for each level of a tree over 4^16 primitives,
+/// and one.
 const DEPTH: usize = 3 * 16 + 1;
 
-/// Returns the lower of two numbers; `min` would also handle NaN, but positions are checked.
+/// Returns the lower of `a` and `b`. Positions are checked, so NaN needs no care as in `min`.
 fn lower<T: PartialOrd>(a: T, b: T) -> T {
     if b < a { b } else { a }
 }
 
-/// Returns the higher of two numbers.
+/// Returns the higher of `a` and `b`.
 fn higher<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
@@ -28,21 +28,21 @@ fn higher<T: PartialOrd>(a: T, b: T) -> T {
 /// Number of directions of a box.
 const DIRECTIONS: usize = 9;
 
-/// Factor of a margin along the diagonals: their length `$\sqrt 2$`, and a little more for the rounding
-/// of the sum or difference of two coordinates.
+/// Factor of a margin along the diagonals: their length `$\sqrt 2$`, and a little more for the
+/// rounding of the sum or difference of two coordinates.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2 * (1.0 + 1e-12);
 
-/// Returns the heights of a point along the directions of a box, in m: the axes, and the diagonals
-/// between every two of them, not normalised.
+/// Returns the heights of a point along the directions of a box, in m. The directions are the axes
+/// `x`, `y`, `z` and the diagonals between every two axes, not normalised.
 fn heights([x, y, z]: Vector) -> [f64; DIRECTIONS] {
     [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x]
 }
 
-/// Box along nine directions (an 18-DOP \[Klo98\]), in single precision and never smaller than what it
-/// encloses.
+/// Box along nine directions (an 18-DOP \[Klo98\]), in single precision and never smaller than its
+/// content.
 ///
-/// Sheets that lie on each other at a slope have boxes along the axes that overlap those of many
-/// layers; the diagonals part these.
+/// For sheets that lie on each other at a slope, boxes along the axes overlap many layers. The
+/// diagonals separate the layers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds {
     low: [f32; DIRECTIONS],
@@ -54,7 +54,7 @@ impl Bounds {
     pub(crate) const EMPTY: Bounds =
         Bounds { low: [f32::INFINITY; DIRECTIONS], high: [f32::NEG_INFINITY; DIRECTIONS] };
 
-    /// Returns the box around several.
+    /// Returns the box around all boxes in `list`.
     pub(crate) fn union(list: impl IntoIterator<Item = impl Borrow<Bounds>>) -> Bounds {
         let mut all = Bounds::EMPTY;
         for bounds in list {
@@ -67,12 +67,12 @@ impl Bounds {
         all
     }
 
-    /// Returns whether two boxes overlap.
+    /// Returns whether this box and `other` overlap.
     pub(crate) fn overlaps(&self, other: &Bounds) -> bool {
         (0..DIRECTIONS).all(|k| self.low[k] <= other.high[k] && self.high[k] >= other.low[k])
     }
 
-    /// Returns the box of some points, widened by a margin, in m.
+    /// Returns the box around `points`, widened by `margin`, in m.
     pub(crate) fn around(points: impl IntoIterator<Item = Vector>, margin: f64) -> Bounds {
         let (mut lows, mut highs) = ([f64::INFINITY; DIRECTIONS], [f64::NEG_INFINITY; DIRECTIONS]);
         for point in points {
@@ -81,16 +81,17 @@ impl Bounds {
                 highs[k] = higher(highs[k], height);
             }
         }
-        let margin = |k| if k < 3 { margin } else { DIAGONAL * margin };
-        // One step outward exceeds the rounding to single precision and that of the sum.
+        // One step outward exceeds the rounding to single precision and the rounding of the sum.
+        let widening: [f64; DIRECTIONS] =
+            std::array::from_fn(|k| if k < 3 { margin } else { DIAGONAL * margin });
         Bounds {
-            low: std::array::from_fn(|k| ((lows[k] - margin(k)) as f32).next_down()),
-            high: std::array::from_fn(|k| ((highs[k] + margin(k)) as f32).next_up()),
+            low: std::array::from_fn(|k| ((lows[k] - widening[k]) as f32).next_down()),
+            high: std::array::from_fn(|k| ((highs[k] + widening[k]) as f32).next_up()),
         }
     }
 }
 
-/// Four boxes side by side.
+/// Four boxes side by side, one in each lane.
 #[derive(Debug, Clone, Copy)]
 struct Quad {
     low: [f32x4; DIRECTIONS],
@@ -104,7 +105,7 @@ impl Quad {
         high: [f32x4::new([f32::NEG_INFINITY; WIDTH]); DIRECTIONS],
     };
 
-    /// Sets the box of a lane.
+    /// Sets the box in `lane` to `bounds`.
     fn set(&mut self, lane: usize, bounds: &Bounds) {
         for k in 0..DIRECTIONS {
             self.low[k].as_mut_array()[lane] = bounds.low[k];
@@ -112,7 +113,7 @@ impl Quad {
         }
     }
 
-    /// Returns the box around all four.
+    /// Returns the box around all four, as [`Bounds`].
     fn bounds(&self) -> Bounds {
         Bounds {
             low: self.low.map(|four| four.to_array().into_iter().fold(f32::INFINITY, lower)),
@@ -120,50 +121,60 @@ impl Quad {
         }
     }
 
-    /// Returns one box in all four lanes.
+    /// Returns `bounds` in all four lanes.
     fn splat(bounds: &Bounds) -> Quad {
         Quad { low: bounds.low.map(f32x4::splat), high: bounds.high.map(f32x4::splat) }
     }
 
-    /// Returns, as bits, which of the four overlap the box in their lane.
+    /// Returns a bit for each lane in which this box and the box of `other` overlap.
     fn overlaps(&self, other: &Quad) -> u8 {
-        let meet =
-            |k: usize| self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k]);
-        // The axes alone part most.
-        let along_axes = meet(0) & meet(1) & meet(2);
+        // The axes alone separate most boxes.
+        let along_axes = self.overlaps_along(other, 0)
+            & self.overlaps_along(other, 1)
+            & self.overlaps_along(other, 2);
         if along_axes.to_bitmask() == 0 {
             return 0;
         }
-        (3..DIRECTIONS).fold(along_axes, |all, k| all & meet(k)).to_bitmask() as u8
+        let along_all =
+            (3..DIRECTIONS).fold(along_axes, |all, k| all & self.overlaps_along(other, k));
+        along_all.to_bitmask() as u8
+    }
+
+    /// Returns a mask of the lanes in which this box and the box of `other` overlap along direction
+    /// `k`.
+    #[inline(always)]
+    fn overlaps_along(&self, other: &Quad, k: usize) -> f32x4 {
+        self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k])
     }
 }
 
-/// Query of a tree: up to four primitives at once.
+/// Query of a tree for up to four primitives at once.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Probe {
-    /// Box of each primitive; an empty one in lanes that are not used.
+    /// Box of each primitive, empty in unused lanes.
     pub(crate) bounds: [Bounds; WIDTH],
     /// Whether only free primitives are searched.
     pub(crate) only_free: bool,
-    /// Number of a primitive; only later ones are searched.
+    /// Number of a primitive, if only later ones are searched.
     pub(crate) after: Option<u32>,
 }
 
 /// Tree of boxes over primitives in a fixed order.
 ///
-/// It is implicit and complete: the quad `q` of a level has the boxes of the quads `4q` to `4q + 3`
-/// of the level below, and of those slots at the lowest. Only the boxes change.
+/// The tree is implicit and complete. Quad `q` of a level holds the boxes of quads `4q` to `4q + 3`
+/// of the level below. At the lowest level it holds the boxes of slots `4q` to `4q + 3`. Only the
+/// boxes change.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Tree {
+pub(crate) struct BoxTree {
     levels: Vec<Vec<Quad>>,
 }
 
-impl Tree {
-    /// Refits the boxes to the primitives in an order; with `keeps_bodies` those of bodies are as
-    /// last time, in the same order.
+impl BoxTree {
+    /// Fits the boxes to the `bounds` of the primitives in `order`. With `keeps_bodies`, the boxes
+    /// of bodies from the last fit are still valid, and `order` is unchanged.
     pub(crate) fn fit(
         &mut self,
-        order: &Order,
+        order: &SpatialOrder,
         keeps_bodies: bool,
         bounds: impl Fn(u32) -> Bounds + Sync,
     ) {
@@ -172,21 +183,24 @@ impl Tree {
             quads.resize(free.len(), Quad::EMPTY);
         }
         let Some((lowest, above)) = self.levels.split_first_mut() else { return };
-        let changes = |free: &u8| !keeps_bodies || *free != 0;
+
+        // The lowest level holds the boxes of the slots.
         let items = order.items.par_chunks(WIDTH * CHUNK);
         let parts = lowest.par_chunks_mut(CHUNK).zip(items).zip(order.free[0].par_chunks(CHUNK));
         parts.for_each(|((quads, items), free)| {
             let quads = quads.iter_mut().zip(items.chunks(WIDTH)).zip(free);
-            for ((quad, items), _) in quads.filter(|(_, free)| changes(free)) {
+            for ((quad, items), _) in quads.filter(|(_, free)| !keeps_bodies || **free != 0) {
                 for (lane, &item) in items.iter().enumerate() {
                     quad.set(lane, &bounds(item));
                 }
             }
         });
+
+        // Each level above holds the boxes of the level below.
         let mut below: &[Quad] = lowest;
         for (level, free) in above.iter_mut().zip(&order.free[1..]) {
             let quads = level.iter_mut().zip(below.chunks(WIDTH)).zip(free);
-            for ((quad, four), _) in quads.filter(|(_, free)| changes(free)) {
+            for ((quad, four), _) in quads.filter(|(_, free)| !keeps_bodies || **free != 0) {
                 for (lane, child) in four.iter().enumerate() {
                     quad.set(lane, &child.bounds());
                 }
@@ -195,17 +209,21 @@ impl Tree {
         }
     }
 
-    /// Returns a box around all free primitives.
-    pub(crate) fn free_bounds(&self, order: &Order) -> Bounds {
+    /// Returns a box around all free primitives in `order`.
+    pub(crate) fn free_bounds(&self, order: &SpatialOrder) -> Bounds {
         let Some(lowest) = self.levels.first() else { return Bounds::EMPTY };
         let quads = lowest.iter().zip(&order.free[0]).filter(|(_, free)| **free != 0);
         Bounds::union(quads.map(|(quad, _)| quad.bounds()))
     }
 
-    /// Visits the slots of primitives whose box overlaps one of the probe's, with the lane of that.
-    ///
-    /// Primitives that the probe does not search may be among them.
-    pub(crate) fn visit(&self, order: &Order, probe: &Probe, mut visit: impl FnMut(usize, usize)) {
+    /// Calls `visit` with a lane of `probe` and a slot for all slots of primitives whose box
+    /// overlaps the box in the lane. Primitives that `probe` does not search may be among them.
+    pub(crate) fn visit(
+        &self,
+        order: &SpatialOrder,
+        probe: &Probe,
+        mut visit: impl FnMut(usize, usize),
+    ) {
         let all = Quad::splat(&Bounds::union(probe.bounds));
         let each = probe.bounds.map(|bounds| Quad::splat(&bounds));
         let after = probe.after.map(u32x4::splat);
@@ -214,6 +232,9 @@ impl Tree {
         if order.items.is_empty() {
             return;
         }
+
+        // From the top node down, nodes whose boxes overlap the union of the probe's boxes are
+        // stacked. At the lowest level the boxes of the lanes decide.
         stack[0] = (0, top as u8);
         let mut waiting = 1;
         while waiting > 0 {
@@ -250,8 +271,8 @@ impl Tree {
     }
 }
 
-/// Returns the values of an item function for the first `count` lanes, and `rest` for the others.
-pub(crate) fn array<T: Copy>(count: usize, rest: T, item: impl Fn(usize) -> T) -> [T; WIDTH] {
+/// Returns the values of `item` for the first `count` lanes, and `rest` in the others.
+pub(crate) fn fill_lanes<T: Copy>(count: usize, rest: T, item: impl Fn(usize) -> T) -> [T; WIDTH] {
     std::array::from_fn(|k| if k < count { item(k) } else { rest })
 }
 

@@ -1,4 +1,5 @@
-//! Active pairs: candidates within their activation distance at the positions of an evaluation.
+//! Active pairs: candidates whose distance at the positions of an evaluation is below their
+//! activation distance.
 
 use rayon::prelude::*;
 
@@ -10,7 +11,7 @@ use crate::surface::pair::Pair;
 use crate::surface::placement::Placement;
 use crate::surface::tracked_pairs::TrackedPairs;
 
-/// Number of candidate pairs of a chunk, whatever the number of threads.
+/// Number of candidate pairs in a chunk, for any number of threads.
 const CHUNK: usize = 256;
 
 /// Pair within its activation distance.
@@ -20,45 +21,47 @@ pub(super) struct ActivePair {
     pub(super) gap: Gap,
 }
 
-/// Active pairs at some positions.
+/// Active pairs at given positions.
 #[derive(Debug, Default)]
 pub(super) struct ActivePairs {
     /// Positions of all vertices, in m.
     pub(super) positions: Placement,
-    /// Pairs of each chunk of the candidates; lists beyond these are empty.
+    /// Active pairs in each chunk of the candidates. Lists beyond the candidates are empty.
     chunks: Vec<Vec<ActivePair>>,
-    /// Gradients of the energies of the pairs, in N, in their order.
+    /// Gradients of the energies of the pairs, in N, in the order of the pairs.
     gradients: Vec<Vec<Gradient>>,
     /// Error of the last detection.
     pub(super) failure: Option<Error>,
 }
 
 impl ActivePairs {
-    /// Active pairs, in the order of the candidates.
+    /// Returns each [`ActivePair`], in the order of the candidates.
     pub(super) fn iter(&self) -> impl Iterator<Item = &ActivePair> {
         self.chunks.iter().flatten()
     }
 
-    /// Drops the positions, for the distances of pairs have changed.
+    /// Drops the positions, because the distances of pairs have changed.
     pub(super) fn invalidate(&mut self) {
         self.positions.clear();
     }
 
-    /// Finds the active pairs at positions, which it swaps with those at hand.
+    /// Finds the active pairs of `surface` at `positions`, and swaps these with the positions of
+    /// the previous update.
     pub(super) fn update(
         &mut self,
         surface: &Surface,
         tracked: &mut TrackedPairs,
         positions: &mut Placement,
     ) {
-        // NaN is never equal, and so is evaluated each time.
+        // NaN is never equal, so positions of NaN are evaluated each time.
         if positions.is_same(&self.positions, surface.free_count()) && self.failure.is_none() {
             return;
         }
+
         self.failure = None;
         self.chunks.iter_mut().for_each(Vec::clear);
         tracked.follow_trajectories(positions);
-        // Within half of the margin on both sides no pair becomes active that was not found.
+        // While no vertex drifts by more than half of the margin, only candidates can be active.
         if !(tracked.measure_drift(positions) <= 0.5 * tracked.pairs().margin()) {
             self.failure = tracked.detect(surface, positions, Sweep::Still).err();
             tracked.drift.fill(0.0);
@@ -67,29 +70,21 @@ impl ActivePairs {
         if self.failure.is_some() {
             return;
         }
-        let (positions, drift) = (&self.positions, &tracked.drift);
-        let active = |pair: &Pair| {
-            if pair.distance - pair.largest_sum(drift) >= pair.activation_distance {
-                return None;
-            }
-            let gap = Gap::new(pair, positions);
-            // NaN counts as active.
-            (!(gap.distance() >= pair.activation_distance))
-                .then_some(ActivePair { pair: *pair, gap })
-        };
+
+        // Parallel chunks keep the order of the candidates.
         let candidates = tracked.pairs().as_slice().par_chunks(CHUNK);
         if self.chunks.len() < candidates.len() {
             self.chunks.resize_with(candidates.len(), Vec::new);
         }
-        let chunks = self.chunks.par_iter_mut();
-        candidates
-            .zip(chunks)
-            .for_each(|(pairs, chunk)| chunk.extend(pairs.iter().filter_map(active)));
+        let (positions, drift) = (&self.positions, &tracked.drift);
+        candidates.zip(self.chunks.par_iter_mut()).for_each(|(pairs, chunk)| {
+            chunk.extend(pairs.iter().filter_map(|pair| ActivePair::find(pair, positions, drift)));
+        });
     }
 
-    /// Calls `visit` with the vertices of each pair and the gradient of its energy, in N, for a
-    /// stiffness in N/m³.
-    pub(super) fn each_gradient(
+    /// Calls `visit` with the vertices of each pair and the gradient of its energy, in N.
+    /// `stiffness` is in N/m³.
+    pub(super) fn for_each_gradient(
         &mut self,
         stiffness: f64,
         mut visit: impl FnMut(&[u32; 4], &Gradient),
@@ -106,8 +101,22 @@ impl ActivePairs {
         }
     }
 
-    /// Returns the energy of the barriers, in J, for a stiffness in N/m³.
+    /// Returns the energy of the barriers for `stiffness`, in N/m³. The energy is in J.
     pub(super) fn energy(&self, stiffness: f64) -> f64 {
         self.iter().map(|active| active.gap.energy(stiffness)).sum()
+    }
+}
+
+impl ActivePair {
+    /// Returns `pair` as an active pair at `positions`, or `None` if it is not active. `drift`
+    /// holds the distance of each vertex from its position at detection, in m.
+    fn find(pair: &Pair, positions: &[f64], drift: &[f64]) -> Option<ActivePair> {
+        // The drift bounds how much nearer the pair has come.
+        if pair.distance - pair.largest_sum(drift) >= pair.activation_distance {
+            return None;
+        }
+        let gap = Gap::new(pair, positions);
+        // A distance of NaN counts as active.
+        (!(gap.distance() >= pair.activation_distance)).then_some(ActivePair { pair: *pair, gap })
     }
 }

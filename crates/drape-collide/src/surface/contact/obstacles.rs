@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::surface::placement::Placement;
 
-/// Checks the number of coordinates of bodies.
+/// Checks that `bodies` has the number of coordinates that is `needed`.
 pub(super) fn check_bodies(bodies: &[f64], needed: usize) -> Result<(), Error> {
     if bodies.len() == needed {
         return Ok(());
@@ -27,33 +27,34 @@ pub(super) struct Obstacles {
 }
 
 impl Obstacles {
-    /// Bodies at rest at flat positions, in m.
+    /// Returns bodies at rest at the flat `positions`, in m.
     pub(super) fn new(positions: Vec<f64>) -> Obstacles {
         Obstacles { start: positions.clone(), end: positions, time: 1.0, moves: false, revision: 0 }
     }
 
-    /// Opens a step to positions at its end, in m.
+    /// Opens a step in which the bodies move to the positions `end`, in m.
     pub(super) fn begin(&mut self, end: &[f64]) {
         self.end.copy_from_slice(end);
         self.time = 0.0;
         self.moves = self.start != self.end;
     }
 
-    /// Whether the bodies move in the open step.
+    /// Returns whether the bodies move in the open step, that is `start` and `end` differ.
     pub(super) fn moves(&self) -> bool {
         self.moves
     }
 
-    /// Places all vertices: the free ones, and the bodies' at an obstacle time.
+    /// Writes the positions of all vertices to `all`: the `free` ones, then the bodies at the
+    /// obstacle time `time`.
     pub(super) fn place(&self, free: &[f64], time: f64, all: &mut Placement) {
         let bodies = self.start.iter().zip(&self.end).map(|(start, end)| {
-            // Exact at both ends.
+            // The position is exact at both ends.
             if time == 1.0 { *end } else { start + time * (end - start) }
         });
         all.place(free, (!self.moves).then_some(self.revision), bodies);
     }
 
-    /// Ends the open step.
+    /// Commits the open step.
     pub(super) fn commit(&mut self) {
         if self.moves {
             self.start.copy_from_slice(&self.end);
@@ -62,7 +63,7 @@ impl Obstacles {
         }
     }
 
-    /// Returns to committed positions.
+    /// Restores the committed `positions`, in m.
     pub(super) fn restore(&mut self, positions: &[f64]) {
         if self.start != positions {
             self.start.copy_from_slice(positions);

@@ -1,27 +1,29 @@
-//! Open seams: their two sides are two cloths, which keep less from each other the nearer they come.
+//! Open seams, whose two sides are two cloths. The sides keep less distance as they come nearer.
 
 use super::active_pairs::ActivePair;
+use super::surface_contact::SurfaceContact;
+use crate::error::Error;
 use crate::surface::contact_surface::Surface;
 use crate::surface::geometry::Separations;
 
-/// Least gap at which the sides of a seam are two cloths, in m: nearer ones are one point.
+/// Smallest gap at which the sides of a seam are two cloths, in m. Nearer sides are one point.
 ///
-/// It is some thousand times the rounding of coordinates of 1 m.
+/// The gap is some thousand times the rounding of coordinates of 1 m.
 pub(super) const LEAST: f64 = 1e-12;
 
 /// Open seams of a surface, with the largest gap that contact assumes between the sides of each.
 ///
-/// It is limited where the sides lie nearer to each other at the start than the gap is wide.
+/// The gap is limited where the sides start nearer to each other than the seam is wide.
 #[derive(Debug, Default, Clone)]
 pub(super) struct OpenSeams {
-    /// Widest gap of each class of vertices, in m; empty if no seam is open.
+    /// Widest gap of each class of vertices, in m, empty if no seam is open.
     widest: Vec<f64>,
-    /// Gaps of the classes in the last step, in m.
+    /// Gap of each class in the last step, in m.
     gaps: Vec<f64>,
 }
 
 impl OpenSeams {
-    /// Opens the seams of a surface without limits.
+    /// Opens the seams of `surface` without limits.
     pub(super) fn open(&mut self, surface: &Surface) {
         self.widest.clear();
         self.widest.resize(surface.vertex_count(), f64::INFINITY);
@@ -32,12 +34,14 @@ impl OpenSeams {
         self.widest.clear();
     }
 
-    /// Returns whether these may be gaps of the classes, in m: none if all seams are closed.
+    /// Returns whether `gaps` may be gaps of the classes, in m. They are empty if all seams are
+    /// closed.
     pub(super) fn may_have(&self, gaps: &[f64]) -> bool {
         gaps.len() == self.widest.len() && gaps.iter().all(|gap| *gap >= 0.0)
     }
 
-    /// Limits the gaps to what the sides of the seams are apart, so that none repels the other.
+    /// Limits the gaps to the distances between the sides of seams in the `active` pairs, so that
+    /// no side repels the other.
     pub(super) fn limit<'a>(
         &mut self,
         surface: &Surface,
@@ -46,30 +50,70 @@ impl OpenSeams {
         let seams = &surface.primitives().seams;
         for ActivePair { pair, gap } in active {
             let classes = pair.vertices.map(|vertex| seams.class(vertex));
-            let (one, other) = classes.split_at(pair.first_vertices());
+            let (first, second) = classes.split_at(pair.first_vertex_count());
             let widest = Separations::widest_seam_gap(gap.distance()).max(LEAST);
-            for class in seams.joints(one, other) {
-                let own = &mut self.widest[class as usize];
-                *own = own.min(widest);
+            for class in seams.joints(first, second) {
+                let limit = &mut self.widest[class as usize];
+                *limit = limit.min(widest);
             }
         }
     }
 
-    /// Returns the gap of each class from those at the free vertices, in m; none if all seams are
-    /// closed.
+    /// Returns the gap of each class from the `gaps` at the free vertices, in m. The result is
+    /// empty if all seams are closed.
     pub(super) fn gaps_of_classes(&mut self, surface: &Surface, gaps: &[f64]) -> &[f64] {
-        let Self { widest, gaps: of_classes } = self;
-        of_classes.clear();
-        of_classes.resize(widest.len(), f64::INFINITY);
+        let Self { widest, gaps: class_gaps } = self;
+        class_gaps.clear();
+        class_gaps.resize(widest.len(), f64::INFINITY);
         if widest.is_empty() {
-            return of_classes;
+            return class_gaps;
         }
         let seams = &surface.primitives().seams;
         for (vertex, &gap) in gaps.iter().enumerate() {
             let class = seams.class(vertex as u32) as usize;
             let gap = if gap < LEAST { 0.0 } else { gap.min(widest[class]) };
-            of_classes[class] = of_classes[class].min(gap);
+            class_gaps[class] = class_gaps[class].min(gap);
         }
-        of_classes
+        class_gaps
+    }
+}
+
+impl SurfaceContact {
+    /// Opens the seams at the `positions` of the free vertices, in m. `gaps` holds the gap at each
+    /// free vertex, in m: 0 where its seam is one point, infinite without a seam.
+    ///
+    /// The two sides of an open seam are two cloths. They repel each other below half of the gap,
+    /// and keep a tenth of the gap, or the usual distances where these are smaller.
+    ///
+    /// # Errors
+    /// Positions are not finite, or there are too many pairs.
+    ///
+    /// # Panics
+    /// There is not one gap for each free vertex.
+    pub fn open_seams(&mut self, gaps: &[f64], positions: &[f64]) -> Result<(), Error> {
+        assert_eq!(gaps.len(), self.surface.free_count(), "a gap for each free vertex");
+        self.open_seams.open(&self.surface);
+        self.set_seam_gaps(gaps);
+        self.summary_at(positions)?;
+        self.open_seams.limit(&self.surface, self.active.iter());
+        self.set_seam_gaps(gaps);
+        Ok(())
+    }
+
+    /// Sets the gaps of the open seams at the free vertices to `gaps`, in m, before a step is
+    /// opened. Gaps only become narrower. Nothing happens once the seams are closed.
+    pub fn set_seam_gaps(&mut self, gaps: &[f64]) {
+        let gaps = self.open_seams.gaps_of_classes(&self.surface, gaps);
+        if gaps != self.surface.separations.seam_gaps {
+            gaps.clone_into(&mut self.surface.separations.seam_gaps);
+            self.drop_pairs();
+        }
+    }
+
+    /// Closes the seams: from now on, primitives with vertices that seams join or tie are exempt
+    /// from contact with each other. The vertices must be at their sewn positions.
+    pub fn close_seams(&mut self) {
+        self.open_seams.close();
+        self.set_seam_gaps(&[]);
     }
 }

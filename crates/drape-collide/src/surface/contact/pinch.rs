@@ -1,4 +1,4 @@
-//! Cloth between two faces of bodies that close on it by more than its thickness.
+//! Cloth between two faces of bodies that leave it less room than its thickness.
 
 use super::active_pairs::{ActivePair, ActivePairs};
 use super::obstacles::Obstacles;
@@ -17,16 +17,16 @@ pub struct PinchedVertices {
     pub released: usize,
 }
 
-/// Room between two faces, over the sum of the minimum separations from them, below which they
-/// pinch cloth. At 1 the barriers of both would be infinite.
+/// Room between two faces over the sum of their minimum separations, below which they pinch cloth.
+/// At 1 the barriers of both faces would be infinite.
 const CLOSED: f64 = 1.25;
 
-/// Cosine of the angle between the directions from two faces to the cloth below which the cloth is
+/// Cosine of the angle between the directions from two faces to the cloth, below which the cloth is
 /// between them: 120°.
 const OPPOSED: f64 = -0.5;
 
-/// Distance over the minimum separation from which thinned cloth keeps all of it again: a usual
-/// load presses it less, so that the barrier which returns adds little energy.
+/// Distance over the minimum separation above which thinned cloth gets its whole separation back. A
+/// usual load keeps cloth nearer, so the returning barrier adds little energy.
 const REGAINED: f64 = 2.0;
 
 /// Face of a body near a vertex of cloth.
@@ -38,6 +38,7 @@ struct NearFace {
     /// Closest point of the face, in m.
     point: Vector,
     /// Displacement towards the cloth in the step, in m.
+    /// Displacement of the face towards the cloth in the step, in m.
     approach: f64,
     /// Distance, in m.
     distance: f64,
@@ -45,9 +46,9 @@ struct NearFace {
     min_separation: f64,
 }
 
-/// Vertex of cloth with a face near it.
+/// Vertex of cloth and a face near it.
 #[derive(Debug, Clone, Copy)]
-struct VertexFace {
+struct VertexWithFace {
     vertex: u32,
     /// Place in the order of the active pairs.
     order: u32,
@@ -58,37 +59,44 @@ struct VertexFace {
 #[derive(Debug)]
 pub(super) struct Pinch {
     pub(super) policy: PinchPolicy,
-    /// States when the last step was committed; empty if all are free.
+    /// States when the last step was committed, empty if all are free.
     pub(super) committed: Vec<PinchState>,
     /// States in the open step.
     pub(super) next: Vec<PinchState>,
     /// Faces near each vertex, sorted by vertex and order.
-    faces: Vec<VertexFace>,
-    /// Whether each vertex is still at or inside the body that was released.
+    faces: Vec<VertexWithFace>,
+    /// Whether each vertex is still at or inside the body that passes through it.
     inside: Vec<bool>,
 }
 
 impl Pinch {
-    /// No pinches yet.
+    /// Returns the states of free vertices, with `policy` for cloth that will be pinched.
     pub(super) fn new(policy: PinchPolicy) -> Pinch {
         let (committed, next) = (Vec::new(), Vec::new());
         Pinch { policy, committed, next, faces: Vec::new(), inside: Vec::new() }
     }
 
-    /// Counts the vertices that bodies pinch since the last step.
+    /// Returns the numbers of vertices that bodies pinch since the last step, as
+    /// [`PinchedVertices`].
     pub(super) fn count(&self) -> PinchedVertices {
-        let of = |state| self.committed.iter().filter(|own| **own == state).count();
-        let thinned = of(PinchState::Thinned);
-        PinchedVertices { thinned, released: self.committed.len() - thinned - of(PinchState::Free) }
+        let mut count = PinchedVertices::default();
+        for state in &self.committed {
+            match state {
+                PinchState::Free => {}
+                PinchState::Thinned => count.thinned += 1,
+                PinchState::Released(_) => count.released += 1,
+            }
+        }
+        count
     }
 
-    /// Returns whether a body passes through a vertex since the last step.
+    /// Returns whether a body has been passing through a vertex since the last step.
     pub(super) fn any_released(&self) -> bool {
         self.committed.iter().any(|state| matches!(state, PinchState::Released(_)))
     }
 
-    /// Finds the states of an open step from its active pairs, without pinches, and from the
-    /// intersections at its start.
+    /// Finds the states of an open step. `active` holds its active pairs, detected without pinches,
+    /// and `intersections` those at its start.
     pub(super) fn update(
         &mut self,
         surface: &Surface,
@@ -97,42 +105,51 @@ impl Pinch {
         intersections: &[Intersection],
     ) {
         self.find_faces(surface, obstacles, active);
+
         self.next.clone_from(&self.committed);
         self.next.resize(surface.free_count(), PinchState::Free);
         self.find_inside(surface, &active.positions, intersections);
+
         for (vertex, state) in self.next.iter_mut().enumerate() {
             let near = faces_of(&self.faces, vertex as u32);
-            *state = match (*state, pinching(near), self.policy) {
-                (PinchState::Released(group), _, _) if self.inside[vertex] => {
-                    PinchState::Released(group)
+            let stays_released = matches!(*state, PinchState::Released(_)) && self.inside[vertex];
+            if stays_released {
+                continue;
+            }
+            let stays_thinned =
+                *state == PinchState::Thinned && near.iter().any(|near| near.face.is_close());
+            *state = match find_pinching_face(near) {
+                Some(face) if self.policy == PinchPolicy::Release => {
+                    PinchState::Released(face.group)
                 }
-                (_, Some(face), PinchPolicy::Release) => PinchState::Released(face.group),
-                (_, Some(_), _) => PinchState::Thinned,
-                (PinchState::Thinned, None, _) if near.iter().any(|near| near.face.is_close()) => {
-                    PinchState::Thinned
-                }
-                _ => PinchState::Free,
+                Some(_) => PinchState::Thinned,
+                None if stays_thinned => PinchState::Thinned,
+                None => PinchState::Free,
             };
         }
     }
 
+    /// Finds the faces of bodies near each vertex of cloth in the pairs of `active`.
     /// Finds the faces of bodies near each vertex of cloth.
     fn find_faces(&mut self, surface: &Surface, obstacles: &Obstacles, active: &ActivePairs) {
         let free = surface.free_count();
         let Obstacles { start, end, .. } = obstacles;
         self.faces.clear();
         for ActivePair { pair, gap } in active.iter() {
-            let of_body = pair.vertices.map(|vertex| vertex as usize >= free);
-            let Some(corner) = of_body.iter().position(|body| *body) else { continue };
-            // The normal leads from the second to the first.
-            let sign = if of_body[0] { -1.0 } else { 1.0 };
+            let is_body = pair.vertices.map(|vertex| vertex as usize >= free);
+            let Some(corner) = is_body.iter().position(|body| *body) else { continue };
+
+            // Closest point and displacement of the body, with the weights of its vertices.
             let (mut point, mut displacement) = ([0.0; 3], [0.0; 3]);
-            for (k, weight) in gap.weights().into_iter().enumerate().filter(|(k, _)| of_body[*k]) {
-                let own = pair.vertices[k] as usize - free;
-                point = add(point, scale(at(start, own), weight.abs()));
-                let moved = subtract(at(end, own), at(start, own));
+            for (k, weight) in gap.weights().into_iter().enumerate().filter(|(k, _)| is_body[*k]) {
+                let vertex = pair.vertices[k] as usize - free;
+                point = add(point, scale(at(start, vertex), weight.abs()));
+                let moved = subtract(at(end, vertex), at(start, vertex));
                 displacement = add(displacement, scale(moved, weight.abs()));
             }
+
+            // The normal of the gap leads from the second primitive to the first.
+            let sign = if is_body[0] { -1.0 } else { 1.0 };
             let direction = scale(gap.normal(), sign);
             let [a, b] = [pair.vertices[0], pair.vertices[3]];
             let face = NearFace {
@@ -143,16 +160,16 @@ impl Pinch {
                 distance: gap.distance(),
                 min_separation: surface.pair_distances(a, b).min_separation,
             };
-            for k in (0..4).filter(|&k| !of_body[k]) {
+            for k in (0..4).filter(|&k| !is_body[k]) {
                 let order = self.faces.len() as u32;
-                self.faces.push(VertexFace { vertex: pair.vertices[k], order, face });
+                self.faces.push(VertexWithFace { vertex: pair.vertices[k], order, face });
             }
         }
         self.faces.sort_unstable_by_key(|near| (near.vertex, near.order));
     }
 
-    /// Finds the vertices that a released body has not left: they are near it or inside it, or a
-    /// triangle at them intersects it.
+    /// Finds the vertices that a passing body has not left yet: they are near the body or inside
+    /// it, or one of their triangles intersects it.
     fn find_inside(
         &mut self,
         surface: &Surface,
@@ -160,63 +177,66 @@ impl Pinch {
         intersections: &[Intersection],
     ) {
         let Self { next, faces, inside, .. } = self;
-        let released = |vertex: u32| match next.get(vertex as usize) {
-            Some(PinchState::Released(group)) => Some(*group),
-            _ => None,
-        };
         inside.clear();
         inside.resize(next.len(), false);
         for intersection in intersections {
             let vertices = vertices_of(surface, *intersection);
-            let crosses = |group| vertices.iter().any(|&other| surface.group(other) == group);
-            for &vertex in vertices.iter().filter(|&&v| released(v).is_some_and(crosses)) {
-                inside[vertex as usize] = true;
+            for &vertex in &vertices {
+                if let Some(PinchState::Released(group)) = next.get(vertex as usize)
+                    && vertices.iter().any(|&other| surface.group(other) == *group)
+                {
+                    inside[vertex as usize] = true;
+                }
             }
         }
-        for vertex in 0..next.len() as u32 {
-            let Some(group) = released(vertex) else { continue };
-            let near = faces_of(faces, vertex).iter().any(|near| near.face.group == group);
-            let point = || at(positions, vertex as usize);
-            if near || encloses(surface, group, point(), positions) {
-                inside[vertex as usize] = true;
+
+        for (vertex, state) in next.iter().enumerate() {
+            let PinchState::Released(group) = *state else { continue };
+            let near = faces_of(faces, vertex as u32);
+            if near.iter().any(|near| near.face.group == group)
+                || encloses(surface, group, at(positions, vertex), positions)
+            {
+                inside[vertex] = true;
             }
         }
     }
 }
 
-/// Returns the vertices of an edge and a triangle that intersect.
+/// Returns the vertices of the edge and the triangle of `intersection`.
 pub(super) fn vertices_of(surface: &Surface, intersection: Intersection) -> [u32; 5] {
     let [a, b] = surface.edges()[intersection.edge as usize];
     let [c, d, e] = surface.triangles()[intersection.triangle as usize];
     [a, b, c, d, e]
 }
 
-/// Returns the faces near a vertex.
-fn faces_of(faces: &[VertexFace], vertex: u32) -> &[VertexFace] {
+/// Returns the part of the sorted `faces` that are near `vertex`.
+fn faces_of(faces: &[VertexWithFace], vertex: u32) -> &[VertexWithFace] {
     let first = faces.partition_point(|near| near.vertex < vertex);
     let count = faces[first..].partition_point(|near| near.vertex == vertex);
     &faces[first..first + count]
 }
 
 impl NearFace {
-    /// Returns whether thinned cloth stays thinned near the face.
+    /// Returns whether thinned cloth at `distance` stays thinned near the face.
     fn is_close(&self) -> bool {
         !(self.distance > REGAINED * self.min_separation)
     }
 }
 
-/// Returns the face that approaches more in the step, of two that pinch cloth between them.
-fn pinching(faces: &[VertexFace]) -> Option<NearFace> {
-    for (k, VertexFace { face: one, .. }) in faces.iter().enumerate() {
-        for VertexFace { face: other, .. } in &faces[k + 1..] {
-            let opposed = dot(one.direction, other.direction) < OPPOSED;
-            // Negative where the cloth lies about a body and not between two.
-            let room = dot(subtract(other.point, one.point), one.direction);
-            let left = room - one.approach - other.approach;
-            if opposed && room > 0.0 && left < CLOSED * (one.min_separation + other.min_separation)
-            {
-                let first = (one.approach, one.group) > (other.approach, other.group);
-                return Some(if first { *one } else { *other });
+/// Returns the face of two `faces` that pinch cloth between them which approaches faster, if any
+/// two do.
+fn find_pinching_face(faces: &[VertexWithFace]) -> Option<NearFace> {
+    for (k, VertexWithFace { face: first, .. }) in faces.iter().enumerate() {
+        for VertexWithFace { face: second, .. } in &faces[k + 1..] {
+            let opposed = dot(first.direction, second.direction) < OPPOSED;
+            // The room is negative where the cloth lies around a body, not between two.
+            let room = dot(subtract(second.point, first.point), first.direction);
+            let remaining = room - first.approach - second.approach;
+            let closed = CLOSED * (first.min_separation + second.min_separation);
+            if opposed && room > 0.0 && remaining < closed {
+                let first_is_faster =
+                    (first.approach, first.group) > (second.approach, second.group);
+                return Some(if first_is_faster { *first } else { *second });
             }
         }
     }
@@ -238,29 +258,29 @@ mod tests {
         }
     }
 
-    fn near(faces: [NearFace; 2]) -> [VertexFace; 2] {
-        faces.map(|face| VertexFace { vertex: 0, order: 0, face })
+    fn near(faces: [NearFace; 2]) -> [VertexWithFace; 2] {
+        faces.map(|face| VertexWithFace { vertex: 0, order: 0, face })
     }
 
     #[test]
     fn two_faces_pinch_cloth_between_them_if_they_leave_too_little_room() {
         let (below, above) = (face(-2e-4, 1.0, 0.0), face(2e-4, -1.0, 1e-4));
-        assert!(pinching(&near([below, above])).is_none(), "0.3 mm are left");
+        assert!(find_pinching_face(&near([below, above])).is_none(), "0.3 mm are left");
         let nearer = face(2e-4, -1.0, 1.6e-4);
         assert_eq!(
-            pinching(&near([below, nearer])).map(|face| face.group),
+            find_pinching_face(&near([below, nearer])).map(|face| face.group),
             Some(2),
             "0.24 mm are left"
         );
         assert_eq!(
-            pinching(&near([nearer, below])).map(|face| face.group),
+            find_pinching_face(&near([nearer, below])).map(|face| face.group),
             Some(2),
             "in any order"
         );
         let beside = NearFace { direction: [1.0, 0.0, 0.0], ..nearer };
-        assert!(pinching(&near([below, beside])).is_none(), "it can give way");
+        assert!(find_pinching_face(&near([below, beside])).is_none(), "it can give way");
         // The two faces of a plate that cloth lies about.
         let (back, front) = (face(1e-4, 1.0, 0.0), face(-1e-4, -1.0, 0.0));
-        assert!(pinching(&near([back, front])).is_none());
+        assert!(find_pinching_face(&near([back, front])).is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! States of a contact between two steps: its memory, and all that is written to a file.
+//! States of a contact between two steps: its memory, and the state that a checkpoint saves.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use crate::surface::geometry::PinchState;
 use crate::surface::tracked_pairs::TrackedMemory;
 
 /// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
-/// pinched vertices and the fraction of distances that is kept.
+/// pinched vertices, and the fraction of distances that is kept.
 ///
 /// [`SurfaceContact`]: super::SurfaceContact
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -20,7 +20,7 @@ pub struct SurfaceMemory {
     pub(super) growth_fraction: f64,
 }
 
-/// Saved state of a [`SurfaceContact`], from which it is resumed: its memory, the gaps of its open
+/// Saved state of a [`SurfaceContact`], from which a run resumes: its memory, the gaps of its open
 /// seams and its candidate pairs.
 ///
 /// [`SurfaceContact`]: super::SurfaceContact
@@ -32,8 +32,8 @@ pub struct SavedContact {
 }
 
 impl SurfaceMemory {
-    /// Checks that a contact can have this memory, by the numbers of its free vertices and of the
-    /// coordinates of its bodies.
+    /// Checks that this memory fits a contact with `free` free vertices and `coordinates`
+    /// coordinates of bodies.
     pub(super) fn check(&self, free: usize, coordinates: usize) -> Result<(), Error> {
         let Self { stretches, bodies, pinch, growth_fraction } = self;
         check_bodies(bodies, coordinates)?;
@@ -41,7 +41,7 @@ impl SurfaceMemory {
             let (what, found) = ("pinch states", pinch.len());
             return Err(Error::WrongLength { what, found, needed: free });
         }
-        let finite = bodies.iter().all(|x| x.is_finite()) && Stretch::are_right(stretches);
+        let finite = bodies.iter().all(|x| x.is_finite()) && Stretch::are_valid(stretches);
         if !(finite && *growth_fraction > 0.0 && *growth_fraction <= 1.0) {
             return Err(Error::SavedContact);
         }

@@ -1,4 +1,4 @@
-//! Exempt intersections: those of the two sides of a seam that closes.
+//! Exempt intersections: intersections between the two sides of a closing seam.
 
 use super::open_seams::LEAST;
 use super::pinch::vertices_of;
@@ -7,61 +7,83 @@ use crate::error::Error;
 use crate::surface::exact::{Intersection, exempt_intersections};
 use crate::vector::{Vector, at, cross, norm, subtract};
 
-/// Exempt intersections: those of the two sides of a seam that counts as closed before its vertices are
-/// one point.
+/// Exempt intersections: intersections between the two sides of a seam that counts as closed before
+/// its vertices are one point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SeamIntersections {
     /// Number of edges that meet a triangle.
     pub count: usize,
-    /// Widest gap of the seams at these intersections, in m; no side is deeper in the other.
+    /// Widest gap of the seams at these intersections, in m. No side is deeper in the other.
     pub depth: f64,
 }
 
 impl SurfaceContact {
-    /// Returns the exempt intersections at the free vertices' positions, in m.
+    /// Returns the exempt intersections at the `positions` of the free vertices, in m.
     ///
     /// # Errors
-    /// Positions that are not finite.
+    /// Positions are not finite.
     pub fn seam_intersections(&self, positions: &[f64]) -> Result<SeamIntersections, Error> {
-        let mut found = SeamIntersections::default();
+        let mut result = SeamIntersections::default();
         if !self.surface.separations.seam_gaps.contains(&0.0) {
-            return Ok(found);
+            return Ok(result);
         }
         let all = self.placed(positions);
         for intersection in exempt_intersections(&self.surface, &all)? {
             let [narrowest, widest] = self.gaps_at(intersection, &all);
-            // Those with a common point meet there.
+            // Primitives with a common point meet there.
             if narrowest >= LEAST {
-                found.count += 1;
-                found.depth = found.depth.max(widest);
+                result.count += 1;
+                result.depth = result.depth.max(widest);
             }
         }
-        Ok(found)
+        Ok(result)
     }
 
-    /// Returns the narrowest and the widest gap of the seams that join an edge and a triangle, in m.
+    /// Returns the narrowest and the widest gap of the seams that join the edge and the triangle of
+    /// `intersection`, in m. `all` holds the flat positions of all vertices.
     fn gaps_at(&self, intersection: Intersection, all: &[f64]) -> [f64; 2] {
         let seams = &self.surface.primitives().seams;
         let vertices = vertices_of(&self.surface, intersection);
         let classes = vertices.map(|vertex| seams.class(vertex));
         let (edge, triangle) = vertices.split_at(2);
-        let point = |of: &[u32], class: u32| {
-            let vertex = of.iter().find(|&&vertex| seams.class(vertex) == class)?;
-            Some(at(all, *vertex as usize))
-        };
-        // Distance of a tied vertex from the edge on which it comes to lie.
-        let off_edge = |own: Vector, class: u32, of: &[u32]| {
-            let [a, b] = seams.ends(class)?.map(|end| point(of, end));
-            let (a, along) = (a?, subtract(b?, a?));
-            Some(norm(cross(along, subtract(own, a))) / norm(along))
-        };
-        let gap = |class: u32| match [edge, triangle].map(|of| point(of, class)) {
-            [Some(one), Some(other)] => Some(norm(subtract(one, other))),
-            [Some(own), None] => off_edge(own, class, triangle),
-            [None, Some(own)] => off_edge(own, class, edge),
-            [None, None] => None,
-        };
-        let gaps = seams.joints(&classes[..2], &classes[2..]).filter_map(gap);
-        gaps.fold([f64::INFINITY, 0.0], |[least, most], gap| [least.min(gap), most.max(gap)])
+        let (edge_classes, triangle_classes) = classes.split_at(2);
+
+        let mut gaps = [f64::INFINITY, 0.0];
+        for class in seams.joints(edge_classes, triangle_classes) {
+            let on_edge = self.point_of_class(edge, class, all);
+            let on_triangle = self.point_of_class(triangle, class, all);
+            let gap = match [on_edge, on_triangle] {
+                [Some(a), Some(b)] => Some(norm(subtract(a, b))),
+                [Some(tied), None] => self.distance_from_ends(tied, class, triangle, all),
+                [None, Some(tied)] => self.distance_from_ends(tied, class, edge, all),
+                [None, None] => None,
+            };
+            if let Some(gap) = gap {
+                gaps = [gaps[0].min(gap), gaps[1].max(gap)];
+            }
+        }
+        gaps
+    }
+
+    /// Returns the position of the first of `vertices` in `class`, in m.
+    fn point_of_class(&self, vertices: &[u32], class: u32, all: &[f64]) -> Option<Vector> {
+        let seams = &self.surface.primitives().seams;
+        let vertex = vertices.iter().find(|&&vertex| seams.class(vertex) == class)?;
+        Some(at(all, *vertex as usize))
+    }
+
+    /// Returns the distance of the point `tied` from the line through the two of `vertices` between
+    /// which a seam ties its `class`, in m.
+    fn distance_from_ends(
+        &self,
+        tied: Vector,
+        class: u32,
+        vertices: &[u32],
+        all: &[f64],
+    ) -> Option<f64> {
+        let ends = self.surface.primitives().seams.ends(class)?;
+        let [a, b] = ends.map(|end| self.point_of_class(vertices, end, all));
+        let (a, along) = (a?, subtract(b?, a?));
+        Some(norm(cross(along, subtract(tied, a))) / norm(along))
     }
 }

@@ -9,12 +9,12 @@ use crate::surface::geometry::{ContactDistances, THINNED_FRACTION};
 pub struct SurfaceSettings {
     /// Stiffness `$k$` per area, in N/m³.
     pub stiffness: f64,
-    /// Sticking displacement `$\delta$`: that at which two surfaces slide, in m.
+    /// Sticking displacement `$\delta$` at which two surfaces begin to slide, in m.
     ///
-    /// A load below Coulomb's limit displaces them by less than this, once. A smaller one holds
-    /// more stiffly and is harder to solve.
+    /// A load below Coulomb's limit displaces the surfaces by less than this, once. A smaller value
+    /// holds more stiffly and is harder to solve.
     pub sticking_displacement: f64,
-    /// Coefficient of friction of each two groups, row by row.
+    /// Coefficient of friction for each two groups, row by row.
     pub friction_coefficients: Vec<f64>,
     /// Policy for cloth between closing bodies.
     pub pinch: PinchPolicy,
@@ -23,17 +23,17 @@ pub struct SurfaceSettings {
 /// Policy for cloth that bodies pinch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PinchPolicy {
-    /// No step leads there: it fails.
+    /// A step that pinches cloth fails.
     #[default]
     Error,
     /// The cloth keeps [`PinchPolicy::THINNED_FRACTION`] of its minimum separation from bodies.
     Thin,
-    /// The body that approaches passes through the cloth, and has contact again once it is out.
+    /// The approaching body passes through the cloth, and has contact again once it is out.
     Release,
 }
 
 impl PinchPolicy {
-    /// Fraction of the minimum separation from bodies of cloth that is thinned.
+    /// Fraction of the minimum separation from bodies that thinned cloth keeps.
     pub const THINNED_FRACTION: f64 = THINNED_FRACTION;
 }
 
@@ -41,33 +41,40 @@ impl SurfaceSettings {
     /// Default of [`sticking_displacement`](SurfaceSettings::sticking_displacement), in m.
     pub const STICKING_DISPLACEMENT: f64 = 5e-6;
 
-    /// Settings with a stiffness, in N/m³, and coefficients of friction of each two groups, row by
-    /// row; the others have their defaults.
+    /// Returns settings with `stiffness`, in N/m³, and `friction_coefficients` for each two groups,
+    /// row by row. The other settings have their defaults.
     #[must_use]
     pub fn new(stiffness: f64, friction_coefficients: Vec<f64>) -> SurfaceSettings {
         let (sticking_displacement, pinch) = (Self::STICKING_DISPLACEMENT, PinchPolicy::default());
         SurfaceSettings { stiffness, sticking_displacement, friction_coefficients, pinch }
     }
 
-    /// Returns the stiffness, in N/m³, at which two equal sheets under a pressure, in Pa, are at a
-    /// distance, in m; infinite at the activation distance.
+    /// Returns the stiffness, in N/m³, at which two equal sheets under `pressure`, in Pa, are
+    /// `distance` apart, in m. It is infinite at the activation distance of `pair_distances`.
     ///
-    /// Each of the two sheets counts the area of contact once: by its vertices over the other's
-    /// triangles, and by the edges that cross.
+    /// Each of the two sheets counts the area of contact once: by its vertices over the triangles
+    /// of the other sheet, and by the edges that cross.
     #[must_use]
-    pub fn stiffness_for_pressure(pressure: f64, distance: f64, of_pair: ContactDistances) -> f64 {
-        let ContactDistances { activation_distance, min_separation } = of_pair;
+    pub fn stiffness_for_pressure(
+        pressure: f64,
+        distance: f64,
+        pair_distances: ContactDistances,
+    ) -> f64 {
+        let ContactDistances { activation_distance, min_separation } = pair_distances;
         let slope =
             Barrier::strict(activation_distance - min_separation).slope(distance - min_separation);
         pressure / (-2.0 * slope)
     }
 
-    /// Checks the ranges, for a number of groups.
-    pub(super) fn check(&self, groups: usize) -> Result<(), Error> {
-        let positive = |what: &str, value: f64| check(what, value, "above 0", value > 0.0);
-        positive("the contact stiffness (N/m³)", self.stiffness)?;
-        positive("the sticking displacement (m)", self.sticking_displacement)?;
-        let (needed, found) = (groups * groups, self.friction_coefficients.len());
+    /// Checks the ranges of all settings, for `group_count` groups.
+    pub(super) fn check(&self, group_count: usize) -> Result<(), Error> {
+        for (what, value) in [
+            ("the contact stiffness (N/m³)", self.stiffness),
+            ("the sticking displacement (m)", self.sticking_displacement),
+        ] {
+            check(what, value, "above 0", value > 0.0)?;
+        }
+        let (needed, found) = (group_count * group_count, self.friction_coefficients.len());
         if needed != found {
             return Err(Error::WrongLength { what: "coefficients of friction", found, needed });
         }

@@ -8,9 +8,9 @@ use crate::surface::pair::Pair;
 pub struct SurfaceSummary {
     /// Number of pairs within their activation distance.
     pub touching: usize,
-    /// Smallest distance of a pair, in m; infinite if none is active.
+    /// Smallest distance of a pair, in m, infinite if none is active.
     pub min_distance: f64,
-    /// Smallest ratio of a distance and the minimum separation of its pair.
+    /// Smallest ratio of a pair's distance to its minimum separation.
     pub min_ratio: f64,
 }
 
@@ -19,28 +19,28 @@ pub struct SurfaceSummary {
 pub struct PairDistance<'a> {
     /// Pair of primitives.
     pub pair: &'a Pair,
-    /// Distance of its primitives, in m.
+    /// Distance between the two primitives, in m.
     pub distance: f64,
 }
 
 impl<'a> PairDistance<'a> {
-    /// Distance of an active pair.
-    pub(super) fn of(active: &'a ActivePair) -> PairDistance<'a> {
+    /// Returns an active pair with its distance, as a [`PairDistance`].
+    pub(super) fn new(active: &'a ActivePair) -> PairDistance<'a> {
         PairDistance { pair: &active.pair, distance: active.gap.distance() }
     }
 
-    /// Ratio of the distance and the minimum separation.
+    /// Returns the ratio of `distance` to the minimum separation of the pair.
     pub(super) fn ratio(&self) -> f64 {
         self.distance / self.pair.min_separation
     }
 }
 
 impl SurfaceSummary {
-    /// Summary of active pairs.
+    /// Returns the summary of `active` pairs.
     pub(super) fn new<'a>(active: impl Iterator<Item = &'a ActivePair>) -> SurfaceSummary {
         let mut summary =
             SurfaceSummary { touching: 0, min_distance: f64::INFINITY, min_ratio: f64::INFINITY };
-        for pair in active.map(PairDistance::of) {
+        for pair in active.map(PairDistance::new) {
             summary.touching += 1;
             summary.min_distance = summary.min_distance.min(pair.distance);
             summary.min_ratio = summary.min_ratio.min(pair.ratio());

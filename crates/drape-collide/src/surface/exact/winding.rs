@@ -5,19 +5,25 @@ use std::f64::consts::PI;
 use crate::surface::contact_surface::Surface;
 use crate::vector::{Vector, at, cross, dot, norm, subtract};
 
-/// Returns whether a point is inside the body of a group.
+/// Returns whether `point` is inside the body of `group`, for the flat `positions` of all vertices.
 ///
-/// The triangles of a closed body, seen from inside, fill the whole sphere of directions, and else
-/// none of it. Those of a floor fill half of it from below, and minus half of it from above.
+/// The triangles of a closed body fill the whole sphere of directions around a point inside, and
+/// none of it around a point outside. A floor fills half of the sphere from below, and minus half
+/// from above.
 pub(crate) fn encloses(surface: &Surface, group: u32, point: Vector, positions: &[f64]) -> bool {
-    let own = surface.triangles().iter().filter(|corners| surface.group(corners[0]) == group);
-    let from = |vertex: u32| subtract(at(positions, vertex as usize), point);
-    let angle: f64 = own.map(|corners| solid_angle(corners.map(from))).sum();
+    let triangles = surface.triangles().iter();
+    let angle: f64 = triangles
+        .filter(|corners| surface.group(corners[0]) == group)
+        .map(|corners| {
+            solid_angle(corners.map(|vertex| subtract(at(positions, vertex as usize), point)))
+        })
+        .sum();
     angle > PI
 }
 
-/// Returns the solid angle of a triangle seen from the origin, in sr, with the sign of the
-/// triangle's orientation \[VOS83\].
+/// Returns the solid angle of the triangle `a`, `b`, `c` seen from the origin, in sr, with the sign
+/// of the triangle's orientation \[VOS83\].
+
 fn solid_angle([a, b, c]: [Vector; 3]) -> f64 {
     let [la, lb, lc] = [a, b, c].map(norm);
     let volume = dot(a, cross(b, c));

@@ -1,4 +1,4 @@
-//! Continuous collision detection of a step, for all vertices together or for each.
+//! Continuous collision detection of a step, for all vertices together or for each vertex.
 
 use super::common_fraction::{StepFraction, common_fraction};
 use super::safeguards::Safeguards;
@@ -10,15 +10,15 @@ use crate::surface::placement::StepStart;
 
 /// Filter that limits steps such that no two primitives come below their minimum separation.
 ///
-/// Positions are flat, for all vertices of the surface, bodies included, and so are displacements;
-/// where bodies rest, those of the free vertices will do. Its results are proofs for vertices that
-/// all move at the same time, straight from `x` to `x + dx` as rounded:
-/// every listed pair keeps a twentieth of its clearance, and every other pair stays beyond its
-/// activation distance as long as no vertex drifts farther than 0.45 margins from the reference
-/// positions of the pairs or from the trajectories along which they were detected. The filter
-/// limits the drift; it fails if the positions have drifted farther already.
+/// Positions and displacements are flat, for all vertices of the surface including bodies. Where
+/// bodies rest, displacements of the free vertices suffice. The results are proofs for vertices
+/// that all move at the same time, straight from `x` to `x + dx` as rounded. Every listed pair
+/// keeps a twentieth of its clearance. Every other pair stays beyond its activation distance as
+/// long as no vertex drifts farther than 0.45 margins from the reference positions of the pairs or
+/// from the trajectories along which they were detected. The filter limits the drift, and fails if
+/// the positions have drifted farther already.
 ///
-/// It keeps its memory between calls.
+/// The filter keeps its memory between calls.
 #[derive(Debug, Default)]
 pub struct CcdFilter {
     drift: Drift,
@@ -30,14 +30,15 @@ pub struct CcdFilter {
 
 impl CcdFilter {
     /// Returns the largest fraction of a step that conservative advancement proves safe for all
-    /// vertices together.
+    /// vertices together. The step leads from `positions` along `displacements`, in m.
     ///
-    /// It keeps the direction of the step. Each listed pair keeps a tenth of its clearance.
+    /// A common fraction keeps the direction of the step. Each listed pair keeps a tenth of its
+    /// clearance.
     ///
     /// # Errors
     ///
-    /// If a list has the wrong length, a number is not finite or beyond 1000 km, or the positions
-    /// have drifted beyond the budget of the pairs.
+    /// A list has the wrong length; a number is not finite or beyond 1000 km; or the positions have
+    /// drifted beyond the budget of the pairs.
     pub fn common_fraction(
         &mut self,
         pairs: &CandidatePairs,
@@ -47,7 +48,8 @@ impl CcdFilter {
         self.common_fraction_from(pairs, StepStart::new(positions), displacements)
     }
 
-    /// Returns the same fraction from a start at which only some vertices may have moved.
+    /// Like [`common_fraction`](CcdFilter::common_fraction), from a `start` at which only some
+    /// vertices may have moved.
     pub(crate) fn common_fraction_from(
         &mut self,
         pairs: &CandidatePairs,
@@ -57,27 +59,27 @@ impl CcdFilter {
         let smallest = self.drift.measure(pairs, (start, displacements), true, self.safeguards)?;
         let step = Trial { positions: start.positions, displacements, smallest };
         let (drift, safeguards) = (&self.drift, self.safeguards);
-        let budget = (0..drift.vertices())
-            .map(|vertex| match safeguards.drift_budget {
-                true => drift.budget_fraction(pairs, &step, vertex),
-                false => 1.0,
-            })
-            .fold(1.0, f64::min);
+        let mut budget: f64 = 1.0;
+        if safeguards.drift_budget {
+            for vertex in 0..drift.vertices() {
+                budget = budget.min(drift.budget_fraction(pairs, &step, vertex));
+            }
+        }
         let stays_apart = |pair: &_| drift.stays_apart(pair, &step);
         Ok(common_fraction(pairs.as_slice(), &step, budget, stays_apart))
     }
 
-    /// Truncates the displacement of each vertex by as much as its own pairs need, in place.
+    /// Truncates the displacement of each vertex in `displacements` by as much as its pairs need.
     ///
-    /// As in \[Che26\], two primitives that approach each other divide their room by the speeds at
-    /// which they do. Here the plane between them moves: a primitive that follows another may go as far as
-    /// that one and their room, so that layers that fall together keep their displacements. Fractions
-    /// are limited again until no pair takes more than its room. The direction of the step changes
-    /// only where something is near. The vertices of bodies move by a common fraction.
+    /// As in \[Che26\], two primitives that approach each other divide their room by their speeds.
+    /// Here the plane between them moves: a primitive that follows another may go as far as the
+    /// other and their room, so layers that fall together keep their displacements. Fractions are
+    /// limited again until no pair takes more than its room. The direction of the step changes only
+    /// near other primitives. The vertices of bodies move by a common fraction.
     ///
     /// # Errors
     ///
-    /// As of [`common_fraction`](CcdFilter::common_fraction).
+    /// As for [`common_fraction`](CcdFilter::common_fraction).
     pub fn truncate(
         &mut self,
         pairs: &CandidatePairs,
@@ -87,8 +89,8 @@ impl CcdFilter {
         self.truncate_from(pairs, StepStart::new(positions), displacements, &[])
     }
 
-    /// Truncates the same displacements from a start at which only some vertices may have moved.
-    /// Vertices of a group move by a common fraction; see [`WholeStep::groups`].
+    /// Like [`truncate`](CcdFilter::truncate), from a `start` at which only some vertices may have
+    /// moved. Vertices of one group move by a common fraction; see [`WholeStep::groups`].
     pub(crate) fn truncate_from(
         &mut self,
         pairs: &CandidatePairs,

@@ -1,15 +1,15 @@
-//! Safeguards of the step filter, which tests take away to see that each is needed.
+//! Safeguards of the step filter. Tests switch each one off to see that it is needed.
 
-/// Safeguards of the step filter: all are on but in tests of this crate.
+/// Safeguards of the step filter, which are all on except in tests of this crate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Safeguards {
     /// Vertices of a pair with too little room do not approach.
     pub(crate) freeze: bool,
     /// No vertex drifts farther than the detected pairs allow.
     pub(crate) drift_budget: bool,
-    /// A pair has come nearer by what its vertices have drifted since it was detected.
+    /// The known distance of a pair is reduced by the drift of its vertices since detection.
     pub(crate) drift_bound: bool,
-    /// Pairs are detected along trajectories that those at hand do not include.
+    /// Pairs are detected along trajectories that the listed pairs do not cover.
     pub(crate) swept_detection: bool,
 }
 
@@ -23,7 +23,7 @@ impl Default for Safeguards {
 mod tests {
     use super::*;
     use crate::{
-        CcdFilter, ContactDistances, Detector, StepFraction, StepLimit, Surface, SurfaceParts,
+        CcdFilter, ContactDistances, Detector, FractionLimit, StepFraction, Surface, SurfaceParts,
         intersections,
     };
 
@@ -31,7 +31,8 @@ mod tests {
         ContactDistances { activation_distance: 1e-3, min_separation: 1e-4 };
     const MARGIN: f64 = 4e-3;
 
-    /// Two parallel triangles of 0.1 m so far apart, the upper one to the side by a third.
+    /// Returns two parallel triangles of 0.1 m at the distance `apart`, the upper one moved to the side
+    /// by a third.
     fn triangles(apart: f64) -> (Surface, Vec<f64>) {
         let flat = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1], [0.03, 0.03], [0.13, 0.03], [0.03, 0.13]];
         let height = |k: usize| if k < 3 { 0.0 } else { apart };
@@ -50,20 +51,20 @@ mod tests {
         (surface.unwrap(), positions)
     }
 
-    /// What one corner of the upper triangle does that is told to go down by so much, in so many
-    /// steps without a new detection: the least height of it, and whether the triangles meet.
+    /// Moves one corner of the upper triangle down by `drop` in each of `steps` steps without a new
+    /// detection. Returns its least height, and whether the triangles met.
     ///
-    /// The pairs are those of the margin, but the filter is told another.
+    /// Pairs are detected with `margin`, but the filter takes them for pairs of `assumed_margin`.
     fn drop_corner(
         safeguards: Safeguards,
         (apart, drop, steps): (f64, f64, usize),
-        (margin, told): (f64, f64),
+        (margin, assumed_margin): (f64, f64),
     ) -> [(f64, bool); 2] {
         [false, true].map(|scalar| {
             let (surface, mut positions) = triangles(apart);
             let mut detector = Detector::default();
             let mut pairs = detector.detect(&surface, &positions, margin).unwrap().clone();
-            pairs.margin = told;
+            pairs.margin = assumed_margin;
             let mut filter = CcdFilter::default();
             filter.safeguards = safeguards;
             let mut met = false;
@@ -154,8 +155,8 @@ mod tests {
         let found = limit(down);
         let room = 0.9 * (apart - 2.0 * DISTANCES.min_separation);
         assert!((found.value * down - room).abs() < 1e-9, "{found:?}");
-        assert_eq!(found.limit, StepLimit::Contact);
-        assert_eq!(limit(0.5 * room), StepFraction { value: 1.0, limit: StepLimit::None });
+        assert_eq!(found.limit, FractionLimit::Contact);
+        assert_eq!(limit(0.5 * room), StepFraction { value: 1.0, limit: FractionLimit::None });
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Trial step of a filter: checked, with the drift of each vertex before it.
+//! Checked trial step of a filter, with the drift of each vertex before the step.
 
 use super::safeguards::Safeguards;
 use crate::error::{Error, check_positions};
@@ -7,33 +7,35 @@ use crate::surface::pair::Pair;
 use crate::surface::placement::StepStart;
 use crate::vector::{Vector, at, at_or_zero, dot, norm, subtract};
 
-/// Number of pairs of a chunk, for one thread at a time; constant, as all bounds of parallel work.
+/// Number of pairs in a chunk, which one thread handles at a time. It is constant, so no result
+/// depends on the number of threads.
 pub(super) const CHUNK: usize = 2048;
 
 /// Drift budget: fraction of the margin by which a vertex may move since detection.
 ///
-/// Two such drifts take less than the margin off the distance of a pair that was not listed, so it
-/// stays above its activation distance by a tenth of the margin. A larger fraction needs fewer
+/// Two drifts of this size reduce the distance of an unlisted pair by less than the margin. The
+/// pair stays above its activation distance by a tenth of the margin. A larger fraction needs fewer
 /// detections and leaves less for rounding.
 pub(crate) const DRIFT_BUDGET: f64 = 0.45;
 
 /// Fraction of a pair's clearance by which one filtered step may reduce it.
 ///
-/// The tenth that is left keeps the energy finite and the next step from starting frozen.
+/// The remaining tenth keeps the energy finite and the next step from starting frozen.
 pub(super) const CLOSED: f64 = 0.9;
 
-/// Smallest clearance at which a pair may still approach, in m; at a micrometre of minimum
-/// separation, a thousandth.
+/// Smallest clearance at which a pair may still approach, in m. It is a thousandth of a minimum
+/// separation of a micrometre.
 const SMALLEST: f64 = 1e-9;
 
-/// Smallest clearance in units of the last place of the largest coordinate: rounding of positions
-/// moves two vertices by a few.
+/// Smallest clearance in units of the last place of the largest coordinate. Rounding of positions
+/// moves two vertices by a few units.
 pub(super) const PLACES: f64 = 64.0;
 
 /// Factor that rounds a sum of lengths upwards.
 const UPWARDS: f64 = 1.0 + 1e-12;
 
-/// Trial step: flat positions of all vertices and displacements of the first ones; the others rest.
+/// Trial step: flat positions of all vertices, and displacements of leading vertices. Other
+/// vertices rest.
 #[derive(Clone, Copy)]
 pub(super) struct Trial<'a> {
     pub(super) positions: &'a [f64],
@@ -43,7 +45,7 @@ pub(super) struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Returns the displacements of a pair's vertices, in m.
+    /// Returns the displacements of the vertices of `pair`, in m.
     pub(super) fn displacements(&self, pair: &Pair) -> [Vector; 4] {
         pair.vertices.map(|vertex| at_or_zero(self.displacements, vertex as usize))
     }
@@ -52,7 +54,7 @@ impl Trial<'_> {
 /// Drift and displacement of each vertex in a trial step.
 #[derive(Debug, Default)]
 pub(super) struct Drift {
-    /// Distance of each vertex that may have moved from the reference positions of the pairs, in m.
+    /// Distance of each vertex from its reference position, in m. Later vertices have not moved.
     moved: Vec<f64>,
     /// Length of each displacement, in m.
     lengths: Vec<f64>,
@@ -61,14 +63,15 @@ pub(super) struct Drift {
 }
 
 impl Drift {
-    /// Number of the first vertices with a drift or a displacement; the others have none.
+    /// Returns the number of leading vertices with a drift or a displacement: the longer of `moved`
+    /// and `lengths`.
     pub(super) fn vertices(&self) -> usize {
         self.moved.len().max(self.lengths.len())
     }
 
-    /// Checks a trial step, and measures drift and displacements; with `common` if all vertices
-    /// move by a common fraction of them. Returns the smallest clearance at which pairs may still
-    /// approach, in m.
+    /// Checks a trial step from `start`, and measures drift and displacements. With `common`, all
+    /// vertices move by a common fraction of their displacements. Returns the smallest clearance at
+    /// which `pairs` may still approach, in m.
     pub(super) fn measure(
         &mut self,
         pairs: &CandidatePairs,
@@ -88,11 +91,13 @@ impl Drift {
         }
         check_positions("vertex", &positions[..3 * moved])?;
         check_positions("the displacement of vertex", displacements)?;
+
+        // A vertex at its budget was moved there by this filter, to rounding.
         let budget = DRIFT_BUDGET * pairs.margin();
         let reference = pairs.positions();
         let last_places = [pairs.largest_coordinate(start), largest(displacements)].map(last_place);
-        // A vertex at its budget has been moved there by this filter, to rounding.
         let most = budget * (1.0 + 1e-9) + 4.0 * last_places[0];
+
         self.moved.clear();
         self.lengths.clear();
         for vertex in 0..moved {
@@ -105,13 +110,14 @@ impl Drift {
         let lengths = displacements.as_chunks::<3>().0.iter();
         self.lengths.extend(lengths.map(|displacement| norm(*displacement) * UPWARDS));
         pairs.write_off_trajectory(displacements, common, &mut self.off_trajectory);
-        // The coordinates of the end are at most twice the larger of both.
+
+        // Coordinates at the end of the step are at most twice the larger of both.
         let largest = 2.0 * last_places[0].max(last_places[1]);
         Ok(SMALLEST.max(PLACES * largest))
     }
 
-    /// Returns the largest fraction of its displacement that keeps a vertex within the drift
-    /// budget.
+    /// Returns the largest fraction of its displacement in `step` that keeps `vertex` within the
+    /// drift budget of `pairs`.
     pub(super) fn budget_fraction(
         &self,
         pairs: &CandidatePairs,
@@ -128,26 +134,26 @@ impl Drift {
         fraction_in_ball(moved, off_trajectory, budget)
     }
 
-    /// Returns whether a pair keeps a tenth of its clearance by the lengths of the displacements
-    /// alone, whatever fractions of them are taken.
+    /// Returns whether the lengths of the displacements alone prove that `pair` keeps a tenth of
+    /// its clearance, for any fractions of them.
     pub(super) fn stays_apart(&self, pair: &Pair, step: &Trial<'_>) -> bool {
         let clearance = pair.distance - pair.min_separation - pair.largest_sum(&self.moved);
         clearance > step.smallest && pair.largest_sum(&self.lengths) < 0.9 * CLOSED * clearance
     }
 }
 
-/// Returns the largest fraction of a displacement that stays in a ball about the origin, from a
-/// point in it.
+/// Returns the largest fraction of `displacement` at which `point` stays in a ball of `radius`
+/// about the origin. `point` begins in the ball.
 fn fraction_in_ball(point: Vector, displacement: Vector, radius: f64) -> f64 {
     let (square, along) = (dot(displacement, displacement), dot(point, displacement));
     let room = radius * radius - dot(point, point);
-    // The larger root of |point + t displacement|^2 = radius^2, in the form that does not cancel.
+    // The larger root of |point + t displacement|^2 = radius^2, in the form without cancellation.
     let root = (along * along + square * room.max(0.0)).sqrt();
     let fraction = if along > 0.0 { room / (along + root) } else { (root - along) / square };
     if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Returns the distance from a number to the next.
+/// Returns the distance from `number` to the next larger `f64`.
 fn last_place(number: f64) -> f64 {
     number.next_up() - number
 }

@@ -1,8 +1,9 @@
 //! Truncation of a step vertex by vertex, by the room that each pair has to approach.
 //!
-//! All vertices move at the same time. Over the plane between the closest points of a pair the lowest
-//! height of the first primitive is then concave in time, and the highest of the second convex: a
-//! pair that keeps a tenth of its clearance at the end of the step has kept as much all along.
+//! All vertices move at the same time. Over the plane between the closest points of a pair, the
+//! lowest height of the first primitive is then concave in time, and the highest of the second
+//! convex. A pair that keeps a tenth of its clearance at the end of the step therefore keeps it all
+//! along.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -16,31 +17,34 @@ use crate::surface::distance::{Height, height};
 use crate::surface::pair::Pair;
 use crate::vector::{Vector, add, at, at_or_zero};
 
-/// Part of the clearance by which rounding may let a pair approach; above [`CLOSED`].
+/// Fraction of the clearance by which a pair may approach including rounding. It is above
+/// [`CLOSED`].
 const ROUNDED: f64 = 0.95;
 
 /// Fraction of its room by which a pair may approach without a test of the end.
 const SAFE: f64 = 0.9;
 
-/// Excess of an approach over its room, relative to it, that is rounding.
+/// Excess of an approach over its room, relative to the room, that counts as rounding.
 const EXCESS: f64 = 1e-9;
 
-/// Most rounds in which fractions are limited. A layer that stops limits the one above in the next round.
+/// Largest number of rounds in which fractions are limited. A layer that stops limits the layer
+/// above it in the next round.
 const ROUNDS: usize = 200;
 
-/// Most tests of the end of a step. After the last one no vertex moves.
+/// Largest number of tests of the end of a step. After the last one no vertex moves.
 const ENDS: usize = 20;
 
 /// Result of a step that was truncated vertex by vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truncation {
-    /// Common fraction of the displacements of all that moves by prescription.
+    /// Common fraction of the displacements of bodies and held vertices.
     pub body_fraction: f64,
     /// Smallest fraction of a vertex.
     pub least_fraction: f64,
     /// Number of vertices whose displacement is truncated.
     pub shortened: usize,
-    /// Number of vertices that the drift budget limits: detect again before the next step.
+    /// Number of vertices that the drift budget limits. Pairs must be detected before the next
+    /// step.
     pub at_drift_budget: usize,
     /// Number of pairs so near their minimum separation that their vertices may not approach.
     pub frozen: usize,
@@ -52,13 +56,14 @@ pub(super) struct WholeStep<'a> {
     pub(super) pairs: &'a CandidatePairs,
     pub(super) trial: Trial<'a>,
     pub(super) drift: &'a Drift,
-    /// Group of each free vertex; each vertex is a group if there are none.
+    /// Group of each free vertex. If the list is empty, each vertex is a group.
     pub(super) groups: &'a [u32],
     pub(super) safeguards: Safeguards,
 }
 
 impl WholeStep<'_> {
-    /// Group of a vertex. All bodies are one, with the number of free vertices.
+    /// Returns the group of `vertex`. All bodies are one group, numbered by the count of free
+    /// vertices.
     fn group(&self, vertex: usize) -> usize {
         match self.groups.get(vertex) {
             Some(&group) => group as usize,
@@ -74,36 +79,38 @@ struct Approach {
     groups: [u32; 4],
     /// Number of vertices of the first primitive.
     first: usize,
-    /// By how much each vertex approaches the other primitive, in m.
+    /// Approach of each vertex to the other primitive, in m.
     approaches: [f64; 4],
-    /// By how much each vertex is farther from the other primitive than the nearest, in m.
+    /// Excess distance of each vertex from the other primitive over the nearest vertex, in m.
     offsets: [f64; 4],
-    /// By how much the two may approach, in m.
+    /// Distance by which the two primitives may approach, in m.
     room: f64,
     normal: Vector,
-    /// Least difference between the heights of the two at the end, in m.
+    /// Smallest allowed difference of the primitives' heights at the end, in m.
     kept: f64,
 }
 
 /// Fractions of the groups of vertices and approaches of the pairs of a truncation.
 #[derive(Debug, Default)]
 pub(super) struct Truncator {
-    /// Fraction of each group as bits: those of positive numbers are in order.
+    /// Fraction of each group as bits, which have the order of positive numbers.
     fractions: Vec<AtomicU64>,
-    /// Fractions before the round in hand.
+    /// Fractions before the current round.
     before: Vec<f64>,
-    /// Pairs of each chunk of the candidates that may come too near; lists beyond these are empty.
+    /// Pairs in each chunk of candidates that may come too near. Lists beyond the candidates are
+    /// empty.
     chunks: Vec<Vec<Approach>>,
 }
 
 impl Truncator {
-    /// Writes the displacements that are left of a step. The vertices of a group move by a common
-    /// fraction of theirs.
-    pub(super) fn truncate(&mut self, step: WholeStep<'_>, left: &mut [f64]) -> Truncation {
+    /// Writes the truncated displacements of `step` to `truncated`, in m. The vertices of a group
+    /// move by a common fraction.
+    pub(super) fn truncate(&mut self, step: WholeStep<'_>, truncated: &mut [f64]) -> Truncation {
         let WholeStep { pairs, trial, drift, safeguards, .. } = step;
         let vertices = trial.positions.len() / 3;
         self.fractions.resize_with(vertices + 1, AtomicU64::default);
         self.fractions.iter_mut().for_each(|fraction| *fraction.get_mut() = 1f64.to_bits());
+
         let mut at_drift_budget = 0;
         if safeguards.drift_budget {
             for vertex in 0..drift.vertices() {
@@ -113,43 +120,47 @@ impl Truncator {
             }
         }
         let frozen = self.find_approaches(&step);
+
+        // Fractions within the rooms are tested at the end of the step, with all rounding. Vertices
+        // of pairs that fail the test stop, which may affect other pairs.
         for end in 0..=ENDS {
             self.settle();
             if end == ENDS {
                 self.fractions.iter_mut().for_each(|fraction| *fraction.get_mut() = 0);
             }
-            let all = left.as_chunks_mut::<3>().0.iter_mut().enumerate();
-            for ((vertex, left), whole) in all.zip(trial.displacements.as_chunks::<3>().0) {
+            let all = truncated.as_chunks_mut::<3>().0.iter_mut().enumerate();
+            for ((vertex, displacement), whole) in all.zip(trial.displacements.as_chunks::<3>().0) {
                 let fraction = self.fraction(step.group(vertex));
-                *left = whole.map(|component| fraction * component);
+                *displacement = whole.map(|component| fraction * component);
             }
-            if self.stop_unproved(trial.positions, left) {
+            if self.stop_unproved(trial.positions, truncated) {
                 break;
             }
         }
-        let fractions = || (0..vertices).map(|vertex| self.fraction(step.group(vertex)));
+
+        let fractions = (0..vertices).map(|vertex| self.fraction(step.group(vertex)));
         Truncation {
             body_fraction: self.fraction(pairs.free),
-            least_fraction: fractions().fold(1.0, f64::min),
-            shortened: fractions().filter(|fraction| *fraction < 1.0).count(),
+            least_fraction: fractions.clone().fold(1.0, f64::min),
+            shortened: fractions.filter(|fraction| *fraction < 1.0).count(),
             at_drift_budget,
             frozen,
         }
     }
 
-    /// Fraction of a group.
+    /// Returns the fraction of `group`, 0 to 1.
     fn fraction(&self, group: usize) -> f64 {
         f64::from_bits(self.fractions[group].load(Ordering::Relaxed))
     }
 
-    /// Limits the fraction of a group. The least of all limits does not depend on their order.
+    /// Limits the fraction of `group` to `fraction`. The least limit does not depend on the order.
     fn limit(&self, group: usize, fraction: f64) {
         let fraction = if fraction > 0.0 { fraction } else { 0.0 };
         self.fractions[group].fetch_min(fraction.to_bits(), Ordering::Relaxed);
     }
 
-    /// Finds the pairs that may come too near. Stops what approaches where there is no room, and
-    /// returns the number of these pairs.
+    /// Finds the pairs of `step` that may come too near, and freezes pairs without room. Returns
+    /// the number of frozen pairs.
     fn find_approaches(&mut self, step: &WholeStep<'_>) -> usize {
         let candidates = step.pairs.as_slice().par_chunks(CHUNK);
         let mut chunks = std::mem::take(&mut self.chunks);
@@ -157,6 +168,7 @@ impl Truncator {
             chunks.resize_with(candidates.len(), Vec::new);
         }
         chunks.iter_mut().for_each(Vec::clear);
+
         let frozen = candidates.zip(&mut chunks).map(|(candidates, chunk)| {
             let mut frozen = 0;
             for pair in candidates.iter().filter(|pair| !step.drift.stays_apart(pair, &step.trial))
@@ -180,7 +192,7 @@ impl Truncator {
         frozen
     }
 
-    /// Lets no vertex of a pair approach, and none move if the two are not parted.
+    /// Lets no vertex of `pair` approach. If its primitives are not `parted`, no vertex moves.
     fn freeze(&self, pair: &Approach, parted: bool) {
         for (group, approach) in pair.groups.into_iter().zip(pair.approaches) {
             if !(parted && approach <= 0.0) {
@@ -198,6 +210,8 @@ impl Truncator {
                 .map(|fraction| f64::from_bits(fraction.load(Ordering::Relaxed)));
             self.before.clear();
             self.before.extend(now);
+
+            // Limits refer to the fractions before the round, so their order does not matter.
             let changed = self.chunks.par_iter().map(|chunk| {
                 let mut changed = false;
                 for approach in chunk {
@@ -209,24 +223,26 @@ impl Truncator {
                 }
                 changed
             });
-            if !changed.reduce(|| false, |one, other| one | other) {
+            if !changed.reduce(|| false, |a, b| a | b) {
                 return;
             }
         }
-        // A smaller part of all that moves takes less of the room of each pair.
-        let part = self.chunks.iter().flatten().map(|approach| {
+
+        // After too many rounds all fractions shrink together: a smaller part of all motion takes
+        // less of each room.
+        let parts = self.chunks.iter().flatten().map(|approach| {
             let [above, below] =
                 approach.at_fractions(approach.groups.map(|group| self.fraction(group as usize)));
             if above + below > approach.room { approach.room / (above + below) } else { 1.0 }
         });
-        let part = part.fold(1.0, f64::min);
+        let part = parts.fold(1.0, f64::min);
         for group in 0..self.fractions.len() {
             self.limit(group, part * self.fraction(group));
         }
     }
 
-    /// Stops the vertices of the pairs that are not proved apart at the end of a step. Returns
-    /// whether there are none.
+    /// Stops the vertices of pairs that are not proved apart at the end of the step from
+    /// `positions` along `displacements`. Returns whether all pairs are proved apart.
     fn stop_unproved(&self, positions: &[f64], displacements: &[f64]) -> bool {
         let proved = self.chunks.par_iter().map(|chunk| {
             let mut proved = true;
@@ -243,24 +259,24 @@ impl Truncator {
             }
             proved
         });
-        proved.reduce(|| true, |one, other| one & other)
+        proved.reduce(|| true, |a, b| a & b)
     }
 }
 
 impl Approach {
-    /// Approach of a pair at a plane that separates its primitives; without room if it must not
-    /// approach.
+    /// Returns the approach of `pair` over the `plane` that separates its primitives. It has no
+    /// room if the primitives must not approach.
     fn new(pair: &Pair, plane: &SeparatingPlane, step: &WholeStep<'_>) -> Approach {
         let clearance = plane.clearance(pair.min_separation);
         let apart = plane.low - plane.high;
         let kept = apart - ROUNDED * clearance;
-        // NaN leaves no room.
+        // A clearance of NaN leaves no room.
         let open = clearance > step.trial.smallest
             && SeparatingPlane::holds(kept, 0.0, pair.min_separation);
         Approach {
             vertices: pair.vertices,
             groups: pair.vertices.map(|vertex| step.group(vertex as usize) as u32),
-            first: pair.first_vertices(),
+            first: pair.first_vertex_count(),
             approaches: plane.approaches(pair, step.trial.displacements(pair)),
             offsets: plane.offsets(pair),
             room: if open { CLOSED * clearance } else { 0.0 },
@@ -269,47 +285,52 @@ impl Approach {
         }
     }
 
-    /// Returns whether the room is enough with all rounding, whatever fractions are taken.
+    /// Returns whether the room suffices with all rounding, for any fractions of the step.
     fn is_safe(&self) -> bool {
         let [above, below] = self.at_fractions([1.0; 4]);
         above.max(0.0) + below.max(0.0) < SAFE * self.room
     }
 
-    /// Approach of each primitive at fractions of the whole step, in m: of the vertex that then is
-    /// nearest to the other primitive. It is negative where the primitive moves away.
+    /// Returns the approach of each primitive at the vertices' `fractions` of the whole step, in m.
+    /// The vertex that is then nearest to the other primitive counts. An approach is negative where
+    /// the primitive moves away.
     fn at_fractions(&self, fractions: [f64; 4]) -> [f64; 2] {
         let mut nearest = [f64::NEG_INFINITY; 2];
         for (k, fraction) in fractions.into_iter().enumerate() {
-            let own = &mut nearest[usize::from(k >= self.first)];
-            *own = own.max(fraction * self.approaches[k] - self.offsets[k]);
+            let approach = &mut nearest[usize::from(k >= self.first)];
+            *approach = approach.max(fraction * self.approaches[k] - self.offsets[k]);
         }
         nearest
     }
 
-    /// Returns limits of the fractions of the vertices where the two would approach by more than the
-    /// room: two that approach each other share it by their speeds, one that follows the other may
-    /// also go as far as that one.
+    /// Returns limits of the vertices' fractions if the primitives would approach by more than the
+    /// room, else `None`. `fractions` holds the fractions of all groups.
+    ///
+    /// Two primitives that approach each other share the room by their speeds. A primitive that
+    /// follows the other may also go as far as the other.
     fn limits(&self, fractions: &[f64]) -> Option<[f64; 4]> {
-        let own = self.groups.map(|group| fractions[group as usize]);
-        let [above, below] = self.at_fractions(own);
+        let current = self.groups.map(|group| fractions[group as usize]);
+        let [above, below] = self.at_fractions(current);
         if above + below <= self.room * (1.0 + EXCESS) {
             return None;
         }
+
         let shares = if below <= 0.0 {
             [self.room - below, f64::INFINITY]
         } else if above <= 0.0 {
             [f64::INFINITY, self.room - above]
         } else {
-            [above, below].map(|own| self.room * own / (above + below))
+            [above, below].map(|approach| self.room * approach / (above + below))
         };
         Some(std::array::from_fn(|k| {
             let allowed = shares[usize::from(k >= self.first)] + self.offsets[k];
-            let wanted = own[k] * self.approaches[k];
+            let wanted = current[k] * self.approaches[k];
             if wanted > allowed { allowed / self.approaches[k] } else { 1.0 }
         }))
     }
 
-    /// Returns whether the primitives are surely far enough apart at the end of a step.
+    /// Returns whether the primitives are surely far enough apart with the vertices at `end`.
+    /// Heights count from `origin`.
     fn is_proved(&self, end: [Vector; 4], origin: Vector) -> bool {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (k, point) in end.into_iter().enumerate() {

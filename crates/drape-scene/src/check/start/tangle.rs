@@ -139,7 +139,7 @@ pub(crate) fn overlaps(
         Near { vertices: [edge, triangle], distance: 0.0 }
     });
     let near = contact.pairs_below_min_separation().map(|PairDistance { pair, distance }| {
-        let (one, other) = pair.vertices.split_at(pair.first_vertices());
+        let (one, other) = pair.vertices.split_at(pair.first_vertex_count());
         Near { vertices: [one.to_vec(), other.to_vec()], distance }
     });
     let near: Vec<Near> = crossing.chain(near).collect();

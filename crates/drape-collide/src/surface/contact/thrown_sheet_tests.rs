@@ -1,4 +1,4 @@
-//! A sheet that is thrown at a plate: what each safeguard of the step filter prevents.
+//! A sheet thrown at a plate shows what each safeguard of the step filter prevents.
 
 use super::{PinchPolicy, SurfaceContact, SurfaceSettings};
 use crate::surface::step_filter::Safeguards;
@@ -15,22 +15,23 @@ const STEPS: usize = 30;
 
 /// Result of a throw.
 #[derive(Debug)]
-struct End {
+struct ThrowResult {
     /// Whether a step went through the plate or into it.
     intersects: bool,
-    /// Displacement of the first vertex that moved least, in m.
+    /// Smallest distance that a vertex fell, in m.
     least_displacement: f64,
 }
 
-/// Returns a slanting sheet over a plate, and positions of its and the plate's vertices, in m.
+/// Returns a slanting sheet over a plate, and the positions of the sheet's and the plate's
+/// vertices, in m.
 fn sheet_over_plate() -> (Surface, Vec<f64>, Vec<f64>) {
     let plate = Shape::Box { half_extents: [0.15, 0.0005, 0.15], edge_radius: 0.0 };
     let plate = Body::new("plate", plate, Pose::new([0.0, -0.08, 0.0])).triangulate().unwrap();
     let spacing = 0.01;
-    let place = |k: usize| spacing * (k as f64 - 0.5 * (SIDE - 1) as f64);
-    let vertices = || (0..SIDE * SIDE).map(|v| [place(v % SIDE), place(v / SIDE)]);
-    let flat: Vec<f64> = vertices().flat_map(|[x, z]| [x, 0.0, z]).collect();
-    let positions: Vec<f64> = vertices().flat_map(|[x, z]| [x, 0.3 * x + 0.2 * z, z]).collect();
+    let along_side = |k: usize| spacing * (k as f64 - 0.5 * (SIDE - 1) as f64);
+    let vertices = (0..SIDE * SIDE).map(|v| [along_side(v % SIDE), along_side(v / SIDE)]);
+    let flat: Vec<f64> = vertices.clone().flat_map(|[x, z]| [x, 0.0, z]).collect();
+    let positions: Vec<f64> = vertices.flat_map(|[x, z]| [x, 0.3 * x + 0.2 * z, z]).collect();
     let cells = (0..SIDE * (SIDE - 1)).filter(|k| k % SIDE < SIDE - 1).map(|k| k as u32);
     let row = SIDE as u32;
     let mut triangles: Vec<[u32; 3]> =
@@ -51,8 +52,8 @@ fn sheet_over_plate() -> (Surface, Vec<f64>, Vec<f64>) {
     (surface.unwrap(), positions, bodies)
 }
 
-/// Throws the sheet in trial steps that only the filter limits.
-fn throw(safeguards: Safeguards) -> End {
+/// Throws the sheet in trial steps that only the filter with `safeguards` limits.
+fn throw(safeguards: Safeguards) -> ThrowResult {
     let (surface, start, bodies) = sheet_over_plate();
     let settings = SurfaceSettings {
         stiffness: 1e8,
@@ -66,8 +67,8 @@ fn throw(safeguards: Safeguards) -> End {
     let mut positions = start.clone();
     let mut intersects = false;
     for _ in 0..STEPS {
-        let down = |k: usize| if k % 3 == 1 { -STEP } else { 0.0 };
-        let mut displacements: Vec<f64> = (0..positions.len()).map(down).collect();
+        let mut displacements: Vec<f64> =
+            (0..positions.len()).map(|k| if k % 3 == 1 { -STEP } else { 0.0 }).collect();
         contact.limit_step(SurfaceStep {
             start: &positions,
             displacements: &mut displacements,
@@ -79,7 +80,7 @@ fn throw(safeguards: Safeguards) -> End {
         intersects |= !contact.intersections(&positions).unwrap().is_empty();
     }
     let moved = positions.iter().zip(&start).skip(1).step_by(3).map(|(end, start)| start - end);
-    End { intersects, least_displacement: moved.fold(f64::INFINITY, f64::min) }
+    ThrowResult { intersects, least_displacement: moved.fold(f64::INFINITY, f64::min) }
 }
 
 #[test]
