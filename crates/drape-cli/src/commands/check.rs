@@ -72,7 +72,7 @@ pub(crate) struct CheckArguments {
 /// Executes `drape check`: reads all files, reports all mistakes together, then verifies the frames
 /// of runs.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     let (runs, files): (Vec<&PathBuf>, Vec<&PathBuf>) =
         arguments.files.iter().partition(|file| frames::is_run(file));
     let spacing = 1e-3 * arguments.spacing;
@@ -178,7 +178,7 @@ impl Checked {
         text: Option<String>,
         mistakes: Vec<Diagnostic>,
     ) -> Result<(), Failure> {
-        let file = input::shown(file);
+        let file = input::message_path(file);
         if self.json {
             let values = describe::values_of(file);
             let holds = text.is_some() && mistakes.is_empty();

@@ -20,7 +20,7 @@ use drape::run::file;
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     match job::jobs(arguments)?.as_slice() {
         [job] => one(job, arguments),
         jobs => batch::fit_all(jobs, arguments),

@@ -78,7 +78,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Executes `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     signal::watch();
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     if let [scene] = &arguments.scenes[..] {
         let Ran { summary, folder } = run_scene(scene, arguments)?;
         if arguments.options.json {
@@ -90,10 +90,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut code = None;
     for scene in &arguments.scenes {
         if !arguments.options.json {
-            say(format_args!("{}:", input::shown(scene).display()))?;
+            say(format_args!("{}:", input::message_path(scene).display()))?;
         }
         let ended = run_scene(scene, arguments).and_then(|Ran { summary, folder }| {
-            summaries.push(json!({ "scene": input::shown(scene), "summary": summary }));
+            summaries.push(json!({ "scene": input::message_path(scene), "summary": summary }));
             outcome(summary, &folder)
         });
         if let Err(failure) = ended {
@@ -113,7 +113,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// Runs one scene, stores its results and says what came out; a run that fails has a summary too.
 fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
-    let read = drape::run::scene_of(&input::document_of(path, &[FileKind::Scene])?);
+    let read = drape::run::scene_of(&input::document_of_kind(path, &[FileKind::Scene])?);
     let mut scene = read.map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
         end_at(&mut scene, end)?;
@@ -132,7 +132,7 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
 
 /// Returns the folder for the results of a scene.
 fn folder(scene: &Path, arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
-    let name = input::named(scene).file_stem().unwrap_or_default();
+    let name = input::result_path(scene).file_stem().unwrap_or_default();
     match (&arguments.output, &arguments.scenes[..]) {
         (Some(folder), [_]) => folder.clone(),
         (Some(folder), _) => folder.join(name),

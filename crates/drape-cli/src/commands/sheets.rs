@@ -77,7 +77,7 @@ pub(crate) fn is_of_tables(path: &Path) -> bool {
 
 /// Returns the name that the files of a sheet get: its folder's, or the file's.
 pub(crate) fn stem(sheet: &Path) -> String {
-    let sheet = input::named(sheet);
+    let sheet = input::result_path(sheet);
     let named = if sheet.file_name().is_some_and(|name| name == SHEET_FILE) {
         sheet.parent().filter(|folder| folder.file_name().is_some()).unwrap_or(sheet)
     } else {
@@ -121,6 +121,6 @@ pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
 pub(crate) fn in_input(error: drape::kes::Error, path: &Path) -> Diagnostics {
     match error {
         drape::kes::Error::Input(diagnostics) => diagnostics,
-        other => Diagnostic::new(input::shown(path), other.to_string()).into(),
+        other => Diagnostic::new(input::message_path(path), other.to_string()).into(),
     }
 }

@@ -18,7 +18,7 @@ use crate::input;
 
 /// Executes `drape test`.
 pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     let fabric = fabric::read(&arguments.fabric)?;
     check_spacing(arguments.spacing)?;
     if arguments.drape {

@@ -95,7 +95,7 @@ pub(crate) fn describe(path: &Path, measure: Measure) -> Result<Found, Diagnosti
             path.display(),
             repaired_name(path)
         );
-        mistakes.push(Diagnostic::new(input::shown(path), fault).help(help));
+        mistakes.push(Diagnostic::new(input::message_path(path), fault).help(help));
     }
     Ok(Found { text, mistakes })
 }
@@ -130,7 +130,7 @@ pub(crate) fn mend(path: &Path, measure: Measure, to: &Path) -> Result<String, F
         );
         let help = "mend it where it was made, in a modelling program";
         return Err(
-            Diagnostics::from(Diagnostic::new(input::shown(path), message).help(help)).into()
+            Diagnostics::from(Diagnostic::new(input::message_path(path), message).help(help)).into()
         );
     }
     let mut text = String::from(match (&was_refused, &is_refused) {

@@ -120,7 +120,7 @@ pub(crate) fn read_scene(path: &Path) -> Result<Scene, Diagnostics> {
     drape::run::scene_of(&input::document(path)?).map_err(|error| match error {
         Error::Input(mistakes) => mistakes,
         Error::Tangled(tangle) => tangle.mistakes,
-        other => Diagnostic::new(input::shown(path), other.to_string()).into(),
+        other => Diagnostic::new(input::message_path(path), other.to_string()).into(),
     })
 }
 

@@ -46,7 +46,7 @@ impl CutOut {
     /// Reads a pattern and cuts it at a spacing, in m; or returns its mistakes with a drawing of its
     /// lines, in which they are red.
     pub(crate) fn read_or_sketch(path: &Path, spacing: f64) -> Result<Self, Refused> {
-        let shown = input::shown(path);
+        let shown = input::message_path(path);
         let pattern = match input::is_standard(path) {
             true => input::document(path).and_then(|document| Pattern::parse(&document)),
             false => Pattern::read(path).map_err(|error| match error {

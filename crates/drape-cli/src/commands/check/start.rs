@@ -11,7 +11,7 @@ use drape::scene::{Error, Panel, Refused, Scene};
 
 use super::describe;
 use super::pattern;
-use crate::console::tell;
+use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
 use crate::pages::start::{StartPicture, Wrong};
@@ -39,7 +39,7 @@ pub(crate) fn draw(path: &Path, figure: &Path) -> Result<Result<String, Diagnost
                     (tangle.mistakes, corners)
                 }
                 other => {
-                    (Diagnostic::new(input::shown(path), other.to_string()).into(), Vec::new())
+                    (Diagnostic::new(input::message_path(path), other.to_string()).into(), Vec::new())
                 }
             };
             match scene {
@@ -47,7 +47,7 @@ pub(crate) fn draw(path: &Path, figure: &Path) -> Result<Result<String, Diagnost
                     let wrong = wrong(&scene, &mistakes, triangles);
                     // What cannot be drawn takes nothing from the mistakes.
                     let drawn = draw_scene(*scene, wrong, figure);
-                    drawn.unwrap_or_else(|failure| tell(format_args!("no figure: {failure}")));
+                    drawn.unwrap_or_else(|failure| print_message(format_args!("no figure: {failure}")));
                 }
                 None => draw_patterns(&document, &mistakes, figure)?,
             }
@@ -62,7 +62,7 @@ fn draw_scene(scene: Scene, wrong: Wrong, figure: &Path) -> Result<(), Failure> 
     let snapshot = Simulation::new(scene)?.snapshot();
     let picture = StartPicture { snapshot: &snapshot, seams: &seams, wrong: &wrong };
     match is_png(figure) {
-        true => file::write(figure, picture.draw()?.png().map_err(Failure::of_picture)?)?,
+        true => file::write(figure, picture.draw()?.png().map_err(Failure::from_picture)?)?,
         false => file::write(figure, picture.svg()?)?,
     }
     Ok(())
@@ -144,13 +144,13 @@ fn draw_patterns(
 /// Writes the drawing of flat panels, which is SVG, or says that there is none.
 pub(crate) fn write_flat(figure: &Path, drawn: Option<String>) -> Result<(), Failure> {
     let Some(drawn) = drawn else {
-        tell("no figure: there is no outline that can be drawn");
+        print_message("no figure: there is no outline that can be drawn");
         return Ok(());
     };
     let mut to = PathBuf::from(figure);
     if is_png(figure) {
         to.set_extension("svg");
-        tell(format_args!("the panels of the pattern are drawn flat, as {}", to.display()));
+        print_message(format_args!("the panels of the pattern are drawn flat, as {}", to.display()));
     }
     Ok(file::write(&to, drawn)?)
 }

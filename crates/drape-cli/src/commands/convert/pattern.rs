@@ -6,7 +6,7 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 
 use super::arguments::ConvertArguments;
-use crate::console::tell;
+use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say;
@@ -101,7 +101,7 @@ impl Form {
     fn files(&self, from: &Path, pattern: &Pattern) -> Vec<Written> {
         match self {
             Self::Text(path) => {
-                let name = input::shown(from)
+                let name = input::message_path(from)
                     .file_name()
                     .unwrap_or_default()
                     .to_string_lossy()
@@ -139,5 +139,5 @@ fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
 
 /// Prints the notes of a pattern, which are in the TOML too.
 fn notes(pattern: &Pattern) {
-    pattern.notes().iter().for_each(|note| tell(format_args!("note: {note}")));
+    pattern.notes().iter().for_each(|note| print_message(format_args!("note: {note}")));
 }

@@ -6,7 +6,7 @@ use drape::kes::SheetDraft;
 
 use super::arguments::ConvertArguments;
 use crate::commands::sheets::{SHEET_FILE, drafted};
-use crate::console::tell;
+use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say;
@@ -85,5 +85,5 @@ fn target(arguments: &ConvertArguments) -> Result<Option<PathBuf>, Failure> {
 
 /// Prints the notes of a draft, which are in the sheet too.
 fn notes(draft: &SheetDraft) {
-    draft.notes.iter().for_each(|note| tell(format_args!("note: {note}")));
+    draft.notes.iter().for_each(|note| print_message(format_args!("note: {note}")));
 }

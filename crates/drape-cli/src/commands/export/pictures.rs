@@ -71,7 +71,7 @@ impl<'a> ClipPictures<'a> {
         let paths: Vec<PathBuf> = (0..self.clip.frame_count()).map(path).collect();
         files.free(paths.iter().map(PathBuf::as_path))?;
         self.each(|index, picture| {
-            Ok(file::write(&paths[index], picture.png().map_err(Failure::of_picture)?)?)
+            Ok(file::write(&paths[index], picture.png().map_err(Failure::from_picture)?)?)
         })?;
         match self.clip.frame_count() {
             1 => Ok(()),
@@ -86,13 +86,13 @@ impl<'a> ClipPictures<'a> {
         file::write_by(files.output, |to| {
             let count = self.clip.frame_count() as u32;
             let mut animation =
-                Animation::new(to, count, self.look.size).map_err(Failure::of_picture)?;
+                Animation::new(to, count, self.look.size).map_err(Failure::from_picture)?;
             self.each(|index, picture| {
                 let until = times.get(index + 1);
                 let seconds = until.map_or(1.0 / self.clip.rate(), |next| next - times[index]);
-                animation.add(picture.clone(), seconds).map_err(Failure::of_picture)
+                animation.add(picture.clone(), seconds).map_err(Failure::from_picture)
             })?;
-            animation.finish().map_err(Failure::of_picture)
+            animation.finish().map_err(Failure::from_picture)
         })
     }
 }

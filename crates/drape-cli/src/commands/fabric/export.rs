@@ -95,7 +95,7 @@ pub(super) fn export(arguments: &MaterialArguments) -> Result<(), Failure> {
     // The numbers, and the file of them.
     let material = Material::from_fabric(&read(path)?, *load).map_err(|error| match error {
         Error::Load { .. } => Failure::Usage(format!("--load: {error}")),
-        error => Failure::Input(Diagnostic::new(input::shown(path), error.to_string()).into()),
+        error => Failure::Input(Diagnostic::new(input::message_path(path), error.to_string()).into()),
     })?;
     let content = format.write(&material, modified(path));
     let Some(output) = output else {

@@ -15,5 +15,5 @@ const KINDS: [FileKind; 2] = [FileKind::Fabric, FileKind::Sheet];
 /// Reads a fabric from its file, or from a sheet or its folder, which it fits.
 pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     input::expect(path, &KINDS)?;
-    Ok(drape::run::fabric_of(&input::document_of(&input::sheet_file(path), &KINDS)?, Model::Kes)?)
+    Ok(drape::run::fabric_of(&input::document_of_kind(&input::sheet_file(path), &KINDS)?, Model::Kes)?)
 }

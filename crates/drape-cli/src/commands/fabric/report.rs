@@ -17,7 +17,7 @@ pub(crate) use self::arguments::ReportArguments;
 use self::tested::Tested;
 use crate::commands::test::drapes::stored::{Stored, picture, read, store};
 use crate::commands::test::drapes::{DrapeRequest, check_spacing};
-use crate::console::{Console, note, tell};
+use crate::console::{Console, note, print_message};
 use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_json, say_written};
@@ -121,7 +121,7 @@ fn drapes(
         for &index in &missing {
             let specimens = request.of(fabrics[index].fabric(), true);
             let name = &fabrics[index].fabric().name;
-            tell(format_args!("{name}: drape of {}", specimens.expected()?));
+            print_message(format_args!("{name}: drape of {}", specimens.expected()?));
         }
     }
     let folder = arguments.drapes.iter().find(|path| !path.is_file());

@@ -10,7 +10,7 @@ use super::arguments::FitArguments;
 use super::identify::{page, store};
 use super::job::Job;
 use crate::console::progress;
-use crate::console::{Console, tell};
+use crate::console::{Console, print_message};
 use crate::failure::Failure;
 use crate::say::{say, say_json};
 use drape::run::file;
@@ -48,7 +48,7 @@ pub(crate) fn fit_all(jobs: &[Job], arguments: &FitArguments) -> Result<(), Fail
             Ok(Row::new(&page))
         });
         bar.inc(1);
-        row.map_err(|failure| failure.of(&job.sheet))
+        row.map_err(|failure| failure.in_sheet(&job.sheet))
     });
     bar.finish_and_clear();
     let failed = rows.iter().filter(|row| row.is_err()).count();
@@ -64,7 +64,7 @@ pub(crate) fn fit_all(jobs: &[Job], arguments: &FitArguments) -> Result<(), Fail
     }
     rows.iter().filter_map(|row| row.as_ref().err()).for_each(Failure::print);
     if !Console::get().quiet {
-        tell(format_args!("{} of {} sheets fitted", jobs.len() - failed, jobs.len()));
+        print_message(format_args!("{} of {} sheets fitted", jobs.len() - failed, jobs.len()));
     }
     if failed > 0 { Err(Failure::Batch) } else { Ok(()) }
 }

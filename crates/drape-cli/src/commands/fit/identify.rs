@@ -22,7 +22,7 @@ pub(crate) struct Identified {
 pub(crate) fn identify(job: &Job, settings: &FitSettings) -> Result<Identified, Failure> {
     let sheet = job.read()?;
     let fit = identify_with(&sheet, settings);
-    let fit = fit.map_err(|error| Failure::from(error).of(&job.sheet))?;
+    let fit = fit.map_err(|error| Failure::from(error).in_sheet(&job.sheet))?;
     let page = page(&sheet, &fit, settings)?;
     Ok(Identified { fit, page })
 }

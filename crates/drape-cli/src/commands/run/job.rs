@@ -45,7 +45,7 @@ impl JobArguments {
             limits: self.limits.limits(),
             program: std::env::current_exe().unwrap_or_default(),
             replace,
-            give_up: signal::give_up_flag(),
+            give_up: signal::cancel_step_flag(),
         }
     }
 }
@@ -115,7 +115,7 @@ fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<Vec<Drawn>, Fa
     let Shown { view, is_garment } = shown;
     let mut drawn = Vec::new();
     let mut keep = |kind, name: &str| drawn.push(Drawn { kind, path: folder.join(name) });
-    if let Some(since) = signal::since() {
+    if let Some(since) = signal::time_since_first() {
         if since <= PICTURE_MAX {
             let picture = Pictures::new(last)?.draw(*view, picture::SIZE)?;
             save(&picture, &output.path("picture.png"))?;
@@ -146,7 +146,7 @@ fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<Vec<Drawn>, Fa
 }
 
 fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
-    Ok(file::write(path, picture.png().map_err(Failure::of_picture)?)?)
+    Ok(file::write(path, picture.png().map_err(Failure::from_picture)?)?)
 }
 
 /// Prints the notes on a scene, and what contact cannot promise.

@@ -10,7 +10,7 @@ use drape::run::{ResumableRun, end_at};
 use crate::commands::run::job::{Job, JobArguments};
 use crate::commands::run::limits::positive;
 use crate::commands::run::report::outcome;
-use crate::console::{signal, tell};
+use crate::console::{signal, print_message};
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say_json;
@@ -43,8 +43,8 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
             "the scene was read from standard input: pipe it again, with --scene -".into(),
         ));
     }
-    input::set(&request.settings()?);
-    let mut scene = drape::run::scene_of(&input::document_of(&path, &[FileKind::Scene])?)?;
+    input::set_values(&request.settings()?);
+    let mut scene = drape::run::scene_of(&input::document_of_kind(&path, &[FileKind::Scene])?)?;
     if let Some(end) = request.until {
         end_at(&mut scene, end)?;
     }
@@ -52,7 +52,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
         request.move_scene(&path);
     }
     let (run, notes) = resumed.go_on(scene, &options.run_options(true))?;
-    notes.iter().for_each(tell);
+    notes.iter().for_each(print_message);
     let summary = Job { run, folder, options }.run()?;
     if options.json {
         say_json(&summary)?;

@@ -131,12 +131,12 @@ fn turntable(
     let path = path(arguments, "turntable.png");
     file::write_by(&path, |to| {
         let mut animation =
-            Animation::new(to, count as u32, look.size).map_err(Failure::of_picture)?;
+            Animation::new(to, count as u32, look.size).map_err(Failure::from_picture)?;
         let legend = pictures.legend();
         pictures.draw_each(number, |picture| {
-            animation.add(legend.below(picture), TURN / count as f64).map_err(Failure::of_picture)
+            animation.add(legend.below(picture), TURN / count as f64).map_err(Failure::from_picture)
         })?;
-        animation.finish().map_err(Failure::of_picture)
+        animation.finish().map_err(Failure::from_picture)
     })?;
     say_written(format_args!("{count} views of frame {number} in {}", path.display()))
 }
@@ -168,6 +168,6 @@ fn path(arguments: &PictureArguments, name: &str) -> PathBuf {
 
 fn save(arguments: &PictureArguments, picture: &Picture, name: &str) -> Result<(), Failure> {
     let path = path(arguments, name);
-    file::write(&path, picture.png().map_err(Failure::of_picture)?)?;
+    file::write(&path, picture.png().map_err(Failure::from_picture)?)?;
     say_written(format_args!("picture in {}", path.display()))
 }

@@ -61,7 +61,7 @@ const EDGES: &str = "measures.free_edges.";
 /// Executes `drape converge`.
 pub(crate) fn converge(arguments: &ConvergeArguments) -> Result<(), Failure> {
     let spacings = sorted(&arguments.spacings)?;
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     let (study, points) = plan(arguments, &spacings)?;
     // Whatever a run would refuse is said before any has begun.
     for point in &points {
@@ -131,7 +131,7 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
     if input::is_standard(scene) {
         return Err(Failure::Usage("-: name a file, which every run reads".into()));
     }
-    let document = input::document_of(scene, &[FileKind::Scene])?;
+    let document = input::document_of_kind(scene, &[FileKind::Scene])?;
     let text = study_text(scene, &arguments.set, &own_spacings(&document, spacings)?);
     let study = Study::from_document(&Document::new(scene, text).allowing(input::allowed()))?;
     let study = study.with_output(folder(arguments));

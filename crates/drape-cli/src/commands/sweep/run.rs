@@ -13,7 +13,7 @@ use serde_json::json;
 
 use super::study::StudyArguments;
 use super::worker::{Ended, TRIES, Worker};
-use crate::console::{Console, ProgressKind, progress, signal, tell};
+use crate::console::{Console, ProgressKind, progress, signal, print_message};
 use crate::failure::Failure;
 use crate::say::{say, say_written};
 
@@ -259,17 +259,17 @@ impl Sweep<'_> {
     fn tell(&self, point: &Point, record: &Record) {
         let console = Console::get();
         if console.progress == ProgressKind::Json {
-            tell(json!({
+            print_message(json!({
                 "point": point.index, "key": point.key, "outcome": record.outcome,
                 "exit_code": record.exit_code, "seconds": record.seconds,
             }));
         } else if record.outcome != Outcome::Done {
             let (index, values) = (point.index, values(point));
             let message = record.message.replace('\n', "\n  ");
-            self.bar.suspend(|| tell(format_args!("warning: point {index} ({values}): {message}")));
+            self.bar.suspend(|| print_message(format_args!("warning: point {index} ({values}): {message}")));
         } else if console.verbose {
             let (index, values, seconds) = (point.index, values(point), record.seconds);
-            tell(format_args!("point {index} ({values}): done in {seconds:.2} s"));
+            print_message(format_args!("point {index} ({values}): done in {seconds:.2} s"));
         }
     }
 }

@@ -57,14 +57,14 @@ impl Tested {
     /// Fits a sheet that was read.
     fn of_sheet(name: String, sheet: Sheet, path: &Path) -> Result<Self, Failure> {
         let fit = identify_with(&sheet, &FitSettings::default());
-        let fit = fit.map_err(|error| Failure::from(error).of(path))?;
+        let fit = fit.map_err(|error| Failure::from(error).in_sheet(path))?;
         Ok(Self { name, of: Origin::Sheet(Box::new((sheet, fit))), notes: Vec::new() })
     }
 
     /// Reads a file of laws; a sheet beside it that it was fitted to is noted.
     fn of_laws(path: &Path) -> Result<Self, Failure> {
         let fabric =
-            drape::run::fabric_of(&input::document_of(path, &KINDS)?, drape::scene::Model::Kes)?;
+            drape::run::fabric_of(&input::document_of_kind(path, &KINDS)?, drape::scene::Model::Kes)?;
         let beside = path.with_file_name(SHEET_FILE);
         let notes = if !input::is_standard(path) && beside.exists() {
             vec![format!(

@@ -44,7 +44,7 @@ pub(crate) fn store(draped: &Draped, folder: &Path, name: &str) -> Result<Writte
         [RESULT, "-drape.png", "-drape-shadow.svg"].map(|end| folder.join(format!("{name}{end}")));
     let mut stored = draped.result.clone();
     if let Some(picture) = picture(draped)? {
-        file::write(&png, picture.png().map_err(Failure::of_picture)?)?;
+        file::write(&png, picture.png().map_err(Failure::from_picture)?)?;
         stored.picture = Some(format!("{name}-drape.png"));
     }
     if let Some(shadow) = stored.shown_shadow() {
