@@ -171,6 +171,7 @@ impl Command {
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => {
+                // A file that `drape` reads as it is needs no conversion.
                 arguments.from.iter().try_for_each(|from| expect_convertible(from))?;
                 convert::convert(arguments)
             }

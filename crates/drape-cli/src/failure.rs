@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 
-use crate::console::{is_coloured, printable, print_message, print_coloured};
+use crate::console::{is_coloured, print_coloured, print_message, printable};
 use crate::input;
 use drape::run::file;
 

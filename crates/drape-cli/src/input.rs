@@ -74,8 +74,8 @@ pub(crate) fn expect(path: &Path, wanted: &[FileKind]) -> Result<(), Diagnostics
     if is_standard(path) { Ok(()) } else { FileKind::expect(path, wanted) }
 }
 
-/// Reads the file at `path`, or standard input, and applies the settings of [`set_values`]. Refuses a kind
-/// of file that is not in `wanted`.
+/// Reads the file at `path`, or standard input, and applies the settings of [`set_values`]. Refuses
+/// a kind of file that is not in `wanted`.
 pub(crate) fn document_of_kind(path: &Path, wanted: &[FileKind]) -> Result<Document, Diagnostics> {
     expect(path, wanted)?;
     let document = document(path)?;

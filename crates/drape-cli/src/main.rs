@@ -53,8 +53,11 @@ mod tests {
 
     #[test]
     fn a_panic_ends_with_70() {
-        let codes =
-            [exit_code(|| panic!("a mistake")), exit_code(|| Ok(())), exit_code(|| Err(Failure::Batch))];
+        let codes = [
+            exit_code(|| panic!("a mistake")),
+            exit_code(|| Ok(())),
+            exit_code(|| Err(Failure::Batch)),
+        ];
         let expected = [ExitCode::from(70), ExitCode::SUCCESS, ExitCode::from(3)];
         assert_eq!(codes.map(|code| format!("{code:?}")), expected.map(|code| format!("{code:?}")));
     }

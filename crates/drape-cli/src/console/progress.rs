@@ -86,8 +86,10 @@ impl RunProgress {
             _ => format!("fastest {speed:.1} mm/s"),
         };
 
-        let slow: String =
-            slow_reasons(step, self.step).into_iter().map(|reason| ", ".to_owned() + &reason).collect();
+        let slow: String = slow_reasons(step, self.step)
+            .into_iter()
+            .map(|reason| ", ".to_owned() + &reason)
+            .collect();
         let (phase, iterations) = (phase_name(step.phase), step.report.iterations);
         let grid = step
             .coarser_grid

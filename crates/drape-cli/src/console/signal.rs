@@ -42,10 +42,11 @@ pub(crate) fn watch() {
     WATCH.call_once(|| {
         let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
         std::thread::spawn(move || {
+            // A thread waits for signals, because a handler may do little more than set a flag.
             let mut first_time = None;
             for signal in signals.forever() {
                 let number = u8::try_from(signal).unwrap_or_default();
-                let first_time = *first_time.get_or_insert_with(Instant::now);
+                let begin = *first_time.get_or_insert_with(Instant::now);
                 if RECEIVED.load(Ordering::Relaxed) == 0 {
                     RECEIVED.store(number, Ordering::Relaxed);
                     let _ = FIRST_SIGNAL_TIME.set(Instant::now());
@@ -53,7 +54,7 @@ pub(crate) fn watch() {
                         std::thread::sleep(PATIENCE);
                         CANCEL_STEP.store(true, Ordering::Relaxed);
                     });
-                } else if first_time.elapsed() > DUPLICATE_WINDOW {
+                } else if begin.elapsed() > DUPLICATE_WINDOW {
                     std::process::exit(128 + signal);
                 }
             }

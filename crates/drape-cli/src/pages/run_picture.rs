@@ -109,7 +109,8 @@ impl<'a> RunPictures<'a> {
     ) -> Result<RunPictures<'a>, Failure> {
         let topology = recording.topology();
         let palette = FabricPalette::of_runs([recording]);
-        let has_fabrics = palette.is_needed() && settings.map.is_none() && settings.colours.is_none();
+        let has_fabrics =
+            palette.is_needed() && settings.map.is_none() && settings.colours.is_none();
         let fabrics = palette.legend().filter(|_| has_fabrics);
         let entries = fabrics.map(|(name, colour)| (name.to_owned(), colour)).collect();
         let mut pictures = RunPictures {
@@ -149,7 +150,8 @@ impl<'a> RunPictures<'a> {
 
         if let Some(field) = settings.map {
             let range = settings.range.unwrap_or_else(|| field.range(&values));
-            let scale = ColourScale::new(range, field.is_signed()).map_err(Failure::from_picture)?;
+            let scale =
+                ColourScale::new(range, field.is_signed()).map_err(Failure::from_picture)?;
             let (name, unit) = (field.label().to_owned(), field.unit().to_owned());
             pictures.legend.map = Some(Legend { name, unit, scale });
         }
@@ -188,9 +190,9 @@ impl<'a> RunPictures<'a> {
         };
         let scene = self.scene(&frame_shapes, tints.as_deref());
         let lit_shapes = LitShapes::new(&scene).map_err(Failure::from_picture)?;
-        self.cameras
-            .iter()
-            .try_for_each(|camera| take(lit_shapes.draw(&scene, camera).map_err(Failure::from_picture)?))
+        self.cameras.iter().try_for_each(|camera| {
+            take(lit_shapes.draw(&scene, camera).map_err(Failure::from_picture)?)
+        })
     }
 
     /// Returns the legend of the pictures.

@@ -24,9 +24,21 @@ struct StrainComponent {
 }
 
 const COMPONENTS: [StrainComponent; 3] = [
-    StrainComponent { caption: "strain along the warp", unit: "%", value: |strain| 100.0 * strain.warp },
-    StrainComponent { caption: "strain along the weft", unit: "%", value: |strain| 100.0 * strain.weft },
-    StrainComponent { caption: "shear angle", unit: "°", value: |strain| strain.shear.to_degrees() },
+    StrainComponent {
+        caption: "strain along the warp",
+        unit: "%",
+        value: |strain| 100.0 * strain.warp,
+    },
+    StrainComponent {
+        caption: "strain along the weft",
+        unit: "%",
+        value: |strain| 100.0 * strain.weft,
+    },
+    StrainComponent {
+        caption: "shear angle",
+        unit: "°",
+        value: |strain| strain.shear.to_degrees(),
+    },
 ];
 
 /// Value of a triangle, weighted by the triangle's area in m².
@@ -43,9 +55,8 @@ pub(crate) fn draw_strains(
 ) -> Result<String, Failure> {
     let maps = COMPONENTS.iter().map(|StrainComponent { caption, unit, value }| {
         let strains = snapshot.strains.iter();
-        let values: Vec<Weighted> = strains
-            .map(|strain| Weighted { value: value(strain), area: strain.area })
-            .collect();
+        let values: Vec<Weighted> =
+            strains.map(|strain| Weighted { value: value(strain), area: strain.area }).collect();
         let limit = scale_limit(&values);
         let tints: Vec<Colour> =
             at_particles(snapshot, &values).iter().map(|value| diverging(*value, limit)).collect();

@@ -89,8 +89,7 @@ fn failures(table: &Table, values: impl Fn(usize) -> String) -> Vec<[String; 2]>
 fn effects(axes: &[ShownAxis<'_>], measure: &ShownMeasure) -> MeasureEffects {
     let plots = axes.iter().filter_map(|axis| plot(axis, measure)).collect();
     let with_means: Vec<&ShownAxis<'_>> = axes.iter().filter(|axis| axis.has_means).collect();
-    let mut tables: Vec<EffectTable> =
-        with_means.iter().map(|axis| means(axis, measure)).collect();
+    let mut tables: Vec<EffectTable> = with_means.iter().map(|axis| means(axis, measure)).collect();
     let paired = &with_means[..with_means.len().min(PAIRED_MAX)];
     for (index, first) in paired.iter().enumerate() {
         let following = paired[index + 1..].iter();
@@ -111,8 +110,9 @@ fn plot(axis: &ShownAxis<'_>, measure: &ShownMeasure) -> Option<GraphPlot> {
     if axis.has_means {
         let effect = main_effect(axis.column, &measure.column);
         let means = effect.levels.iter().zip(&effect.means);
-        let mut points: Vec<[f64; 2]> =
-            means.filter_map(|(level, mean)| Some([axis.position(level)?, (*mean)?.value])).collect();
+        let mut points: Vec<[f64; 2]> = means
+            .filter_map(|(level, mean)| Some([axis.position(level)?, (*mean)?.value]))
+            .collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let look = if axis.names.is_empty() { Look::Line } else { Look::Marks };
         series.push(GraphSeries { label: "mean".into(), look, points });

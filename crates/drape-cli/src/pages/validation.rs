@@ -32,9 +32,7 @@ pub(crate) fn page(outcomes: &[Outcome]) -> Result<ValidationPage, Failure> {
 fn case(outcome: &Outcome) -> Result<ValidationCase, Failure> {
     let stills = outcome.stills.iter();
     let pictures: Result<Vec<CaptionedPicture>, Failure> = stills
-        .map(|still| {
-            Ok(CaptionedPicture { caption: still.title.clone(), picture: draw(still)? })
-        })
+        .map(|still| Ok(CaptionedPicture { caption: still.title.clone(), picture: draw(still)? }))
         .collect();
     Ok(ValidationCase {
         name: outcome.name.clone(),
@@ -71,9 +69,8 @@ fn plot(graph: &Graph) -> GraphPlot {
 fn draw(still: &Still) -> Result<Picture, Failure> {
     let view = still.view.map(Some);
     let snapshots = still.snapshots.iter();
-    let pictures: Result<Vec<Picture>, Failure> = snapshots
-        .map(|snapshot| SnapshotPictures::new(snapshot)?.draw(view, STILL_SIZE))
-        .collect();
+    let pictures: Result<Vec<Picture>, Failure> =
+        snapshots.map(|snapshot| SnapshotPictures::new(snapshot)?.draw(view, STILL_SIZE)).collect();
     Ok(Picture::sheet(&pictures?, still.columns))
 }
 
@@ -97,6 +94,7 @@ fn row(check: &Check) -> ValidationRow {
             [format!("{measured:.3}"), String::new(), String::new(), "none".to_owned()]
         }
     };
+
     let (what, passes) = (what.clone(), check.verdict());
     ValidationRow { what, measured, reference, error, limit, passes }
 }
@@ -134,9 +132,9 @@ pub(crate) fn markdown(outcomes: &[Outcome]) -> String {
                 Some(false) => "**fail**",
                 None => "",
             };
-            let cells = row.cells().map(|cell: &str| {
-                if cell.is_empty() { String::new() } else { format!("{cell} ") }
-            });
+            let cells = row
+                .cells()
+                .map(|cell: &str| if cell.is_empty() { String::new() } else { format!("{cell} ") });
             page += &format!("| {} | {}| {verdict} |\n", row.what, cells.join("| "));
         }
     }

@@ -56,13 +56,16 @@ fn short_names(levels: &[String]) -> Vec<String> {
     // At least one part of each level remains after the common parts are removed.
     let begin = (0..first.len())
         .take_while(|&index| {
-            parts.iter().all(|level| level.len() > index + 1 && level.get(index) == first.get(index))
+            parts
+                .iter()
+                .all(|level| level.len() > index + 1 && level.get(index) == first.get(index))
         })
         .count();
     let end = (0..first.len())
         .take_while(|&index| {
             parts.iter().all(|level| {
-                level.len() > index + 1 && level.iter().nth_back(index) == first.iter().nth_back(index)
+                level.len() > index + 1
+                    && level.iter().nth_back(index) == first.iter().nth_back(index)
             })
         })
         .count();
