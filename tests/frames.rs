@@ -163,7 +163,7 @@ fn a_sheet_that_pokes_through_is_found_with_its_frame_and_triangles() {
     });
     let (code, said, found) = check(folder.path());
     assert_eq!(code, Some(4), "{said}");
-    assert!(said.contains("frame-00002.npy") && said.contains("1 frames"), "{said}");
+    assert!(said.contains("frame-00002.npy") && said.contains("in 1 frame,"), "{said}");
     for (number, frame) in found["frames"].as_array().expect("frames").iter().enumerate() {
         let meeting = frame["intersections"].as_u64().expect("a count");
         assert_eq!(meeting > 0, number == 2, "{frame:#}");

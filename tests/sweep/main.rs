@@ -148,7 +148,7 @@ fn shards_and_keys_choose_points() {
     }
     let key = bench.keys()[4].clone();
     let (said, _) = bench.ran(&["sweep", "run", "study.toml", "--point", &key[..12]], 0);
-    assert!(said.contains("1 points: 0 run, 1 done before"), "{said}");
+    assert!(said.contains("1 point: 0 run, 1 done before"), "{said}");
     let (_, messages) = bench.ran(&["sweep", "run", "study.toml", "--point", "xyz"], 2);
     assert!(messages.contains("drape sweep run study.toml --list"), "{messages}");
     let (list, _) = bench.ran(&["sweep", "run", "study.toml", "--list"], 0);
@@ -446,7 +446,7 @@ fn exported_tasks_are_all_points() {
     assert!(bench.sweep("1").0.contains("0 run, 6 done before"));
     // By the times of these runs, a minute is enough for all points.
     let (said, _) = bench.ran(&["sweep", "export", "study.toml", "--slurm"], 0);
-    assert!(said.contains("1 tasks in"), "{said}");
+    assert!(said.contains("1 task in"), "{said}");
     let script = std::fs::read_to_string(bench.path("results/slurm.sh")).unwrap();
     assert!(script.contains("#SBATCH --array=1-1\n") && script.contains("--requeue"), "{script}");
     let mut shell = Command::new("sh");

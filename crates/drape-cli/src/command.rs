@@ -1,5 +1,5 @@
-//! The command line: which commands there are, and the options that all of them have. Their own
-//! arguments stand with them, in the modules of [`commands`](crate::commands).
+//! The command line: the list of commands, and the options that every command has. The arguments of
+//! a command stand in the command's module of [`commands`](crate::commands).
 
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ use crate::console::{Console, ProgressKind};
 use crate::failure::Failure;
 use crate::input;
 
-/// Codes that the program exits with, for the end of the help.
+/// Exit codes of the program. The long help ends with this text.
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done
@@ -77,8 +77,8 @@ struct Options {
     /// times [default: those in their own folder and in the working folder].
     #[arg(long, global = true, value_name = "PATH")]
     allow_path: Vec<PathBuf>,
-    /// Reads files up to N times as large as usual: TOML of 1 MiB, patterns and standard input of 16,
-    /// tables of 32, meshes and their motions of 256.
+    /// Reads files up to N times as large as usual: TOML of 1 MiB, patterns and standard input of
+    /// 16, tables of 32, meshes and their motions of 256.
     #[arg(long, global = true, value_name = "N", default_value_t = 1, hide_default_value = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     raise_limits: u32,
@@ -93,14 +93,16 @@ enum Command {
     /// Lists fabrics, shows one, compares several, writes one for other programs.
     #[command(subcommand)]
     Fabric(FabricCommand),
-    /// Writes the report on fabrics that a laboratory sends to its customer: head, values, loops, drape.
+    /// Writes the report on fabrics that a laboratory sends to its customer: head, values, loops,
+    /// drape.
     Report(ReportArguments),
     /// Simulates scenes: frames, a picture and summary.json of each.
     Run(RunArguments),
-    /// Goes on with a run that was interrupted, from its last checkpoint, to the results that it would
-    /// have had; or with one that has ended, beyond its end.
+    /// Goes on with a run that was interrupted, from its last checkpoint, to the results that it
+    /// would have had; or with one that has ended, beyond its end.
     Resume(ResumeArguments),
-    /// Runs a scene, a fit or a test many times, with values from a study, and makes one table of all.
+    /// Runs a scene, a fit or a test many times, with values from a study, and makes one table of
+    /// all.
     #[command(subcommand)]
     Sweep(SweepCommand),
     /// Runs a scene at several spacings and extrapolates its measures to a spacing of 0.
@@ -120,8 +122,8 @@ enum Command {
     View(ViewArguments),
     /// Draws pictures of a run: any frame, from any side, with a colour map, as a strip or turning.
     Picture(PictureArguments),
-    /// Writes the frames of a run for other programs: OBJ, glTF, USD, point caches, VTK, NumPy, CSV,
-    /// pictures.
+    /// Writes the frames of a run for other programs: OBJ, glTF, USD, point caches, VTK, NumPy,
+    /// CSV, pictures.
     Export(ExportArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
@@ -134,14 +136,16 @@ enum Command {
 }
 
 impl CommandLine {
-    /// Executes the command on a thread of the pool: work that comes from another thread is handed
-    /// over each time.
+    /// Applies the options and executes the command on a thread of rayon's pool. A call of a
+    /// parallel function from any other thread would be handed over to the pool each time.
     pub(crate) fn execute(&self) -> Result<(), Failure> {
         let Options { threads, quiet, verbose, progress, ref allow_path, raise_limits } =
             self.options;
         input::allow(allow_path);
         drape::input::raise_size_limits(raise_limits);
         Console { quiet, verbose, progress }.install();
+
+        // A benchmark is timed on one thread unless the user asks for another number.
         let bench = matches!(self.command, Command::Bench(_)).then_some(1);
         if let Some(threads) = threads.or(bench) {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
@@ -152,6 +156,7 @@ impl CommandLine {
 }
 
 impl Command {
+    /// Calls the function of the command.
     fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::New(arguments) => new::new(arguments),
@@ -166,7 +171,8 @@ impl Command {
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => {
-                arguments.from.iter().try_for_each(|from| convertible(from))?;
+                // A file that `drape` reads as it is needs no conversion.
+                arguments.from.iter().try_for_each(|from| expect_convertible(from))?;
                 convert::convert(arguments)
             }
             Self::View(arguments) => view::view(arguments),
@@ -180,9 +186,10 @@ impl Command {
     }
 }
 
-/// Refuses a file that `drape convert` cannot convert: `drape` reads the file as it is.
-fn convertible(from: &Path) -> Result<(), Failure> {
-    let wanted = [
+/// Refuses a file `from` that `drape convert` cannot convert because `drape` reads the file as it
+/// is.
+fn expect_convertible(from: &Path) -> Result<(), Failure> {
+    let convertible = [
         FileKind::Drawing,
         FileKind::Pattern,
         FileKind::Table,
@@ -192,6 +199,6 @@ fn convertible(from: &Path) -> Result<(), Failure> {
     match FileKind::of(from) {
         // A folder of exports may have its sheet already.
         Some(FileKind::Sheet) if from.is_dir() => Ok(()),
-        _ => Ok(input::expect(from, &wanted)?),
+        _ => Ok(input::expect(from, &convertible)?),
     }
 }

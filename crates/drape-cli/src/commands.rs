@@ -1,14 +1,14 @@
-//! The commands: one module each, with its arguments and what it does with them.
+//! The commands: one module each, with its arguments and the function that carries it out.
 //!
 //! A command reads its input through the library (`drape::kes`, `drape::fabric`, `drape::scene` …),
-//! has it computed there, and writes the result through [`say`](crate::say), [`file`](drape::run::file)
-//! and the pages of [`pages`](crate::pages). No command computes physics, and only `main` turns a
-//! [`Failure`](crate::failure::Failure) into an exit code.
+//! calls the library to compute, and writes the result through [`say`](crate::say),
+//! [`file`](drape::run::file) and [`pages`](crate::pages). No command computes physics. Only `main`
+//! turns a [`Failure`](crate::failure::Failure) into an exit code.
 //!
-//! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
-//! fabric through [`fabric`], which stores its page through [`fit`], [`export`] has the options of
-//! pictures of [`show`], the report of [`fabric`] takes the drapes of [`test`], and [`run`] has places tried as
-//! [`check`] does; no other knows another.
+//! [`sheets`] is shared by the commands that read sheets. A few commands use another command's
+//! module: [`test`] reads its fabric through [`fabric`], [`fabric`] stores its page through
+//! [`fit`], [`export`] has the picture options of [`show`], the report of [`fabric`] takes the
+//! drapes of [`test`], and [`run`] tries proposed positions as [`check`] does.
 
 pub(crate) mod bench;
 pub(crate) mod check;

@@ -1,9 +1,10 @@
-//! The console: messages on stderr, and how much the user asked to be told.
+//! The console: messages on stderr, and how many of them the user asked for.
 //!
-//! Here are its bars too, [`progress`], and the signals that it sends, [`signal`].
+//! The submodules are the progress bars, [`progress`], and the signals that ask the program to end,
+//! [`signal`].
 //!
-//! The command line installs the console once. Text of the input may hold control characters; none
-//! of them reaches a terminal.
+//! The command line installs the console once. Text from the input may hold control characters, and
+//! [`printable`] keeps them from the terminal.
 
 pub(crate) mod progress;
 pub(crate) mod signal;
@@ -15,12 +16,12 @@ use std::sync::OnceLock;
 
 use clap::ValueEnum;
 
-/// How much a command tells.
+/// Amount of messages and progress on stderr.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Console {
     /// Whether notes and progress are left out.
     pub(crate) quiet: bool,
-    /// Whether every step of a simulation is told.
+    /// Whether every step of a simulation prints a line.
     pub(crate) verbose: bool,
     pub(crate) progress: ProgressKind,
 }
@@ -41,54 +42,59 @@ pub(crate) enum ProgressKind {
 static CONSOLE: OnceLock<Console> = OnceLock::new();
 
 impl Console {
-    /// Makes this the console of the program; the first one stays.
+    /// Makes `self` the console of the program. Only the first call has an effect.
     pub(crate) fn install(self) {
         let _ = CONSOLE.set(self);
     }
 
-    /// Returns the console of the program.
+    /// Returns the installed console, or the `Default` one before [`Self::install`].
     pub(crate) fn get() -> Self {
         CONSOLE.get().copied().unwrap_or_default()
     }
 
-    /// Whether progress is shown as a bar.
+    /// Returns whether progress is shown as a bar.
     pub(crate) fn has_bar(self) -> bool {
         !self.quiet && !self.verbose && self.progress == ProgressKind::Auto
     }
 }
 
-/// Whether messages on stderr are coloured: on a terminal, unless `NO_COLOR` is set.
+/// Returns whether messages on stderr are coloured: on a terminal, unless `NO_COLOR` is set or
+/// `TERM` is `dumb`.
 pub(crate) fn is_coloured() -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");
     !refused && !dumb && std::io::stderr().is_terminal()
 }
 
-/// Writes a message to stderr.
-pub(crate) fn tell(text: impl Display) {
-    tell_coloured(printable(&text.to_string()));
+/// Writes `text` to stderr as a line, with control characters replaced.
+pub(crate) fn print_message(text: impl Display) {
+    print_coloured(printable(&text.to_string()));
 }
 
-/// Writes a message to stderr that may hold colours; what came from the input was made printable.
-pub(crate) fn tell_coloured(text: impl Display) {
-    // Where stderr takes nothing, there is nobody to tell; the exit code says the rest.
+/// Writes `text` to stderr as a line. `text` may hold colours, so the caller must have made parts
+/// from the input [`printable`].
+pub(crate) fn print_coloured(text: impl Display) {
+    // If stderr cannot be written, only the exit code remains to report the failure.
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Writes a note to stderr, unless the user asked for quiet.
+/// Writes `text` to stderr as a note, unless the user asked for quiet.
 pub(crate) fn note(text: impl Display) {
     if !Console::get().quiet {
-        tell(format_args!("note: {text}"));
+        print_message(format_args!("note: {text}"));
     }
 }
 
-/// Replaces control characters by the mark of an unknown character, but line ends and tabs.
+/// Replaces each control character of `text` by U+FFFD, except line ends and tabs.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
-    let is_control = |c: char| c.is_control() && c != '\n' && c != '\t';
-    if !text.contains(is_control) {
+    if !text.contains(is_unprintable) {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(text.replace(is_control, "\u{fffd}"))
+    Cow::Owned(text.replace(is_unprintable, "\u{fffd}"))
+}
+
+fn is_unprintable(character: char) -> bool {
+    character.is_control() && character != '\n' && character != '\t'
 }
 
 #[cfg(test)]

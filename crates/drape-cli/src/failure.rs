@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 
-use crate::console::{is_coloured, printable, tell, tell_coloured};
+use crate::console::{is_coloured, print_coloured, print_message, printable};
 use crate::input;
 use drape::run::file;
 
@@ -21,7 +21,7 @@ pub(crate) enum Failure {
     Fit(drape::fit::Error),
     /// Exit code 3: saved frames cannot be read.
     Frames(drape::frames::Error),
-    /// Exit code 3: some sheets of a batch failed; each was reported.
+    /// Exit code 3: some sheets of a batch failed. Each failure was printed before.
     Batch,
     /// Exit code 4: surfaces intersect.
     Intersecting(String),
@@ -29,24 +29,24 @@ pub(crate) enum Failure {
     Solver(String),
     /// Exit code 7: a figure is beyond its limit.
     Limit(String),
-    /// Exit code 8: a run came to a limit that the user set.
+    /// Exit code 8: a run reached a limit that the user set.
     Stopped(String),
-    /// Exit code 128 and the number of the signal: the program was asked to end.
+    /// Exit code 128 + `signal`: the program was asked to end.
     Interrupted { signal: u8, message: String },
-    /// The code of the first failure of several, each of which was reported.
+    /// Exit code `code`, from the first of several failures. Each failure was printed before.
     Several { code: u8 },
     /// Exit code 6: a file could not be written.
     Output(String),
 }
 
 impl Failure {
-    /// Prints the failure and returns its exit code.
+    /// Prints the failure and returns its [`code`](Self::code).
     pub(crate) fn report(&self) -> ExitCode {
         self.print();
         ExitCode::from(self.code())
     }
 
-    /// Returns the exit code.
+    /// Returns the exit code, which the guide lists.
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
@@ -61,40 +61,39 @@ impl Failure {
         }
     }
 
-    /// Prints the failure, with the lines of the input that caused it.
+    /// Prints the failure. A [`Diagnostic`] is printed with the line of its file.
     pub(crate) fn print(&self) {
         match self {
             Self::Input(mistakes) => {
-                mistakes.shown().iter().for_each(|mistake| tell_coloured(render(mistake)));
+                mistakes.shown().iter().for_each(|mistake| print_coloured(render(mistake)));
                 mistakes
                     .hidden_count_text()
                     .iter()
-                    .for_each(|rest| tell(format_args!("error: {rest}")));
+                    .for_each(|rest| print_message(format_args!("error: {rest}")));
             }
             Self::Batch | Self::Several { .. } => {}
-            other => tell(format_args!("error: {other}")),
+            failure => print_message(format_args!("error: {failure}")),
         }
     }
-}
 
-impl Failure {
-    /// Returns the failure of a picture that cannot be drawn or encoded.
-    pub(crate) fn of_picture(error: drape::report::Error) -> Self {
+    /// Returns the failure for `error`, of a picture that cannot be drawn or encoded.
+    pub(crate) fn from_picture(error: drape::report::Error) -> Self {
         Self::Output(error.to_string())
     }
 
-    /// Adds the sheet that the failure concerns, if it does not name one.
-    pub(crate) fn of(self, sheet: &Path) -> Self {
+    /// Turns a [`Self::Fit`] failure into an input failure that names the file of `sheet`. Other
+    /// failures stay as they are.
+    pub(crate) fn in_sheet(self, sheet: &Path) -> Self {
         match self {
             Self::Fit(error) => {
                 let file = input::sheet_file(sheet);
                 let mistake = match input::document(&file) {
                     Ok(document) => drape::run::fit_mistake(&document, &error),
-                    Err(_) => Diagnostic::new(input::shown(sheet), error.to_string()),
+                    Err(_) => Diagnostic::new(input::message_path(sheet), error.to_string()),
                 };
                 Self::Input(mistake.into())
             }
-            other => other,
+            failure => failure,
         }
     }
 }
@@ -142,7 +141,7 @@ impl From<drape::export::Error> for Failure {
 }
 
 impl From<drape::report::Error> for Failure {
-    /// A name or a number of the input that cannot be shown.
+    /// Converts `error`, whose cause is a name or a number of the input that cannot be shown.
     fn from(error: drape::report::Error) -> Self {
         Self::Input(Diagnostic::new("report", error.to_string()).into())
     }
@@ -207,21 +206,29 @@ impl From<drape::dynamics::Error> for Failure {
     }
 }
 
-/// Returns a mistake as text, with the line of its file.
+/// Formats `mistake` in one paragraph, without the line of its file.
+fn render_without_source(mistake: &Diagnostic) -> String {
+    printable(&format!("error: {mistake}")).into_owned()
+}
+
+/// Formats `mistake` with the marked line of its file, if the file can be read.
 fn render(mistake: &Diagnostic) -> String {
-    let plain = || printable(&format!("error: {mistake}")).into_owned();
-    let source = mistake.span.as_ref().and_then(|_| input::source(&mistake.file));
-    let (Some(source), Some(span)) = (source, mistake.span.clone()) else {
-        return plain();
+    let file_text = mistake.span.as_ref().and_then(|_| input::source(&mistake.file));
+    let (Some(file_text), Some(span)) = (file_text, mistake.span.clone()) else {
+        return render_without_source(mistake);
     };
-    let source = source.trim_start_matches('\u{feff}');
-    if source.get(span.clone()).is_none() {
-        return plain();
+    let text = file_text.trim_start_matches('\u{feff}');
+    if text.get(span.clone()).is_none() {
+        // The file has changed since it was read.
+        return render_without_source(mistake);
     }
-    let source = masked(source);
+
+    // Every text goes to a terminal, so control characters are replaced first.
+    let source = mask_control_characters(text);
     let path = mistake.file.display().to_string();
     let [path, message] = [&path, &mistake.message].map(|text| printable(text).into_owned());
     let help = mistake.help.as_deref().map(|help| printable(help).into_owned());
+
     let annotation = AnnotationKind::Primary.span(span);
     let snippet = Snippet::source(&*source).path(&path).annotation(annotation);
     let mut group = Level::ERROR.primary_title(&message).element(snippet);
@@ -232,8 +239,14 @@ fn render(mistake: &Diagnostic) -> String {
     renderer.render(&[group])
 }
 
-/// Replaces every byte of control characters, so that places in the text stay where they are.
-fn masked(source: &str) -> String {
-    let kept = |c: char| !c.is_control() || matches!(c, '\n' | '\r' | '\t');
-    source.chars().map(|c| if kept(c) { c.to_string() } else { "?".repeat(c.len_utf8()) }).collect()
+/// Replaces every byte of a control character in `source` by `?`, so that byte offsets into the
+/// text stay valid.
+fn mask_control_characters(source: &str) -> String {
+    source
+        .chars()
+        .map(|c| {
+            let is_kept = !c.is_control() || matches!(c, '\n' | '\r' | '\t');
+            if is_kept { c.to_string() } else { "?".repeat(c.len_utf8()) }
+        })
+        .collect()
 }

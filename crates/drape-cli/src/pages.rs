@@ -1,9 +1,9 @@
-//! Pages and pictures: what a person is shown of results that the library gives.
+//! Pages and pictures of the results that the library computes.
 //!
-//! Each module fills in a type of `drape::report` or `drape::export`, which draws it; the numbers come from
-//! `drape::fit`, `drape::validate` and `drape::scene` and are not computed again here. [`quantity`]
-//! has the name, the symbol and the units of every number, [`kes_value`] those of KES values. The
-//! commands call these modules and store the files; nothing here reads or writes one.
+//! Each module fills in a type of `drape::report` or `drape::export`, and that type draws itself.
+//! The numbers come from `drape::fit`, `drape::validate` and `drape::scene` and are not computed
+//! again here. The commands call these modules and store the files. Nothing here reads or writes a
+//! file.
 
 pub(crate) mod picture;
 pub(crate) mod run_picture;

@@ -1,4 +1,4 @@
-//! Lines that commands write to stdout.
+//! Lines that commands write to stdout, and the words of counts in them.
 
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::console::{Console, printable};
 use crate::failure::Failure;
 
-/// Writes a line to stdout; a closed pipe is no failure.
+/// Writes `text` to stdout as a line. A closed pipe is no failure.
 pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
     match writeln!(std::io::stdout().lock(), "{}", printable(&text.to_string())) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -18,12 +18,17 @@ pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
     }
 }
 
-/// Writes a line that says where a result is, unless the user asked for quiet.
+/// Writes `text`, which says where a result was stored, to stdout, unless the user asked for quiet.
 pub(crate) fn say_written(text: impl Display) -> Result<(), Failure> {
     if Console::get().quiet { Ok(()) } else { say(text) }
 }
 
-/// Writes a result to stdout as JSON.
+/// Returns `count` with its noun in the right number, such as `1 body` and `2 bodies`.
+pub(crate) fn counted(count: usize, singular: &str, plural: &str) -> String {
+    format!("{count} {}", if count == 1 { singular } else { plural })
+}
+
+/// Writes `value` to stdout as indented JSON.
 pub(crate) fn say_json(value: &impl Serialize) -> Result<(), Failure> {
     say(serde_json::to_string_pretty(value).expect("results always have a JSON form"))
 }

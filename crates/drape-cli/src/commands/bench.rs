@@ -32,7 +32,7 @@ pub(crate) struct BenchArguments {
     json: bool,
 }
 
-/// Fabric of the cloth: plain weave of 200 g/m² with friction in every law.
+/// Fabric of the cloth: a plain weave of 200 g/m² with friction in every law.
 const FABRIC: &str = r#"name = "bench"
 density = 0.2
 thickness = 0.0004
@@ -49,10 +49,10 @@ stiffness = 50.0
 friction = [{ plateau = 0.5, length = 0.004 }]
 "#;
 
-/// A motion of the square metre, which is held at two corners.
+/// Motion of the square metre, which is held at two corners.
 struct Motion {
     name: &'static str,
-    /// Keys of the panel that start it.
+    /// Keys of the `[[panel]]` that start the motion.
     start: &'static str,
 }
 
@@ -61,28 +61,30 @@ const MOTIONS: [Motion; 2] = [
     Motion { name: "swing", start: "turn = [-90, 0, 0]" },
 ];
 
-/// One run of a motion.
+/// Simulation of one motion at one size.
 struct Run {
     motion: &'static str,
+    /// Number of particles along a side.
     size: usize,
     summary: Summary,
 }
 
 impl Run {
-    /// Returns the processor time per simulated second, or the elapsed time where the system does
-    /// not measure that.
-    fn load(&self) -> f64 {
+    /// Returns the processor time per simulated second. Where the system does not measure processor
+    /// time, `wall_seconds` is taken.
+    fn seconds_per_simulated_second(&self) -> f64 {
         let Summary { cpu_seconds, wall_seconds, simulated_seconds, .. } = &self.summary;
         cpu_seconds.unwrap_or(*wall_seconds) / simulated_seconds
     }
 
-    /// Returns the time per step, in ms.
+    /// Returns the processor time per step, in ms, from [`Self::seconds_per_simulated_second`].
     fn step_milliseconds(&self) -> f64 {
-        1e3 * self.load() * self.summary.simulated_seconds / self.summary.steps as f64
+        1e3 * self.seconds_per_simulated_second() * self.summary.simulated_seconds
+            / self.summary.steps as f64
     }
 
-    /// Returns the number of linear iterations per step.
-    fn linear(&self) -> f64 {
+    /// Returns the number of linear iterations per step, which `solver` of the summary counts.
+    fn linear_iterations_per_step(&self) -> f64 {
         self.summary.solver.linear_iterations as f64 / self.summary.steps as f64
     }
 }
@@ -90,13 +92,15 @@ impl Run {
 /// Executes `drape bench`.
 pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     let BenchArguments { sizes, step, until, .. } = arguments;
-    let usage = |message: String| Err(Failure::Usage(message));
     if let Some(size) = sizes.iter().find(|size| !(3..=1000).contains(*size)) {
-        return usage(format!("--sizes {size}: from 3 to 1000 particles along a side"));
+        let message = format!("--sizes {size}: from 3 to 1000 particles along a side");
+        return Err(Failure::Usage(message));
     }
     if !(*step >= 1e-5 && *step <= 0.1 && *until >= *step && *until <= 1e3) {
-        return usage(format!("--step {step} --until {until}: seconds, one step at least"));
+        let message = format!("--step {step} --until {until}: seconds, one step at least");
+        return Err(Failure::Usage(message));
     }
+
     let length = (MOTIONS.len() * sizes.len() * 1000) as u64;
     let bar = progress::bar(length, "{percent} %, {eta} left  {msg}");
     let mut runs = Vec::new();
@@ -104,8 +108,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
         for &size in sizes {
             bar.set_message(format!("{name}, {size} × {size}"));
             let base = (runs.len() * 1000) as u64;
-            let done = |part: f64| bar.set_position(base + (1000.0 * part) as u64);
-            let summary = run(start, size, arguments, &done)?;
+            let summary = run(start, size, arguments, &|fraction: f64| {
+                bar.set_position(base + (1000.0 * fraction) as u64);
+            })?;
             runs.push(Run { motion: name, size, summary });
         }
     }
@@ -113,6 +118,8 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     say(if arguments.json { as_json(&runs, arguments) } else { table(&runs, arguments) })
 }
 
+/// Simulates a cloth of `size` × `size` particles that `start` sets in motion. `done` is called
+/// after each step with the fraction of the time that is simulated.
 fn run(
     start: &str,
     size: usize,
@@ -128,6 +135,7 @@ fn run(
          [[pin]]\npanel = \"sheet\"\npoints = [[0, 1], [1, 1]]\n\
          [time]\nstep = {step:?}\nend = {until:?}\n[output]\nevery = {until:?}\nenergy = false\n"
     );
+
     let fabric = Document::new("bench.toml", FABRIC);
     let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric])?;
     let mut simulation = Simulation::new(scene)?;
@@ -140,6 +148,7 @@ fn run(
     }
 }
 
+/// Returns the results of `runs` as a table, with the growth of each motion below it.
 fn table(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> String {
     let mut text = format!(
         "A square metre of 0.2 kg/m², 5000 N/m, friction in every law, held at two corners {};\n\
@@ -149,6 +158,7 @@ fn table(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> St
         1e3 * step,
         runs[0].summary.threads
     );
+
     for run in runs {
         let Summary { particles, solver, .. } = &run.summary;
         let _ = writeln!(
@@ -157,17 +167,19 @@ fn table(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> St
             run.motion,
             run.step_milliseconds(),
             solver.iterations_mean,
-            run.linear(),
+            run.linear_iterations_per_step(),
             solver.rejected_steps,
-            run.load()
+            run.seconds_per_simulated_second()
         );
     }
+
     for Growth { motion, exponent } in growths(runs) {
         let _ = writeln!(text, "{motion} grows like N^{exponent:.2}");
     }
     text.trim_end().to_owned()
 }
 
+/// Returns the results of `runs` as JSON.
 fn as_json(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> String {
     let rows = runs.iter().map(|run| {
         json!({
@@ -175,7 +187,7 @@ fn as_json(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> 
             "size": run.size,
             "particles": run.summary.particles,
             "step_milliseconds": run.step_milliseconds(),
-            "cpu_per_simulated_second": run.load(),
+            "cpu_per_simulated_second": run.seconds_per_simulated_second(),
             "summary": run.summary,
         })
     });
@@ -186,24 +198,28 @@ fn as_json(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> 
     serde_json::to_string_pretty(&all).expect("numbers and words always have a JSON form")
 }
 
-/// Growth of the processor time of a motion with the number of particles.
+/// Growth of the processor time of a motion with the number N of particles.
 struct Growth {
     motion: &'static str,
-    /// Exponent of the number of particles, by least squares of the logarithms.
+    /// Exponent of N, by least squares of the logarithms.
     exponent: f64,
 }
 
-/// Returns the growth of each motion that has two sizes or more.
+/// Returns the growth of each motion that `runs` has with two sizes or more.
 fn growths(runs: &[Run]) -> Vec<Growth> {
-    let growth = |motion: &'static str| {
-        let points = runs.iter().filter(|run| run.motion == motion);
-        let points: Vec<[f64; 2]> =
-            points.map(|run| [(run.summary.particles as f64).ln(), run.load().ln()]).collect();
-        let mean = |axis: usize| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64;
-        let (x, y) = (mean(0), mean(1));
-        let spread: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
-        let slope: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-        (spread > 0.0).then_some(Growth { motion, exponent: slope / spread })
-    };
-    MOTIONS.iter().filter_map(|motion| growth(motion.name)).collect()
+    MOTIONS.iter().filter_map(|motion| growth(motion.name, runs)).collect()
+}
+
+/// Returns the growth of `motion`, or `None` if `runs` has the motion with one size only.
+fn growth(motion: &'static str, runs: &[Run]) -> Option<Growth> {
+    let points: Vec<[f64; 2]> = runs
+        .iter()
+        .filter(|run| run.motion == motion)
+        .map(|run| [(run.summary.particles as f64).ln(), run.seconds_per_simulated_second().ln()])
+        .collect();
+    let [x, y] =
+        [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
+    let variance: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
+    let covariance: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+    (variance > 0.0).then_some(Growth { motion, exponent: covariance / variance })
 }

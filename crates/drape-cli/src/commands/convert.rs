@@ -1,8 +1,8 @@
-//! `drape convert`: files of others to the project's own, and patterns to drawings.
+//! `drape convert`: converts files of other programs to TOML, and patterns to drawings.
 //!
-//! [`sheet`] makes workbooks, tables and the exports of instruments into sheets.
-//! [`pattern`] converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and any of them to SVG for a
-//! plotter or for pages of paper. A further kind of file is a further module, chosen by what it is made from.
+//! [`sheet`] drafts sheets from workbooks, tables and the exports of instruments. [`pattern`]
+//! converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and any of them to SVG for a
+//! plotter or for pages of paper.
 
 mod arguments;
 mod pattern;
@@ -16,8 +16,8 @@ use crate::failure::Failure;
 /// Executes `drape convert`.
 pub(crate) fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     match &arguments.from[..] {
-        [one] if one.is_dir() || sheets::is_of_tables(one) => sheet::convert(one, arguments),
-        [one] => pattern::convert(one, arguments),
+        [path] if path.is_dir() || sheets::holds_tables(path) => sheet::convert(path, arguments),
+        [path] => pattern::convert(path, arguments),
         _ => {
             Err(Failure::Usage("one pattern, file or folder at a time; each has its own -o".into()))
         }

@@ -1,7 +1,7 @@
 //! `drape export`: writes the frames of a run in the formats of other programs.
 //!
-//! The formats are those of `drape::export`, and pictures; here are the frames that are written, and
-//! what is said about them.
+//! The formats are written by `drape::export`, and pictures by [`pictures`]. This module chooses
+//! the frames and reports which frames are left out.
 
 mod arguments;
 mod files;
@@ -19,7 +19,7 @@ use drape::run::file::FileKind;
 
 pub(crate) use self::arguments::ExportArguments;
 use self::arguments::Format;
-use self::files::Files;
+use self::files::OutputFiles;
 use self::pictures::{ANIMATED, ClipPictures};
 use crate::console::note;
 use crate::failure::Failure;
@@ -30,6 +30,8 @@ use crate::say::say_written;
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = format(arguments)?;
     let is_pictures = matches!(format, Format::Png | Format::Apng);
+
+    // Options of pictures do not apply to other formats.
     let mut given = arguments.look.given();
     if let Some(option) = given.find(|option| match format {
         Format::Svg => *option != "--map",
@@ -40,20 +42,24 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
             "{option} is for pictures; leave it out, or add --format {formats}"
         )));
     }
+
     input::expect(&arguments.run, &[FileKind::Run])?;
     let recording = Recording::open(&arguments.run)?;
     let numbers = numbers(arguments, format, recording.frame_count() - 1);
-    let asked = numbers.clone().count();
-    if format == Format::Svg && asked != 1 {
+    let requested_count = numbers.clone().count();
+    if format == Format::Svg && requested_count != 1 {
         let reason = "--frames: svg shows one frame; name it with --frame";
         return Err(Failure::Usage(reason.to_owned()));
     }
+
     let clip = Clip::new(&recording, numbers, arguments.fps)?;
-    if clip.frame_count() < asked {
-        let left_out = asked - clip.frame_count();
+    if clip.frame_count() < requested_count {
+        let left_out = requested_count - clip.frame_count();
         note(format_args!("frames left out, since a later one has the same time: {left_out}"));
     }
-    let one = asked == 1;
+
+    // Formats with a fixed frame rate need frames at equal times.
+    let is_single = requested_count == 1;
     let rate = clip.rate();
     let clip = match format {
         Format::Obj | Format::Pc2 | Format::Mdd | Format::Png | Format::Apng
@@ -68,27 +74,28 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         }
         Format::Glb if clip.frame_count() > GLB_FRAMES_MAX => {
             note(format_args!(
-                "viewers of glTF hold {GLB_FRAMES_MAX} frames; so many of {} are taken, evenly",
+                "viewers of glTF hold {GLB_FRAMES_MAX} frames, so {GLB_FRAMES_MAX} of {} are taken, evenly",
                 clip.frame_count()
             ));
             clip.thinned(GLB_FRAMES_MAX)
         }
         _ => clip,
     };
-    let files = Files { output: &arguments.output, force: arguments.force };
+
+    let files = OutputFiles { output: &arguments.output, force: arguments.force };
     match format {
-        Format::Obj if one => files.one(|to| {
+        Format::Obj if is_single => files.write_one(|to| {
             let frame = recording.frame(clip.frames()[0])?;
             Ok(write_obj(&recording, &frame, to)?)
         })?,
         Format::Obj => files.sequence(&clip)?,
-        Format::Glb => files.one(|to| write_glb(&clip, to))?,
-        Format::Usda => files.one(|to| write_usda(&clip, to))?,
+        Format::Glb => files.write_one(|to| write_glb(&clip, to))?,
+        Format::Usda => files.write_one(|to| write_usda(&clip, to))?,
         Format::Pc2 => files.cache(&clip, |to| write_pc2(&clip, to))?,
         Format::Mdd => files.cache(&clip, |to| write_mdd(&clip, to))?,
-        Format::Vtp => files.vtk(&clip, one)?,
-        Format::Npz => files.one(|to| write_npz(&clip, to))?,
-        Format::Csv => files.one(|to| write_csv(&clip, to))?,
+        Format::Vtp => files.vtk(&clip, is_single)?,
+        Format::Npz => files.write_one(|to| write_npz(&clip, to))?,
+        Format::Csv => files.write_one(|to| write_csv(&clip, to))?,
         Format::Png => ClipPictures::new(&clip, &arguments.look, None)?.sequence(&files)?,
         Format::Apng => {
             ClipPictures::new(&clip, &arguments.look, Some(ANIMATED))?.animation(&files)?;
@@ -97,6 +104,7 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
             files.pattern_map(&clip, arguments.look.map().unwrap_or(Field::StrainWarp))?
         }
     }
+
     let (count, output) = (clip.frame_count(), arguments.output.display());
     match count {
         1 => say_written(format_args!("frame {} in {output}", clip.frames()[0])),
@@ -104,16 +112,17 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     }
 }
 
-/// Returns the format that is asked for, or that the ending of the file says.
+/// Returns the format of `--format`, or the format that the ending of the output names.
 fn format(arguments: &ExportArguments) -> Result<Format, Failure> {
     let ending = arguments.output.extension().unwrap_or_default().to_string_lossy();
-    let named = || <Format as ValueEnum>::from_str(&ending, true).ok();
-    arguments.format.or_else(named).ok_or_else(|| {
+    let format = arguments.format.or_else(|| <Format as ValueEnum>::from_str(&ending, true).ok());
+    format.ok_or_else(|| {
         let output = arguments.output.display();
         if ending.is_empty() {
             let advice = "add it, such as --format glb";
             return Failure::Usage(format!("{output} does not say its format; {advice}"));
         }
+
         let formats = Format::value_variants().iter().filter_map(ValueEnum::to_possible_value);
         let formats: Vec<String> = formats.map(|format| format.get_name().to_owned()).collect();
         let instead = match ending.to_ascii_lowercase().as_str() {
@@ -133,7 +142,7 @@ fn format(arguments: &ExportArguments) -> Result<Format, Failure> {
     })
 }
 
-/// Returns the numbers of the frames that are asked for.
+/// Returns the requested frame numbers. `last` is the number of the run's last frame.
 fn numbers(arguments: &ExportArguments, format: Format, last: usize) -> RangeInclusive<usize> {
     match (arguments.frame, arguments.frames) {
         (Some(number), _) => number..=number,

@@ -46,8 +46,8 @@ pub(crate) enum FabricCommand {
     /// Compares fabrics: what was measured and the laws beside it, with the differences from the
     /// first; curves and loops overlaid.
     Compare {
-        /// Fabrics, or sheets, which are fitted first, two or more. What was measured is in a sheet, or
-        /// in the sheet beside a fabric that was fitted to it.
+        /// Fabrics, or sheets, which are fitted first, two or more. What was measured is in a
+        /// sheet, or in the sheet beside a fabric that was fitted to it.
         #[arg(required = true, num_args = 2.., value_name = "FABRIC")]
         fabrics: Vec<PathBuf>,
         /// Folder for a page with plots.
@@ -57,7 +57,8 @@ pub(crate) enum FabricCommand {
         #[arg(long)]
         json: bool,
     },
-    /// Writes a fabric as the material of another program: Blender, ppf-contact-solver, Browzwear, U3M.
+    /// Writes a fabric as the material of another program: Blender, ppf-contact-solver, Browzwear,
+    /// U3M.
     Export(MaterialArguments),
 }
 
@@ -73,8 +74,9 @@ pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
     }
 }
 
+/// Prints the page of the fabric at `path`, and stores it in the folder `report`.
 fn show(path: &Path, report: Option<&Path>, json: bool) -> Result<(), Failure> {
-    let sheet = sheets::of(path).and_then(|path| sheets::read(path).ok());
+    let sheet = sheets::sheet_path(path).and_then(|path| sheets::read(path).ok());
     let page = show_page(&read(path)?, sheet.as_ref());
     if json {
         say_json(&page)?;

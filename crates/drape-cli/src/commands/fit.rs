@@ -1,7 +1,7 @@
 //! `drape fit`: identifies fabrics from sheets, one or many, and writes them with a report.
 //!
-//! A sheet is read ([`sheets`](super::sheets)), or drafted of tables first ([`job`]), fitted and reported
-//! ([`identify`]); many are fitted on all threads ([`batch`]).
+//! A sheet is read ([`sheets`](super::sheets)) or drafted from tables ([`job`]), and then fitted
+//! and reported ([`identify`]). Several sheets are fitted on all threads ([`batch`]).
 
 mod arguments;
 mod batch;
@@ -20,32 +20,35 @@ use drape::run::file;
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     match job::jobs(arguments)?.as_slice() {
-        [job] => one(job, arguments),
+        [job] => fit_one(job, arguments),
         jobs => batch::fit_all(jobs, arguments),
     }
 }
 
-/// Fits one sheet and prints its report.
-fn one(job: &Job, arguments: &FitArguments) -> Result<(), Failure> {
+/// Fits the sheet of `job`, writes the fabric, and prints the report.
+fn fit_one(job: &Job, arguments: &FitArguments) -> Result<(), Failure> {
     let path = &job.fabric;
     let to_stdout = input::is_standard(path);
     if to_stdout && arguments.json {
         let message = "-o - and --json both print to stdout; give one of them";
         return Err(Failure::Usage(message.into()));
     }
+
     let force = arguments.force || to_stdout;
     job.refuse_existing(force, "give -o, or replace it with --force")?;
     if !to_stdout {
         job.write_sheet()?;
     }
+
     let identified = identify(job, &arguments.laws.settings())?;
     if to_stdout {
         say(identified.fit.fabric.to_toml().trim_end())?;
     } else {
         file::write(path, identified.fit.fabric.to_toml())?;
     }
+
     let page = &identified.page;
     let report = store(page, &job.name, arguments.report.as_deref())?;
     if arguments.json {

@@ -1,8 +1,8 @@
 //! `drape run`: simulates a scene and stores its frames, a picture and `summary.json`.
 //!
-//! The scene is read and checked; [`job`] records frames and checkpoints as it goes, and [`report`]
-//! puts the summary into words. A scene that starts with intersecting surfaces is refused, with a file of
-//! the triangles.
+//! The scene is read and checked. [`job`] records frames and checkpoints during the run, and
+//! [`report`] describes the summary. A scene that starts with intersecting surfaces is refused, and
+//! the intersecting triangles are written to a file.
 
 pub(crate) mod job;
 mod limits;
@@ -54,46 +54,49 @@ pub(crate) struct RunArguments {
     /// Hashes positions and velocities after each step, for `step_hashes` in `summary.json`.
     #[arg(long)]
     pub(crate) state_hash: bool,
-    /// Proposes no other place for a garment that is not about its body. Without it a place is looked for,
-    /// and tried by a sewing at 30 mm of at most 10 s before it is printed.
+    /// Proposes no other place for a garment that is not about its body. Without it a place is
+    /// looked for, and tried by a sewing at 30 mm of at most 10 s before it is printed.
     #[arg(long)]
     pub(crate) quick: bool,
     #[command(flatten)]
     pub(crate) options: JobArguments,
 }
 
-/// Run that has ended.
-struct Ran {
+/// Run that has ended, with the folder of its results.
+struct StoredRun {
     summary: Summary,
     folder: PathBuf,
 }
 
-/// Reads a time that is not negative.
+/// Parses a time in seconds that is not negative.
 fn seconds(text: &str) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "no number".to_owned())?;
-    let is_right = (0.0..=1e9).contains(&number);
-    if is_right { Ok(number) } else { Err("not a time from 0 to 1e9 s".into()) }
+    let is_time = (0.0..=1e9).contains(&number);
+    if is_time { Ok(number) } else { Err("not a time from 0 to 1e9 s".into()) }
 }
 
 /// Executes `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     signal::watch();
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     if let [scene] = &arguments.scenes[..] {
-        let Ran { summary, folder } = run_scene(scene, arguments)?;
+        let StoredRun { summary, folder } = run_scene(scene, arguments)?;
         if arguments.options.json {
             say_json(&summary)?;
         }
         return outcome(summary, &folder);
     }
+
+    // With several scenes a failure does not stop the rest, and the first failure gives the exit
+    // code.
     let mut summaries = Vec::new();
     let mut code = None;
     for scene in &arguments.scenes {
         if !arguments.options.json {
-            say(format_args!("{}:", input::shown(scene).display()))?;
+            say(format_args!("{}:", input::message_path(scene).display()))?;
         }
-        let ended = run_scene(scene, arguments).and_then(|Ran { summary, folder }| {
-            summaries.push(json!({ "scene": input::shown(scene), "summary": summary }));
+        let ended = run_scene(scene, arguments).and_then(|StoredRun { summary, folder }| {
+            summaries.push(json!({ "scene": input::message_path(scene), "summary": summary }));
             outcome(summary, &folder)
         });
         if let Err(failure) = ended {
@@ -105,21 +108,24 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             }
         }
     }
+
     if arguments.options.json {
         say_json(&summaries)?;
     }
     code.map_or(Ok(()), |code| Err(Failure::Several { code }))
 }
 
-/// Runs one scene, stores its results and says what came out; a run that fails has a summary too.
-fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
-    let read = drape::run::scene_of(&input::document_of(path, &[FileKind::Scene])?);
-    let mut scene = read.map_err(|error| refuse(error, path, arguments))?;
+/// Runs the scene at `path`, stores the results and prints a summary. A failed run has a summary as
+/// well.
+fn run_scene(path: &Path, arguments: &RunArguments) -> Result<StoredRun, Failure> {
+    let result = drape::run::scene_of(&input::document_of_kind(path, &[FileKind::Scene])?);
+    let mut scene = result.map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
         end_at(&mut scene, end)?;
     }
+
     let folder = folder(path, arguments, scene.output.folder.as_ref());
-    check_place(&folder, path, arguments)?;
+    check_location(&folder, path, arguments)?;
     let request = RunRequest {
         state_hash: arguments.state_hash,
         set: arguments.set.iter().map(Setting::to_string).collect(),
@@ -127,53 +133,57 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
     };
     let options = &arguments.options;
     let run = FolderRun::begin(scene, &folder, &request, &options.run_options(arguments.force))?;
-    Ok(Ran { summary: Job { run, folder: &folder, options }.run()?, folder })
+    Ok(StoredRun { summary: Job { run, folder: &folder, options }.run()?, folder })
 }
 
-/// Returns the folder for the results of a scene.
-fn folder(scene: &Path, arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
-    let name = input::named(scene).file_stem().unwrap_or_default();
+/// Returns the folder for the results of `scene`. `scene_folder` is the folder that the scene
+/// itself names.
+fn folder(scene: &Path, arguments: &RunArguments, scene_folder: Option<&PathBuf>) -> PathBuf {
+    let name = input::result_path(scene).file_stem().unwrap_or_default();
     match (&arguments.output, &arguments.scenes[..]) {
         (Some(folder), [_]) => folder.clone(),
         (Some(folder), _) => folder.join(name),
-        (None, _) => of_scene.cloned().unwrap_or_else(|| PathBuf::from("out").join(name)),
+        (None, _) => scene_folder.cloned().unwrap_or_else(|| PathBuf::from("out").join(name)),
     }
 }
 
-/// Refuses a place that the user did not name and that a link takes elsewhere.
-fn check_place(place: &Path, scene: &Path, arguments: &RunArguments) -> Result<(), Failure> {
+/// Refuses a `path` for results that the user did not name on the command line and that a link
+/// moves outside the allowed folders.
+fn check_location(path: &Path, scene: &Path, arguments: &RunArguments) -> Result<(), Failure> {
     if arguments.output.is_some() {
         return Ok(());
     }
-    let places = AllowedFolders::new(scene.parent().unwrap_or(Path::new("")), input::allowed());
-    places.check(place).map_err(|misplaced| {
-        let (place, help) = (place.display(), misplaced.help());
-        Failure::Usage(format!("{place}: {misplaced}; {help}, or name a folder with -o"))
+    let folders = AllowedFolders::new(scene.parent().unwrap_or(Path::new("")), input::allowed());
+    folders.check(path).map_err(|misplaced| {
+        let (path, help) = (path.display(), misplaced.help());
+        Failure::Usage(format!("{path}: {misplaced}; {help}, or name a folder with -o"))
     })
 }
 
-/// Returns the failure for a scene that is refused. Triangles that intersect at the start are
-/// written to a file beside the folder that the results would have.
+/// Returns the failure for the `error` of a scene that cannot be run. Triangles that intersect at
+/// the start are written to a file beside the folder of the results.
 fn refuse(error: Error, scene: &Path, arguments: &RunArguments) -> Failure {
     let mut tangle = match error {
         Error::Tangled(tangle) => tangle,
         Error::Input(mistakes) => {
-            return Failure::Input(proposal::tried(scene, mistakes, arguments.quick));
+            return Failure::Input(proposal::with_trials(scene, mistakes, arguments.quick));
         }
-        other => return other.into(),
+        error => return error.into(),
     };
+
     let folder = folder(scene, arguments, tangle.folder.as_ref());
     let mut name = folder.file_name().unwrap_or_default().to_owned();
     name.push("-start.ply");
     let path = folder.with_file_name(name);
     let mut content = Vec::new();
-    let written = tangle.write_ply(&mut content).map_err(|error| error.to_string());
-    let written = written.and_then(|()| {
-        let checked = check_place(&path, scene, arguments);
-        let written = checked.and_then(|()| Ok(file::write(&path, content)?));
-        written.map_err(|failure| failure.to_string())
+    let encoded = tangle.write_ply(&mut content).map_err(|error| error.to_string());
+    let written = encoded.and_then(|()| {
+        check_location(&path, scene, arguments)
+            .and_then(|()| Ok(file::write(&path, content)?))
+            .map_err(|failure| failure.to_string())
     });
-    let told = match (written, tangle.overlaps.len()) {
+
+    let help = match (written, tangle.overlaps.len()) {
         (Ok(()), count) if count < tangle.total => {
             format!(
                 "the triangles of the first {count} of {} pairs are in {}",
@@ -184,6 +194,6 @@ fn refuse(error: Error, scene: &Path, arguments: &RunArguments) -> Failure {
         (Ok(()), _) => format!("the triangles are in {}", path.display()),
         (Err(reason), _) => reason,
     };
-    tangle.add_help(&told);
+    tangle.add_help(&help);
     Failure::Input(tangle.mistakes)
 }

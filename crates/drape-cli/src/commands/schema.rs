@@ -1,6 +1,6 @@
-//! `drape schema`: JSON Schema of the files, by which editors complete and check them as they are
-//! typed. Made from the types that read the files. [`new`] writes files to start from, with their
-//! schemas.
+//! `drape schema`: JSON Schema of the files. Editors complete and check files by these schemas. The
+//! schemas are generated from the types that read the files. [`new`] writes files to start from,
+//! with their schemas.
 
 pub(crate) mod new;
 
@@ -43,7 +43,7 @@ pub(crate) enum SchemaKind {
 }
 
 impl SchemaKind {
-    /// Returns the schema as text.
+    /// Returns the schema as the text of a JSON file.
     pub(crate) fn text(self) -> String {
         let schema: Value = match self {
             Self::Scene => drape::scene::scene_schema(),

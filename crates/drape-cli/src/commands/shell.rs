@@ -1,5 +1,5 @@
-//! `drape completions` and `drape man`: what shells and `man` are given, made from the arguments of
-//! the commands.
+//! `drape completions` and `drape man`: shell completions and manual pages, generated from the
+//! arguments of the commands.
 
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ pub(crate) struct ManArguments {
     output: Option<PathBuf>,
 }
 
-/// Executes `drape completions` for the command line.
+/// Executes `drape completions`. `command` is the whole command line.
 pub(crate) fn completions(
     arguments: &CompletionsArguments,
     mut command: Command,
@@ -36,24 +36,25 @@ pub(crate) fn completions(
     say(String::from_utf8_lossy(&script).trim_end())
 }
 
-/// Executes `drape man` for the command line.
+/// Executes `drape man`. `command` is the whole command line.
 pub(crate) fn man(arguments: &ManArguments, mut command: Command) -> Result<(), Failure> {
     command.build();
     let Some(folder) = &arguments.output else {
         return say(String::from_utf8_lossy(&page(&command)?).trim_end());
     };
-    let mut open = vec![command];
+
+    let mut pending = vec![command];
     let mut count = 0;
-    while let Some(command) = open.pop() {
+    while let Some(command) = pending.pop() {
         let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
         file::write(&folder.join(format!("{name}.1")), page(&command)?)?;
         count += 1;
-        open.extend(command.get_subcommands().filter(|c| c.get_name() != "help").cloned());
+        pending.extend(command.get_subcommands().filter(|c| c.get_name() != "help").cloned());
     }
     say_written(format_args!("{count} pages written to {}", folder.display()))
 }
 
-/// Returns the manual page of a command.
+/// Returns the manual page of `command`.
 fn page(command: &Command) -> Result<Vec<u8>, Failure> {
     let mut page = Vec::new();
     let rendered = Man::new(command.clone()).render(&mut page);

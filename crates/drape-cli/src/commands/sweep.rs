@@ -1,8 +1,8 @@
-//! `drape sweep`: many runs of one scene, fits or tests, planned, run, collected and exported.
+//! `drape sweep`: plans, runs, collects and exports many runs of one scene, fit or test.
 //!
-//! The study, its points, their keys and their table are those of `drape::sweep`. [`run`] shares the
-//! points out to jobs, each of which is a process of this program, started by [`worker`]. [`study`]
-//! reads the study. [`converge`] is a command of its own, whose study is that of the spacing.
+//! The study, its points, their keys and their table come from `drape::sweep`. [`run`] distributes
+//! the points to jobs, and [`worker`] runs each point as a process of this program. [`study`] reads
+//! the study. [`converge`] is a separate command whose study varies the spacing.
 
 mod collect;
 pub(crate) mod converge;
@@ -21,7 +21,7 @@ use self::run::SweepRunArguments;
 use self::study::StudyArguments;
 use crate::failure::Failure;
 use crate::input;
-use crate::say::{say, say_written};
+use crate::say::{counted, say, say_written};
 
 #[derive(Subcommand)]
 pub(crate) enum SweepCommand {
@@ -64,7 +64,7 @@ struct EngineArguments {
     dask: bool,
 }
 
-/// Least time of a task, in s: engines need some to start one.
+/// Least duration of a task, in s, because engines need some seconds to start a task.
 const TASK_SECONDS: f64 = 60.0;
 
 /// Executes `drape sweep`.
@@ -81,31 +81,39 @@ fn plan(arguments: &StudyArguments) -> Result<(), Failure> {
     let (study, points) = arguments.read(None)?;
     let path = study.output().join("manifest.jsonl");
     file::write(&path, manifest(&study, &points))?;
-    say_written(format_args!("{} points in {}", points.len(), path.display()))
+    let points = counted(points.len(), "point", "points");
+    say_written(format_args!("{points} in {}", path.display()))
 }
 
 fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
     let (study, points) = arguments.study.read(None)?;
     let EngineArguments { slurm, hyperqueue, .. } = arguments.engine;
-    let (engine, name) = match (slurm, hyperqueue) {
-        (true, _) => (Engine::Slurm, "slurm.sh"),
-        (_, true) => (Engine::HyperQueue, "hyperqueue.toml"),
-        _ => (Engine::Dask, "dask_sweep.py"),
+    let (engine, name) = if slurm {
+        (Engine::Slurm, "slurm.sh")
+    } else if hyperqueue {
+        (Engine::HyperQueue, "hyperqueue.toml")
+    } else {
+        (Engine::Dask, "dask_sweep.py")
     };
-    let chunk = arguments.chunk.map_or_else(|| chunk(&study, &points), |chunk| chunk as usize);
-    let here = |error| Failure::Output(format!("the current folder: {error}"));
+    let chunk =
+        arguments.chunk.map_or_else(|| points_per_task(&study, &points), |chunk| chunk as usize);
+
+    // The batch may run in another folder, so all its paths are absolute.
     let options = input::options();
     let output = std::path::absolute(study.output())
         .map_err(|error| Failure::Output(format!("{}: {error}", study.output().display())))?;
+    let [program, folder] = [std::env::current_exe(), std::env::current_dir()]
+        .map(|path| path.map_err(|error| Failure::Output(format!("the current folder: {error}"))));
     let batch = Batch {
-        program: std::env::current_exe().map_err(here)?,
-        folder: std::env::current_dir().map_err(here)?,
+        program: program?,
+        folder: folder?,
         study: arguments.study.study.clone(),
         is_elsewhere: arguments.study.results.is_some(),
         output,
-        options: options.iter().map(|own| own.to_string_lossy().into_owned()).collect(),
+        options: options.iter().map(|option| option.to_string_lossy().into_owned()).collect(),
         tasks: points.len().div_ceil(chunk),
     };
+
     let text = batch.file(engine);
     let default = study.output().join(name);
     let path = arguments.output.as_ref().unwrap_or(&default);
@@ -113,14 +121,16 @@ fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
         return say(text.trim_end());
     }
     file::write(path, text)?;
-    say_written(format_args!("{} tasks in {}", batch.tasks, path.display()))
+    let tasks = counted(batch.tasks, "task", "tasks");
+    say_written(format_args!("{tasks} in {}", path.display()))
 }
 
-/// Returns how many points take a minute, by those that have been run.
-fn chunk(study: &Study, points: &[Point]) -> usize {
+/// Returns the number of points that take [`TASK_SECONDS`] together, from the mean time of the
+/// points that are done. Without such points a task has one point.
+fn points_per_task(study: &Study, points: &[Point]) -> usize {
     let records = points.iter().filter_map(|point| PointStorage::new(study, point).record());
-    let times = records.filter(|record| record.outcome == Outcome::Done);
-    let times: Vec<f64> = times.map(|record| record.seconds).collect();
+    let done = records.filter(|record| record.outcome == Outcome::Done);
+    let times: Vec<f64> = done.map(|record| record.seconds).collect();
     let mean = times.iter().sum::<f64>() / times.len() as f64;
     if mean > 0.0 { ((TASK_SECONDS / mean).ceil() as usize).clamp(1, points.len()) } else { 1 }
 }

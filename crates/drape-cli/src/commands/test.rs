@@ -1,8 +1,8 @@
 //! `drape test`: specimens of a fabric in simulated KES instruments, or on a drapemeter.
 //!
 //! [`instruments`] tests specimens in traction, bending and shear and compares the loops with the
-//! laws of the fabric; [`drapemeter`] drapes specimens and reads their shadows. Both are computed
-//! by `drape::validate`.
+//! laws of the fabric. [`drapemeter`] drapes specimens and evaluates their shadows.
+//! `drape::validate` computes both.
 
 mod arguments;
 mod drapemeter;
@@ -18,7 +18,7 @@ use crate::input;
 
 /// Executes `drape test`.
 pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
-    input::set(&arguments.set);
+    input::set_values(&arguments.set);
     let fabric = fabric::read(&arguments.fabric)?;
     check_spacing(arguments.spacing)?;
     if arguments.drape {

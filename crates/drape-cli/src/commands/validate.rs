@@ -23,8 +23,8 @@ pub(crate) struct ValidateArguments {
     /// Runs the cases that take minutes too.
     #[arg(long, conflicts_with = "cases")]
     pub(crate) full: bool,
-    /// Outcomes that `--json` printed earlier, to be shown with those of this run; this run's
-    /// replace them.
+    /// Outcomes that `--json` printed earlier, to be shown with the outcomes of this run, which
+    /// replace earlier outcomes of a case.
     #[arg(long, value_name = "FILE")]
     pub(crate) earlier: Vec<PathBuf>,
     /// Folder for a page with plots and pictures, and each of them as a file.
@@ -45,25 +45,26 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     for path in &arguments.earlier {
         outcomes.extend(earlier(path)?);
     }
+
     for case in cases {
         let bar = progress::bar(0, "{msg}: {pos}/{len} simulations, {eta} left");
         bar.set_message(case.name);
-        let told = |count| {
+        let outcome = Outcome::of(case, &|count| {
             bar.set_length(count);
             bar.inc(1);
-        };
-        let outcome = Outcome::of(case, &told);
+        });
         bar.finish_and_clear();
         if !arguments.json {
             show(&outcome)?;
         }
         outcomes.push(outcome);
     }
+
     // The last of several outcomes of a case is kept.
-    let place = |outcome: &Outcome| CASES.iter().position(|case| case.name == outcome.name);
     outcomes.reverse();
-    outcomes.sort_by_key(place);
-    outcomes.dedup_by_key(|outcome| place(outcome));
+    outcomes.sort_by_key(case_number);
+    outcomes.dedup_by_key(|outcome| case_number(outcome));
+
     if arguments.json {
         let judged: Vec<Value> = outcomes.iter().map(judged).collect();
         say_json(&judged)?;
@@ -77,6 +78,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
             say_written(format_args!("page written to {}", page.display()))?;
         }
     }
+
     let failed = outcomes.iter().filter(|outcome| !outcome.passes()).count();
     if failed > 0 {
         let message = format!("{failed} of {} cases are off their references", outcomes.len());
@@ -85,7 +87,12 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns an outcome as JSON, with the verdict on it and on each of its figures.
+/// Returns the position of the case of `outcome` in [`CASES`].
+fn case_number(outcome: &Outcome) -> Option<usize> {
+    CASES.iter().position(|case| case.name == outcome.name)
+}
+
+/// Returns `outcome` as JSON, with a key `passes` for the case and for each of its figures.
 fn judged(outcome: &Outcome) -> Value {
     let mut value = json!(outcome);
     value["passes"] = json!(outcome.passes());
@@ -96,8 +103,8 @@ fn judged(outcome: &Outcome) -> Value {
     value
 }
 
-/// Writes the page into a folder, with every plot and picture as a file beside it, and returns its
-/// path.
+/// Writes the page of `outcomes` into `folder`, with every plot and picture as a file beside it,
+/// and returns the path of the page.
 fn store(outcomes: &[Outcome], folder: &Path) -> Result<PathBuf, Failure> {
     let page = validation::page(outcomes)?;
     let path = folder.join("validation.html");
@@ -115,37 +122,39 @@ fn store(outcomes: &[Outcome], folder: &Path) -> Result<PathBuf, Failure> {
     Ok(path)
 }
 
-/// Reads the outcomes of an earlier run.
+/// Reads the outcomes of an earlier run from the JSON file at `path`.
 fn earlier(path: &Path) -> Result<Vec<Outcome>, Failure> {
-    let mistake = |message: String| {
+    parse_earlier(path).map_err(|message| {
         let help = "give a file that `drape validate --json` printed";
         Failure::Input(Diagnostic::new(path, message).help(help).into())
-    };
+    })
+}
+
+fn parse_earlier(path: &Path) -> Result<Vec<Outcome>, String> {
     if !path.is_file() {
-        return Err(mistake("it is no file".to_owned()));
+        return Err("it is no file".to_owned());
     }
-    let text = std::fs::read_to_string(path).map_err(|error| mistake(error.to_string()))?;
-    let outcomes: Vec<Outcome> =
-        serde_json::from_str(&text).map_err(|error| mistake(error.to_string()))?;
-    let known = |outcome: &Outcome| CASES.iter().any(|case| case.name == outcome.name);
-    match outcomes.iter().find(|outcome| !known(outcome)) {
-        Some(outcome) => Err(mistake(format!("there is no case \"{}\"", outcome.name))),
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let outcomes: Vec<Outcome> = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    match outcomes.iter().find(|outcome| case_number(outcome).is_none()) {
+        Some(outcome) => Err(format!("there is no case \"{}\"", outcome.name)),
         None => Ok(outcomes),
     }
 }
 
-/// Returns the cases with some names; if none is named, all that take seconds, or all.
+/// Returns the cases called `names`. Without names, all short cases are returned, and with `full`
+/// the long ones as well.
 fn chosen(names: &[String], full: bool) -> Result<Vec<&'static Case>, Failure> {
     if names.is_empty() {
         return Ok(CASES.iter().filter(|case| full || !case.is_long()).collect());
     }
-    let case = |name: &String| {
+    let cases = names.iter().map(|name| {
         CASES.iter().find(|case| case.name == name).ok_or_else(|| {
             let known: Vec<&str> = CASES.iter().map(|case| case.name).collect();
             Failure::Usage(format!("there is no case \"{name}\"; there are {}", known.join(", ")))
         })
-    };
-    names.iter().map(case).collect()
+    });
+    cases.collect()
 }
 
 fn show(outcome: &Outcome) -> Result<(), Failure> {
@@ -157,6 +166,7 @@ fn show(outcome: &Outcome) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Returns the figure of `check` and its verdict as a line.
 fn line(check: &Check) -> String {
     let verdict = match check.verdict() {
         Some(true) => "pass",

@@ -8,18 +8,18 @@ use drape::run::reports::VERSION;
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 
 use self::limits::LIMITS;
-use super::picture::Pictures;
+use super::picture::SnapshotPictures;
 use crate::failure::Failure;
 
-/// Pixels of one of several pictures.
-const FIELD: [u32; 2] = [640, 480];
+/// Width and height of each picture of a still, in pixels.
+const STILL_SIZE: [u32; 2] = [640, 480];
 
-/// Path of a case's picture that is shipped, relative to the page in Markdown.
+/// Returns the path of the shipped picture of `case`, relative to the Markdown page.
 fn shipped_picture(case: &str) -> Option<&'static str> {
     (case == "breen").then_some("../../scenes/cubes.png")
 }
 
-/// Returns the page in HTML, with the plots and pictures of every case.
+/// Returns the HTML page of `outcomes`, with the plots and pictures of every case.
 pub(crate) fn page(outcomes: &[Outcome]) -> Result<ValidationPage, Failure> {
     let cases: Result<Vec<ValidationCase>, Failure> = outcomes.iter().map(case).collect();
     Ok(ValidationPage {
@@ -30,11 +30,10 @@ pub(crate) fn page(outcomes: &[Outcome]) -> Result<ValidationPage, Failure> {
 }
 
 fn case(outcome: &Outcome) -> Result<ValidationCase, Failure> {
-    let drawn = |still: &Still| {
-        Ok(CaptionedPicture { caption: still.title.clone(), picture: draw(still)? })
-    };
-    let pictures: Result<Vec<CaptionedPicture>, Failure> =
-        outcome.stills.iter().map(drawn).collect();
+    let stills = outcome.stills.iter();
+    let pictures: Result<Vec<CaptionedPicture>, Failure> = stills
+        .map(|still| Ok(CaptionedPicture { caption: still.title.clone(), picture: draw(still)? }))
+        .collect();
     Ok(ValidationCase {
         name: outcome.name.clone(),
         title: outcome.title.clone(),
@@ -66,15 +65,16 @@ fn plot(graph: &Graph) -> GraphPlot {
     }
 }
 
-/// Draws the cloths of a still side by side.
+/// Draws the cloths of `still` side by side.
 fn draw(still: &Still) -> Result<Picture, Failure> {
     let view = still.view.map(Some);
-    let picture = |snapshot| Pictures::new(snapshot)?.draw(view, FIELD);
-    let pictures: Result<Vec<Picture>, Failure> = still.snapshots.iter().map(picture).collect();
+    let snapshots = still.snapshots.iter();
+    let pictures: Result<Vec<Picture>, Failure> =
+        snapshots.map(|snapshot| SnapshotPictures::new(snapshot)?.draw(view, STILL_SIZE)).collect();
     Ok(Picture::sheet(&pictures?, still.columns))
 }
 
-/// Returns the row of a figure.
+/// Returns the row of `check` in the table of its case.
 fn row(check: &Check) -> ValidationRow {
     let Check { what, measured, reference, limit, kind } = check;
     let [measured, reference, error, limit] = match kind {
@@ -94,16 +94,17 @@ fn row(check: &Check) -> ValidationRow {
             [format!("{measured:.3}"), String::new(), String::new(), "none".to_owned()]
         }
     };
+
     let (what, passes) = (what.clone(), check.verdict());
     ValidationRow { what, measured, reference, error, limit, passes }
 }
 
-/// Returns a number of any size as text.
+/// Returns `value` with three decimals, or with an exponent if it is very small or large.
 pub(crate) fn figure(value: f64) -> String {
     if (0.01..1e5).contains(&value.abs()) { format!("{value:.3}") } else { format!("{value:.1e}") }
 }
 
-/// Returns the page in Markdown, of which `crates/drape/VALIDATION.md` is one.
+/// Returns the Markdown page of `outcomes`. `crates/drape/VALIDATION.md` is such a page.
 pub(crate) fn markdown(outcomes: &[Outcome]) -> String {
     let mut page = String::from(
         "# Validation\n\nSimulations against exact solutions and measurements. `drape validate --markdown FILE` \
@@ -117,10 +118,13 @@ pub(crate) fn markdown(outcomes: &[Outcome]) -> String {
             page += &format!("It could not be run: {failure}\n");
             continue;
         }
+
         let still = outcome.stills.first().map_or(&outcome.title, |still| &still.title);
         if let Some(path) = shipped_picture(&outcome.name) {
             page += &format!("![{still}]({path})\n\n{still}.\n\n");
         }
+
+        // simulated
         page += "| figure | simulated | reference | error | limit | |\n|---|---|---|---|---|---|\n";
         for row in outcome.checks.iter().map(row) {
             let verdict = match row.passes {
@@ -128,12 +132,13 @@ pub(crate) fn markdown(outcomes: &[Outcome]) -> String {
                 Some(false) => "**fail**",
                 None => "",
             };
-            let spaced =
-                |cell: &str| if cell.is_empty() { String::new() } else { format!("{cell} ") };
-            let cells = row.cells().map(spaced);
+            let cells = row
+                .cells()
+                .map(|cell: &str| if cell.is_empty() { String::new() } else { format!("{cell} ") });
             page += &format!("| {} | {}| {verdict} |\n", row.what, cells.join("| "));
         }
     }
+
     page += "\n## What this does not show\n\n";
     LIMITS.iter().for_each(|text| page += &format!("* {}\n", text.replace('\n', "\n  ")));
     page

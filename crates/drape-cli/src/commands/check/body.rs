@@ -1,4 +1,4 @@
-//! Meshes of bodies: what they are, what contact cannot promise on them, and their repair.
+//! Meshes of bodies: their description, the faults that contact cannot handle, and their repair.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -11,75 +11,84 @@ use drape::scene::MESH_LIMIT;
 
 use crate::failure::Failure;
 use crate::input;
+use crate::say::counted;
 use drape::run::file;
 
-/// Heights of persons and dress forms, in m, by which the unit of a file is guessed.
+/// Smallest and largest height of persons and dress forms, in m. The unit of a file is guessed from
+/// these heights.
 const HEIGHTS: [f64; 2] = [0.5, 2.5];
 
 /// Units of files, with their lengths in m.
 const UNITS: [(&str, f64); 4] =
     [("metres", 1.0), ("centimetres", 0.01), ("millimetres", 0.001), ("inches", 0.0254)];
 
-/// Endings of the files of meshes.
+/// Endings of mesh files.
 const ENDINGS: [&str; 3] = ["obj", "stl", "ply"];
 
-/// Returns whether a file is a mesh, by its ending.
+/// Returns whether `file` is a mesh, by its ending.
 pub(crate) fn is_mesh(file: &Path) -> bool {
     let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     ENDINGS.contains(&ending.as_str())
 }
 
-/// Length in m of a unit of a file, and the spacing of the cloth, in m.
+/// Scale of a body's file and spacing of the cloth on the body.
 #[derive(Clone, Copy)]
-pub(crate) struct Measure {
-    /// Length of a unit of the file, in m; guessed from the size where none is given.
+pub(crate) struct BodySettings {
+    /// Length of a unit of the file, in m. `None` guesses the unit from the size of the mesh.
     pub(crate) scale: Option<f64>,
+    /// Spacing of the cloth, in m.
     pub(crate) spacing: f64,
 }
 
-/// A mesh as read, in m.
+/// Mesh of a file, in m.
 struct ReadMesh {
     mesh: Triangulation,
+    /// Length of a unit of the file, in m.
     scale: f64,
-    /// Unit of the file, where it was guessed.
+    /// Name of the file's unit, if the unit was guessed.
     guessed: Option<&'static str>,
 }
 
-fn read(path: &Path, measure: Measure) -> Result<ReadMesh, Diagnostics> {
-    let fail = |message: String| Diagnostics::from(Diagnostic::new(path, message));
-    let mesh =
-        read_mesh_within(path, MESH_LIMIT.bytes()).map_err(|error| fail(error.to_string()))?;
-    let finite = |vertex: &[f64; 3]| vertex.iter().all(|x| x.abs() < 1e9);
-    if mesh.triangles.is_empty() || !mesh.vertices.iter().all(finite) {
-        return Err(fail("the mesh has no triangles, or coordinates that are no positions".into()));
+/// Reads the mesh at `path` and scales it to m.
+fn read(path: &Path, settings: BodySettings) -> Result<ReadMesh, Diagnostics> {
+    let mesh = read_mesh_within(path, MESH_LIMIT.bytes())
+        .map_err(|error| Diagnostic::new(path, error.to_string()))?;
+    let is_finite = mesh.vertices.iter().flatten().all(|x| x.abs() < 1e9);
+    if mesh.triangles.is_empty() || !is_finite {
+        let message = "the mesh has no triangles, or coordinates that are no positions";
+        return Err(Diagnostic::new(path, message).into());
     }
-    let size = |axis: usize| {
+
+    let sizes = (0..3).map(|axis: usize| {
         let values = mesh.vertices.iter().map(|vertex| vertex[axis]);
         values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
-    };
-    let longest = (0..3).map(size).fold(0.0, f64::max);
-    let fits = |unit: f64| (HEIGHTS[0]..=HEIGHTS[1]).contains(&(longest * unit));
-    let (scale, guessed) = match measure.scale {
+    });
+    let longest = sizes.fold(0.0, f64::max);
+    let (scale, guessed) = match settings.scale {
         Some(scale) => (scale, None),
         None => UNITS
             .into_iter()
-            .find(|(_, unit)| fits(*unit))
+            .find(|(_, unit)| (HEIGHTS[0]..=HEIGHTS[1]).contains(&(longest * unit)))
             .map_or((1.0, None), |(name, unit)| (unit, Some(name))),
     };
     Ok(ReadMesh { mesh: mesh.scaled(scale), scale, guessed })
 }
 
-/// Body as it was found: in words, and what a scene refuses of it.
-pub(crate) struct Found {
+/// Description of a body, and the mistakes for which a scene refuses it.
+pub(crate) struct BodyDescription {
     pub(crate) text: String,
     pub(crate) mistakes: Vec<Diagnostic>,
 }
 
-/// Reads a mesh, describes it, and judges it as a scene does.
-pub(crate) fn describe(path: &Path, measure: Measure) -> Result<Found, Diagnostics> {
-    let ReadMesh { mesh, scale, guessed } = read(path, measure)?;
+/// Reads the mesh at `path`, describes it, and checks it as a scene does.
+pub(crate) fn describe(
+    path: &Path,
+    settings: BodySettings,
+) -> Result<BodyDescription, Diagnostics> {
+    let ReadMesh { mesh, scale, guessed } = read(path, settings)?;
     let inspection = MeshInspection::new(&mesh);
-    let mut text = report(&inspection, measure.spacing);
+    let mut text = report(&inspection, settings.spacing);
+
     if let Some(unit) = guessed {
         let [x, y, z] = inspection.size();
         let _ = writeln!(
@@ -88,6 +97,7 @@ pub(crate) fn describe(path: &Path, measure: Measure) -> Result<Found, Diagnosti
              scale = {scale}"
         );
     }
+
     let mut mistakes = Vec::new();
     if let Some(fault) = fault(&mesh) {
         let help = format!(
@@ -95,29 +105,34 @@ pub(crate) fn describe(path: &Path, measure: Measure) -> Result<Found, Diagnosti
             path.display(),
             repaired_name(path)
         );
-        mistakes.push(Diagnostic::new(input::shown(path), fault).help(help));
+        mistakes.push(Diagnostic::new(input::message_path(path), fault).help(help));
     }
-    Ok(Found { text, mistakes })
+    Ok(BodyDescription { text, mistakes })
 }
 
-/// Returns the reason for which a scene refuses a mesh, in m, if there is one.
+/// Returns the reason for which a scene refuses `mesh`, if there is one.
 fn fault(mesh: &Triangulation) -> Option<String> {
     Mesh::new(&mesh.vertices, &mesh.triangles).err().map(|error| error.to_string())
 }
 
-/// Returns the name that is advised for a repaired file.
+/// Returns the file name that a message proposes for the repaired mesh of `path`.
 fn repaired_name(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}-repaired.obj")).display().to_string()
 }
 
-/// Repairs a mesh, writes it as OBJ in the unit of its file, and describes what was done. A repair that
-/// leaves a worse body than it was is not written.
-pub(crate) fn mend(path: &Path, measure: Measure, to: &Path) -> Result<String, Failure> {
-    let ReadMesh { mesh, scale, .. } = read(path, measure)?;
+/// Repairs the mesh at `path`, writes it as OBJ in the unit of its file, and describes the repair.
+/// A repair that leaves more faults than before is not written.
+pub(crate) fn repair_file(
+    path: &Path,
+    settings: BodySettings,
+    to: &Path,
+) -> Result<String, Failure> {
+    let ReadMesh { mesh, scale, .. } = read(path, settings)?;
     let before = MeshInspection::new(&mesh);
-    let repaired = repair(&mesh, &RepairSettings::for_spacing(measure.spacing));
+    let repaired = repair(&mesh, &RepairSettings::for_spacing(settings.spacing));
     let inspection = MeshInspection::new(&repaired.mesh);
+
     let [was_refused, is_refused] = [&mesh, &repaired.mesh].map(fault);
     if inspection.is_worse_than(&before) || (was_refused.is_none() && is_refused.is_some()) {
         let message = format!(
@@ -129,10 +144,12 @@ pub(crate) fn mend(path: &Path, measure: Measure, to: &Path) -> Result<String, F
             before.intersections.count
         );
         let help = "mend it where it was made, in a modelling program";
-        return Err(
-            Diagnostics::from(Diagnostic::new(input::shown(path), message).help(help)).into()
-        );
+        return Err(Diagnostics::from(
+            Diagnostic::new(input::message_path(path), message).help(help),
+        )
+        .into());
     }
+
     let mut text = String::from(match (&was_refused, &is_refused) {
         (_, Some(_)) => "repaired in part\n",
         (None, None) if repaired.notes.is_empty() => "sound\n",
@@ -144,16 +161,17 @@ pub(crate) fn mend(path: &Path, measure: Measure, to: &Path) -> Result<String, F
     if repaired.notes.is_empty() {
         text.push_str("  nothing was to be done\n");
     }
-    text.push_str(&report(&inspection, measure.spacing));
+    text.push_str(&report(&inspection, settings.spacing));
     if let Some(fault) = is_refused {
         let _ = writeln!(text, "  note: a scene still refuses it: {fault}");
     }
+
     file::write(to, obj(&repaired.mesh, scale))?;
     let _ = writeln!(text, "  written to {}", to.display());
     Ok(text)
 }
 
-/// Returns a mesh as OBJ, in a unit of some m.
+/// Returns `mesh` as OBJ in a unit of `unit` m.
 fn obj(mesh: &Triangulation, unit: f64) -> String {
     let mut text = String::from("# A body repaired by drape\n");
     for [x, y, z] in &mesh.vertices {
@@ -165,7 +183,8 @@ fn obj(mesh: &Triangulation, unit: f64) -> String {
     text
 }
 
-/// Describes a mesh: its size, its surface, its faults with their places.
+/// Describes a mesh: its size, its surface, and its faults with their positions. `spacing` is the
+/// spacing of the cloth, in m.
 fn report(inspection: &MeshInspection, spacing: f64) -> String {
     let [x, y, z] = inspection.size();
     let lengths = inspection.edge_lengths;
@@ -174,6 +193,7 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
         (false, false) => "not closed",
         (false, true) => "no holes, but not one closed surface",
     };
+
     let mut text = format!(
         "body, {} vertices, {} triangles, {x:.3} × {y:.3} × {z:.3} m, {:.4} m², {:.4} l, {} part{}, \
          {closed}\n  edges: {:.2} to {:.2} mm, half of them below {:.2} mm; the spacing is {} mm\n",
@@ -188,6 +208,7 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
         1e3 * lengths.median,
         1e3 * spacing,
     );
+
     if x.max(z) > y {
         text.push_str(
             "  note: it is not longest along y, which is up; a body that lies is turned by turn = \
@@ -197,15 +218,18 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
     if inspection.is_closed() && inspection.volume < 0.0 {
         text.push_str("  note: it is inside out; a scene turns it\n");
     }
+
     for hole in inspection.holes.iter().take(5) {
-        let place = place(hole.place);
+        let position = position(hole.place);
         let (edges, length) = (hole.vertices.len(), 1e3 * hole.length);
-        let _ = writeln!(text, "  hole: {edges} edges, {length:.1} mm long, around {place}");
+        let _ = writeln!(text, "  hole: {edges} edges, {length:.1} mm long, around {position}");
     }
     if inspection.holes.len() > 5 {
-        let _ = writeln!(text, "  and {} holes more", inspection.holes.len() - 5);
+        let more = counted(inspection.holes.len() - 5, "hole", "holes");
+        let _ = writeln!(text, "  and {more} more");
     }
-    for (places, what) in [
+
+    for (places, fault) in [
         (&inspection.branching_edges, "edges with more than two triangles"),
         (&inspection.opposed_edges, "edges whose triangles disagree about the outside"),
         (&inspection.flat_triangles, "triangles without area"),
@@ -215,8 +239,9 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
              outside",
         ),
     ] {
-        text.push_str(&places_line(places, what));
+        text.push_str(&fault_line(places, fault));
     }
+
     if inspection.is_too_fine(spacing) {
         let _ = writeln!(
             text,
@@ -231,13 +256,16 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
     text
 }
 
-fn places_line(places: &FaultPlaces, what: &str) -> String {
+/// Returns the line for a kind of `fault` with its `places`, or an empty text if there is none.
+fn fault_line(places: &FaultPlaces, fault: &str) -> String {
     match places.first.first() {
-        Some(first) => format!("  {} {what}; the first is at {}\n", places.count, place(*first)),
+        Some(first) => {
+            format!("  {} {fault}; the first is at {}\n", places.count, position(*first))
+        }
         None => String::new(),
     }
 }
 
-fn place([x, y, z]: [f64; 3]) -> String {
+fn position([x, y, z]: [f64; 3]) -> String {
     format!("({x:.4}, {y:.4}, {z:.4}) m")
 }

@@ -1,5 +1,6 @@
 //! Contents of scenes, fabrics and sheets in words and SI units.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -15,12 +16,13 @@ use drape::run::reports::{CheckedValue, sheet_values};
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
 use drape::sweep::{Error as SweepError, Study};
 
-use super::pattern::CutOut;
+use super::pattern::CheckedPattern;
 use super::values;
 use crate::commands::sheets::{self, drafted};
 use crate::input;
+use crate::say::counted;
 
-/// Kinds of files that are described.
+/// Kinds of files that `drape check` describes.
 const CHECKED: [FileKind; 7] = [
     FileKind::Scene,
     FileKind::Fabric,
@@ -31,9 +33,9 @@ const CHECKED: [FileKind; 7] = [
     FileKind::Body,
 ];
 
-/// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
+/// Reads the file at `path` and describes it in SI. A pattern is cut at `spacing`, in m.
 pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics> {
-    if sheets::is_of_tables(path) {
+    if sheets::holds_tables(path) {
         return tables(path);
     }
     match FileKind::of(path).filter(|_| !input::is_standard(path)) {
@@ -50,15 +52,17 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
         return Err(answer.into());
     }
     if Pattern::is_drawing(path) {
-        return Ok(CutOut::read(path, spacing)?.describe());
+        return Ok(CheckedPattern::read(path, spacing)?.describe());
     }
+
+    // The ending does not tell all kinds of TOML apart, so the keys of the file decide.
     let document = input::document(path)?;
     if Pattern::is_drawing_text(&document) && input::is_standard(path) {
-        return Ok(CutOut::read(path, spacing)?.describe());
+        return Ok(CheckedPattern::read(path, spacing)?.describe());
     }
     let table: toml::Table = document.decode()?;
     if holds_pattern(&table) {
-        return Ok(CutOut::read(path, spacing)?.describe());
+        return Ok(CheckedPattern::read(path, spacing)?.describe());
     }
     if holds_scene(&table) {
         Ok(scene(&read_scene(path)?))
@@ -69,25 +73,24 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
     }
 }
 
-/// Returns the values of a file that is a sheet.
-pub(crate) fn values_of(path: &Path) -> Option<Vec<CheckedValue>> {
+/// Returns the values of the sheet at `path`, or `None` if the file is no sheet.
+pub(crate) fn sheet_values_of(path: &Path) -> Option<Vec<CheckedValue>> {
     let is_sheet = FileKind::of(path) == Some(FileKind::Sheet);
     let sheet = is_sheet.then(|| sheets::read(path).ok()).flatten()?;
     Some(sheet_values(&sheet))
 }
 
-/// Describes a study: what is run, and how often.
+/// Describes the study at `path`: its base, the number of its points, and its axes.
 fn study(path: &Path) -> Result<String, Diagnostics> {
-    let mistakes = |error: SweepError| match error {
+    let study = Study::read(path, input::allowed()).map_err(|error| match error {
         SweepError::Input(mistakes) => mistakes,
-        other => Diagnostic::new(path, other.to_string()).into(),
-    };
-    let study = Study::read(path, input::allowed()).map_err(mistakes)?;
+        error => Diagnostic::new(path, error.to_string()).into(),
+    })?;
     let mut text = format!(
-        "study of the {} {}, {} points, results in {}\n",
+        "study of the {} {}, {}, results in {}\n",
         study.base().key(),
         study.base_file().display(),
-        study.point_count(),
+        counted(study.point_count(), "point", "points"),
         study.output().display()
     );
     for axis in study.axes() {
@@ -96,7 +99,7 @@ fn study(path: &Path) -> Result<String, Diagnostics> {
     Ok(text)
 }
 
-/// Returns whether a file is a scene, by its keys.
+/// Returns whether `file` is a scene, by its keys.
 pub(crate) fn is_scene(file: &Path) -> bool {
     let is_toml = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     let may_be = is_toml || input::is_standard(file);
@@ -105,50 +108,54 @@ pub(crate) fn is_scene(file: &Path) -> bool {
     table.is_some_and(|table| !holds_pattern(&table) && holds_scene(&table))
 }
 
-/// Returns whether a table is a pattern: its panels have names, those of a scene are in a row.
+/// Returns whether `table` is a pattern. The panels of a pattern are tables with names, and the
+/// panels of a scene are an array.
 fn holds_pattern(table: &toml::Table) -> bool {
     matches!(table.get("panel"), Some(toml::Value::Table(_))) || table.contains_key("from")
 }
 
-/// Returns whether a table that is no pattern is a scene.
+/// Returns whether `table`, which is no pattern, is a scene.
 fn holds_scene(table: &toml::Table) -> bool {
     ["panel", "garment", "time", "collider"].iter().any(|key| table.contains_key(*key))
 }
 
-/// Reads a scene, or returns its mistakes.
+/// Reads the scene at `path`. Every error becomes a [`Diagnostic`].
 pub(crate) fn read_scene(path: &Path) -> Result<Scene, Diagnostics> {
     drape::run::scene_of(&input::document(path)?).map_err(|error| match error {
         Error::Input(mistakes) => mistakes,
         Error::Tangled(tangle) => tangle.mistakes,
-        other => Diagnostic::new(input::shown(path), other.to_string()).into(),
+        error => Diagnostic::new(input::message_path(path), error.to_string()).into(),
     })
 }
 
-/// Describes a scene.
+/// Describes `scene`: its cloth, its seams, its bodies, and the resources that a run needs.
 pub(crate) fn scene(scene: &Scene) -> String {
     let mass: f64 = scene.cloth.masses().iter().sum();
     let area: f64 = scene.cloth.areas().iter().sum();
     let mut text = format!(
-        "scene \"{}\", {} particles, {area:.4} m², {mass:.4} kg, {} held, {} bodies, \
+        "scene \"{}\", {} particles, {area:.4} m², {mass:.4} kg, {} held, {}, \
          steps of {} s to {} s\n",
         scene.name,
         scene.cloth.particles(),
         scene.held_particles().iter().filter(|held| **held).count(),
-        scene.bodies.len(),
+        counted(scene.bodies.len(), "body", "bodies"),
         scene.schedule.clock.step,
         scene.schedule.clock.end
     );
+
     for grid in &scene.coarser {
         let (particles, spacing) = (grid.cloth.particles(), 1e3 * grid.spacing());
         let _ =
             writeln!(text, "  at rest first on a grid of {spacing:.1} mm, {particles} particles");
     }
+
     for panel in &scene.panels {
         let [across, along] = panel.lattice.spacing;
-        let most = panel.lattice.spacing_max();
-        let flat = match most == panel.lattice.spacing {
-            true => String::new(),
-            false => format!(", where it is flat up to {:.5} × {:.5} m", most[0], most[1]),
+        let largest = panel.lattice.spacing_max();
+        let flat = if largest == panel.lattice.spacing {
+            String::new()
+        } else {
+            format!(", where it is flat up to {:.5} × {:.5} m", largest[0], largest[1])
         };
         let material = &scene.materials[panel.material];
         let layer = match panel.layer {
@@ -163,19 +170,21 @@ pub(crate) fn scene(scene: &Scene) -> String {
             material.file.display()
         );
     }
+
     if let Some(sewing) = &scene.sewing {
         for seam in &sewing.seams {
             let gaps: Vec<f64> = seam.pairs.gaps(&scene.start.positions).collect();
             let _ = writeln!(
                 text,
-                "  seam \"{}\": {} stitches, open by {:.1} mm, {:.1} mm at most",
+                "  seam \"{}\": {}, open by {:.1} mm, {:.1} mm at most",
                 seam.name,
-                gaps.len(),
+                counted(gaps.len(), "stitch", "stitches"),
                 1e3 * gaps.iter().sum::<f64>() / gaps.len().max(1) as f64,
                 1e3 * gaps.iter().fold(0.0, |a: f64, b| a.max(*b))
             );
         }
     }
+
     scene.bodies.iter().for_each(|moving| text += &body(moving));
     let _ = writeln!(text, "  {}", describe_needs(&scene.needs()));
     scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(|note| {
@@ -185,7 +194,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
     text
 }
 
-/// Describes a body in a line.
+/// Describes the body `moving` in a line.
 fn body(moving: &MovingBody) -> String {
     let name = &moving.body.name;
     let kind = match &moving.body.shape {
@@ -196,33 +205,34 @@ fn body(moving: &MovingBody) -> String {
         Shape::Mesh(_) => "mesh",
         _ => "body",
     };
-    let own;
-    let found = match &moving.source {
-        Some(source) => &source.inspection,
+
+    let inspection = match &moving.source {
+        Some(source) => Cow::Borrowed(&source.inspection),
         None => {
             let outline = moving.body.triangulate();
-            own = outline.map(|outline| MeshInspection::new(&outline)).unwrap_or_default();
-            &own
+            Cow::Owned(outline.map(|outline| MeshInspection::new(&outline)).unwrap_or_default())
         }
     };
-    let [x, y, z] = found.size();
-    let size = format!("{x:.3} × {y:.3} × {z:.3} m, {:.2} l", 1e3 * found.volume);
+    let [x, y, z] = inspection.size();
+    let size = format!("{x:.3} × {y:.3} × {z:.3} m, {:.2} l", 1e3 * inspection.volume);
     if moving.source.is_none() {
         return format!("  body \"{name}\": {kind}, {size}\n");
     }
-    let parts = if found.parts == 1 { "1 part".into() } else { format!("{} parts", found.parts) };
-    let crossing = match found.intersections.count {
+
+    let parts = counted(inspection.parts, "part", "parts");
+    let crossing = match inspection.intersections.count {
         0 => "nowhere through itself".into(),
         1 => "through itself at 1 edge".into(),
         count => format!("through itself at {count} edges"),
     };
     format!(
         "  body \"{name}\": {kind}, {size}, {} triangles with edges of {:.1} mm, closed, {parts}, {crossing}\n",
-        found.triangles,
-        1e3 * found.edge_lengths.median
+        inspection.triangles,
+        1e3 * inspection.edge_lengths.median
     )
 }
 
+/// Describes the laws of `fabric` in SI.
 fn fabric(fabric: &Fabric) -> String {
     let mut text = format!(
         "fabric \"{}\": {} kg/m², {} m thick\n",
@@ -243,12 +253,14 @@ fn fabric(fabric: &Fabric) -> String {
                 format!("{:.4e} ε² + {:.4e} ε⁴ N/m", p.quadratic, p.quartic)
             }
         };
+
         let friction = match direction.traction.friction {
             TractionFriction::Plateau(friction) => format!("{:.3e} N/m", friction.plateau()),
             TractionFriction::Proportional(friction) => {
                 format!("{:.2} of the load and {:.3e} N/m", friction.ratio, friction.plateau)
             }
         };
+
         let rigidity = match direction.bending.backbone {
             BendingBackbone::Linear { rigidity } => rigidity,
             BendingBackbone::Varying(varying) => varying.initial_stiffness,
@@ -261,6 +273,7 @@ fn fabric(fabric: &Fabric) -> String {
             direction.bending.friction.plateau()
         );
     }
+
     let stiffness = match fabric.shear.backbone {
         ShearBackbone::Linear { stiffness } => stiffness,
         ShearBackbone::Varying(varying) => varying.initial_stiffness,
@@ -271,36 +284,40 @@ fn fabric(fabric: &Fabric) -> String {
     text
 }
 
-/// Returns what the sheets hold that are drafted of tables.
+/// Describes the sheets that `drape fit` would draft from the tables at `path`.
 fn tables(path: &Path) -> Result<String, Diagnostics> {
     let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
-    let in_input = |error| sheets::in_input(error, path);
-    let drafts = SheetDraft::of(path, folder).map_err(in_input)?;
+    let drafts =
+        SheetDraft::of(path, folder).map_err(|error| sheets::to_diagnostics(error, path))?;
     let several = drafts.len() > 1;
     let mut text = String::new();
     for draft in drafts {
-        // The sheet that drape fit would write.
+        // `drape fit` would write this sheet.
         let file = format!("{}.sheet.toml", drafted::name(path, &draft, several));
         let document = input::with_settings(&folder.join(file), &draft.text)?;
-        let sheet = draft.read_document(document.clone()).map_err(in_input)?;
-        let values = draft.values;
-        let _ =
-            writeln!(text, "drafted, with {values} values, {} sections to complete", draft.open);
-        text += &indent(&of_sheet(&sheet, &document));
+        let sheet = draft
+            .read_document(document.clone())
+            .map_err(|error| sheets::to_diagnostics(error, path))?;
+        let values = counted(draft.values, "value", "values");
+        let sections = counted(draft.open, "section", "sections");
+        let _ = writeln!(text, "drafted, with {values}, {sections} to complete");
+        text += &indent(&describe_sheet(&sheet, &document));
     }
     Ok(text)
 }
 
+/// Describes the sheet at `file`, or in the folder `file`.
 fn sheet(file: &Path) -> Result<String, Diagnostics> {
     let document = input::document(&input::sheet_file(file))?;
-    Ok(of_sheet(&sheets::read(file)?, &document))
+    Ok(describe_sheet(&sheets::read(file)?, &document))
 }
 
-/// Returns what a sheet holds, which a document wrote.
-fn of_sheet(sheet: &Sheet, document: &Document) -> String {
+/// Describes `sheet`. `document` is the document from which it was read, and names the files of the
+/// curves.
+fn describe_sheet(sheet: &Sheet, document: &Document) -> String {
     let density = sheet.density().map_or("no".into(), figure);
-    let mut text =
-        format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
+    let curves = counted(sheet.curves.len(), "curve", "curves");
+    let mut text = format!("sheet \"{}\": {density} kg/m², {curves}\n", sheet.name);
     let named = NamedCurve::of(document);
     sheet.curves.iter().for_each(|curve| text += &self::curve(curve, &named));
     text += &values::describe(sheet);
@@ -313,7 +330,8 @@ fn of_sheet(sheet: &Sheet, document: &Document) -> String {
     text
 }
 
-/// Describes a curve in a line: its test, direction and file, with the ranges of deformation and load.
+/// Describes `curve` in a line: its test, direction and file, with the ranges of deformation and
+/// load.
 fn curve(curve: &Curve, named: &[NamedCurve]) -> String {
     let file = named.iter().find(|entry| entry.is_called(&curve.name));
     let file = file.map_or(String::new(), |entry| format!(", {}", entry.files.join(", ")));
@@ -323,9 +341,6 @@ fn curve(curve: &Curve, named: &[NamedCurve]) -> String {
         Test::Bending => [("curvature", " 1/m"), ("moment", " N")],
         Test::LoopBending => [("approach of the clamps", ""), ("force", " N/m")],
     };
-    let range = |(name, unit): (&str, &str), extent: Extent| {
-        format!("{name} {:.4e} to {:.4e}{unit}", extent.low, extent.high)
-    };
     format!(
         "  {} {}{file}: {} points, {}, {}\n",
         curve.test.name(),
@@ -334,6 +349,11 @@ fn curve(curve: &Curve, named: &[NamedCurve]) -> String {
         range(deformation, curve.deformation_range()),
         range(load, curve.load_range()),
     )
+}
+
+/// Returns the range of a quantity, given by its name and unit.
+fn range((name, unit): (&str, &str), extent: Extent) -> String {
+    format!("{name} {:.4e} to {:.4e}{unit}", extent.low, extent.high)
 }
 
 fn indent(text: &str) -> String {

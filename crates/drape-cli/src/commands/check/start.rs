@@ -1,7 +1,7 @@
-//! Scene at its start: its panels about the body, with the seams that are to close, as a drawing.
+//! Scene at its start: the panels around the body, with the seams that are to close, as a drawing.
 //!
-//! Of a scene with mistakes, what is wrong is drawn in red: in space where the scene could be made, else
-//! on the flat panels of its pattern.
+//! If the scene has mistakes, the faults are drawn in red: in space if the scene could be built,
+//! and otherwise on the flat panels of its pattern.
 
 use std::path::{Path, PathBuf};
 
@@ -11,59 +11,69 @@ use drape::scene::{Error, Panel, Refused, Scene};
 
 use super::describe;
 use super::pattern;
-use crate::console::tell;
+use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
-use crate::pages::start::{StartPicture, Wrong};
+use crate::pages::start::{StartFaults, StartPicture};
 use drape::run::file;
 
-/// Reads a scene, draws it as it starts, and describes it; or returns its mistakes, which are drawn.
-pub(crate) fn draw(path: &Path, figure: &Path) -> Result<Result<String, Diagnostics>, Failure> {
-    let document = match input::document(path) {
-        Ok(document) => document,
-        Err(mistakes) => return Ok(Err(mistakes)),
-    };
-    match drape::run::scene_or_refused(&document) {
-        Ok(scene) => {
-            let text = describe::scene(&scene);
-            draw_scene(scene, Wrong::default(), figure)?;
-            Ok(Ok(text))
-        }
-        Err(refused) => {
-            let Refused { error, scene } = *refused;
-            let (mistakes, triangles) = match error {
-                Error::Input(mistakes) => (mistakes, Vec::new()),
-                Error::Tangled(tangle) => {
-                    let corners = tangle.overlaps.iter().flat_map(|overlap| overlap.corners);
-                    let corners = corners.collect();
-                    (tangle.mistakes, corners)
-                }
-                other => {
-                    (Diagnostic::new(input::shown(path), other.to_string()).into(), Vec::new())
-                }
-            };
-            match scene {
-                Some(scene) => {
-                    let wrong = wrong(&scene, &mistakes, triangles);
-                    // What cannot be drawn takes nothing from the mistakes.
-                    let drawn = draw_scene(*scene, wrong, figure);
-                    drawn.unwrap_or_else(|failure| tell(format_args!("no figure: {failure}")));
-                }
-                None => draw_patterns(&document, &mistakes, figure)?,
-            }
-            Ok(Err(mistakes))
-        }
-    }
+/// Result of a scene that was checked and drawn.
+pub(crate) enum Drawn {
+    /// The scene has no mistakes; `text` describes it.
+    Sound { text: String },
+    /// The scene has mistakes.
+    Refused { mistakes: Diagnostics },
 }
 
-/// Draws a scene at its start, with what is wrong in red.
-fn draw_scene(scene: Scene, wrong: Wrong, figure: &Path) -> Result<(), Failure> {
+/// Reads the scene at `path`, draws its start into the file `figure`, and describes it. If the
+/// scene has mistakes, the figure shows their positions.
+pub(crate) fn draw(path: &Path, figure: &Path) -> Result<Drawn, Failure> {
+    let document = match input::document(path) {
+        Ok(document) => document,
+        Err(mistakes) => return Ok(Drawn::Refused { mistakes }),
+    };
+    let refused = match drape::run::scene_or_refused(&document) {
+        Ok(scene) => {
+            let text = describe::scene(&scene);
+            draw_scene(scene, StartFaults::default(), figure)?;
+            return Ok(Drawn::Sound { text });
+        }
+        Err(refused) => refused,
+    };
+
+    let Refused { error, scene } = *refused;
+    let (mistakes, triangles) = match error {
+        Error::Input(mistakes) => (mistakes, Vec::new()),
+        Error::Tangled(tangle) => {
+            let corners = tangle.overlaps.iter().flat_map(|overlap| overlap.corners).collect();
+            (tangle.mistakes, corners)
+        }
+        error => {
+            let mistake = Diagnostic::new(input::message_path(path), error.to_string());
+            (mistake.into(), Vec::new())
+        }
+    };
+    match scene {
+        Some(scene) => {
+            let faults = start_faults(&scene, &mistakes, triangles);
+            // The mistakes are reported even if the figure cannot be drawn.
+            draw_scene(*scene, faults, figure)
+                .unwrap_or_else(|failure| print_message(format_args!("no figure: {failure}")));
+        }
+        None => draw_patterns(&document, &mistakes, figure)?,
+    }
+    Ok(Drawn::Refused { mistakes })
+}
+
+/// Draws `scene` at its start into the file `figure`, with its `faults` in red.
+fn draw_scene(scene: Scene, faults: StartFaults, figure: &Path) -> Result<(), Failure> {
     let seams = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.seams.clone());
     let snapshot = Simulation::new(scene)?.snapshot();
-    let picture = StartPicture { snapshot: &snapshot, seams: &seams, wrong: &wrong };
-    match is_png(figure) {
-        true => file::write(figure, picture.draw()?.png().map_err(Failure::of_picture)?)?,
-        false => file::write(figure, picture.svg()?)?,
+    let picture = StartPicture { snapshot: &snapshot, seams: &seams, faults: &faults };
+    if is_png(figure) {
+        file::write(figure, picture.draw()?.png().map_err(Failure::from_picture)?)?;
+    } else {
+        file::write(figure, picture.svg()?)?;
     }
     Ok(())
 }
@@ -72,53 +82,61 @@ fn is_png(figure: &Path) -> bool {
     figure.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
 }
 
-/// Returns what mistakes find wrong in a scene: seams, edges and panels by their names, and triangles
-/// that cross, by their corners in m.
-fn wrong(scene: &Scene, mistakes: &Diagnostics, triangles: Vec<[[f64; 3]; 3]>) -> Wrong {
-    let mut wrong = Wrong { triangles, ..Wrong::default() };
-    let is_of = |panel: &Panel, name: &str| {
-        panel.name == name || panel.name.rsplit_once('.').is_some_and(|(_, own)| own == name)
-    };
+/// Returns the faults that `mistakes` name in `scene`: seams, edges and panels. `triangles` are the
+/// corners of crossing triangles, in m.
+
+fn start_faults(
+    scene: &Scene,
+    mistakes: &Diagnostics,
+    triangles: Vec<[[f64; 3]; 3]>,
+) -> StartFaults {
+    let mut faults = StartFaults { triangles, ..StartFaults::default() };
     for subject in mistakes.0.iter().filter_map(|mistake| mistake.subject.as_ref()) {
         match subject {
-            Subject::Seam(name) => wrong.seams.push(name.clone()),
+            Subject::Seam(name) => faults.seams.push(name.clone()),
             Subject::Panel(name) => {
-                let panels = scene.panels.iter().filter(|panel| is_of(panel, name));
-                wrong.sides.extend(panels.flat_map(|panel| rim(scene, panel)));
+                let panels = scene.panels.iter().filter(|panel| is_called(panel, name));
+                faults.sides.extend(panels.flat_map(|panel| rim(scene, panel)));
             }
-            Subject::Edge { panel: name, edge } => {
-                let panels = scene.panels.iter().filter(|panel| is_of(panel, name));
-                for (panel, own) in
-                    panels.flat_map(|panel| panel.edges.iter().map(move |own| (panel, own)))
-                {
-                    if own.name == *edge {
-                        let first = panel.first as u32;
-                        let sides = own.nodes.windows(2);
-                        wrong.sides.extend(sides.map(|two| [first + two[0], first + two[1]]));
+            Subject::Edge { panel: name, edge: edge_name } => {
+                for panel in scene.panels.iter().filter(|panel| is_called(panel, name)) {
+                    let first = panel.first as u32;
+                    for edge in panel.edges.iter().filter(|edge| edge.name == *edge_name) {
+                        let sides = edge.nodes.windows(2);
+                        faults.sides.extend(sides.map(|pair| [first + pair[0], first + pair[1]]));
                     }
                 }
             }
             _ => {}
         }
     }
-    wrong
+    faults
 }
 
-/// Returns the sides of a panel's triangles that belong to one of them only.
+/// Returns whether `panel` has this name, alone or after the name of its garment and a dot.
+fn is_called(panel: &Panel, name: &str) -> bool {
+    panel.name == name || panel.name.rsplit_once('.').is_some_and(|(_, short)| short == name)
+}
+
+/// Returns the boundary of `panel`: the sides that belong to one triangle only, as pairs of
+/// particles.
 fn rim(scene: &Scene, panel: &Panel) -> Vec<[u32; 2]> {
     let particles = panel.particles();
-    let own = scene.cloth.triangles().iter();
-    let own = own.filter(|triangle| particles.contains(&(triangle[0] as usize)));
-    let mut sides: Vec<[u32; 2]> = own
+    let mut sides: Vec<[u32; 2]> = scene
+        .cloth
+        .triangles()
+        .iter()
+        .filter(|triangle| particles.contains(&(triangle[0] as usize)))
         .flat_map(|triangle| [0, 1, 2].map(|k| [triangle[k], triangle[(k + 1) % 3]]))
         .map(|[a, b]| [a.min(b), a.max(b)])
         .collect();
     sides.sort_unstable();
-    let alone = sides.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
-    alone.map(|same| same[0]).collect()
+    let single = sides.chunk_by(|a, b| a == b).filter(|equal| equal.len() == 1);
+    single.map(|equal| equal[0]).collect()
 }
 
-/// Draws the patterns of a scene that could not be made, flat, with what is wrong in red.
+/// Draws the flat patterns of a scene that could not be built into the file `figure`, with the
+/// faults in red.
 fn draw_patterns(
     document: &Document,
     mistakes: &Diagnostics,
@@ -133,24 +151,29 @@ fn draw_patterns(
     struct Garment {
         pattern: String,
     }
+
     let garments = document.decode_with_faults::<File>().map(|(file, _)| file.garment);
-    let drawn = garments.unwrap_or_default().iter().find_map(|garment| {
+    let drawing = garments.unwrap_or_default().iter().find_map(|garment| {
         let path = document.beside(&garment.pattern).ok()?;
-        pattern::Refused::new(&path, mistakes.clone()).figure
+        pattern::RefusedPattern::new(&path, mistakes.clone()).figure
     });
-    write_flat(figure, drawn)
+    write_flat(figure, drawing)
 }
 
-/// Writes the drawing of flat panels, which is SVG, or says that there is none.
-pub(crate) fn write_flat(figure: &Path, drawn: Option<String>) -> Result<(), Failure> {
-    let Some(drawn) = drawn else {
-        tell("no figure: there is no outline that can be drawn");
+/// Writes the `drawing` of flat panels, which is SVG, or prints that there is none. The ending of
+/// `figure` becomes `svg`.
+pub(crate) fn write_flat(figure: &Path, drawing: Option<String>) -> Result<(), Failure> {
+    let Some(drawing) = drawing else {
+        print_message("no figure: there is no outline that can be drawn");
         return Ok(());
     };
     let mut to = PathBuf::from(figure);
     if is_png(figure) {
         to.set_extension("svg");
-        tell(format_args!("the panels of the pattern are drawn flat, as {}", to.display()));
+        print_message(format_args!(
+            "the panels of the pattern are drawn flat, as {}",
+            to.display()
+        ));
     }
-    Ok(file::write(&to, drawn)?)
+    Ok(file::write(&to, drawing)?)
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use drape::kes::Sheet;
 use drape::run::reports::{CheckedValue, brief, sheet_values};
 
-/// Describes the values of a sheet.
+/// Describes the values of `sheet`, one a line.
 pub(crate) fn describe(sheet: &Sheet) -> String {
     let values = sheet_values(sheet);
     let mut text = values.iter().map(line).collect::<String>();
@@ -16,21 +16,27 @@ pub(crate) fn describe(sheet: &Sheet) -> String {
 }
 
 fn line(value: &CheckedValue) -> String {
-    let with_unit =
-        |text: String, unit: &str| if unit.is_empty() { text } else { format!("{text} {unit}") };
-    let deviation = value.deviation.map_or(String::new(), |own| format!(" ± {}", brief(own)));
+    let deviation =
+        value.deviation.map_or(String::new(), |deviation| format!(" ± {}", brief(deviation)));
     let written = with_unit(brief(value.value) + &deviation, &value.unit);
     let mut line = format!("  {}, {}: {written}", value.label(), value.name);
+
     if value.unit != value.si_unit {
         let _ = write!(line, " = {}", with_unit(brief(value.si), &value.si_unit));
     }
-    if let (Some([least, most]), Some(is_usual)) = (value.usual, value.is_usual) {
-        let word = if is_usual { "usual" } else { "UNUSUAL" };
-        let range = with_unit(format!("{} to {}", brief(least), brief(most)), &value.si_unit);
-        let _ = write!(line, ", {word}: nine fabrics in ten have {range}");
+
+    if let (Some([low, high]), Some(is_usual)) = (value.usual, value.is_usual) {
+        let verdict = if is_usual { "usual" } else { "UNUSUAL" };
+        let range = with_unit(format!("{} to {}", brief(low), brief(high)), &value.si_unit);
+        let _ = write!(line, ", {verdict}: nine fabrics in ten have {range}");
     }
+
     if value.used_for.is_none() && value.symbol != "c" {
         line += "; not used by the model";
     }
     line + "\n"
+}
+
+fn with_unit(text: String, unit: &str) -> String {
+    if unit.is_empty() { text } else { format!("{text} {unit}") }
 }

@@ -7,13 +7,13 @@ use clap::Args;
 #[derive(Args)]
 pub(crate) struct ConvertArguments {
     /// Pattern: *.json of GarmentCode or FreeSewing, *.svg, *.dxf (AAMA, ASTM), or *.toml, - for
-    /// standard input; or what a laboratory measured: a workbook (.xlsx, .xls, .xlsm, .ods), a .csv or
-    /// another table, a .zip, or a folder with the exports of instruments.
+    /// standard input; or what a laboratory measured: a workbook (.xlsx, .xls, .xlsm, .ods), a .csv
+    /// or another table, a .zip, or a folder with the exports of instruments.
     #[arg(required = true, value_name = "FROM")]
     pub(crate) from: Vec<PathBuf>,
-    /// File to write: *.toml, or *.svg for a drawing at true scale; for measurements a sheet.toml, or
-    /// its folder, and a folder where they are of several fabrics; without it, or with -, TOML on
-    /// stdout.
+    /// File to write: *.toml, or *.svg for a drawing at true scale; for measurements a sheet.toml,
+    /// or its folder, and a folder where they are of several fabrics; without it, or with -, TOML
+    /// on stdout.
     #[arg(short, long, value_name = "TO")]
     pub(crate) output: Option<PathBuf>,
     /// The fabric to take of tables that hold several.
@@ -28,7 +28,7 @@ pub(crate) struct ConvertArguments {
     /// Paper of a printer: the drawing becomes one SVG a page, TO-A1.svg and so on.
     #[arg(long, value_name = "a4|a3|letter|WxH")]
     pub(crate) paper: Option<String>,
-    /// Largest width of the drawing, such as that of a plotter's roll, in mm.
+    /// Largest width of the drawing, such as the width of a plotter's roll, in mm.
     #[arg(long, value_name = "MM", conflicts_with = "paper")]
     pub(crate) width: Option<f64>,
     /// Replaces files that exist.

@@ -6,68 +6,74 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 
 use super::arguments::ConvertArguments;
-use crate::console::tell;
+use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say;
 use drape::run::file;
 
-/// Converts a pattern and says what is not in the result, or was taken for it.
+/// Converts the pattern at `from`, and prints its notes: what the result lacks, and what was
+/// assumed.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
-    let form = Form::new(arguments)?;
+    let target = ConversionTarget::new(arguments)?;
     let (unit, size) = (unit(arguments)?, arguments.size.clone());
     let request = Request { unit, size, ..Request::new(from) };
-    let pattern = match input::is_standard(from) {
-        true => Pattern::parse_as(&input::document(from)?, &request)?,
-        false => Pattern::read_as(&request).map_err(|error| match error {
+    let pattern = if input::is_standard(from) {
+        Pattern::parse_as(&input::document(from)?, &request)?
+    } else {
+        Pattern::read_as(&request).map_err(|error| match error {
             Error::Input(mistakes) => Failure::Input(mistakes),
-            other => Failure::Input(Diagnostics::from(Diagnostic::new(from, other.to_string()))),
-        })?,
+            error => Failure::Input(Diagnostics::from(Diagnostic::new(from, error.to_string()))),
+        })?
     };
-    let files = form.files(from, &pattern);
-    if let Form::Text(None) = form {
-        notes(&pattern);
+
+    let files = target.files(from, &pattern);
+    if let ConversionTarget::Text(None) = target {
+        print_notes(&pattern);
         return say(files.iter().map(|file| file.content.trim_end()).collect::<String>());
     }
-    let there: Vec<String> = files
+
+    let existing: Vec<String> = files
         .iter()
         .filter(|file| file.path.exists())
         .map(|file| file.path.display().to_string())
         .collect();
-    if !there.is_empty() && !arguments.force {
-        let message = format!("{} exists; replace it with --force", there.join(", "));
+    if !existing.is_empty() && !arguments.force {
+        let message = format!("{} exists; replace it with --force", existing.join(", "));
         return Err(Failure::Usage(message));
     }
-    notes(&pattern);
-    for written in &files {
-        file::write(&written.path, &written.content)?;
-        say(format_args!("written to {}", written.path.display()))?;
+
+    print_notes(&pattern);
+    for file in &files {
+        file::write(&file.path, &file.content)?;
+        say(format_args!("written to {}", file.path.display()))?;
     }
     Ok(())
 }
 
-/// What is written.
-enum Form {
-    /// TOML, in a file or on stdout.
+/// Format and files of the result.
+enum ConversionTarget {
+    /// TOML, in a file, or on stdout if there is no path.
     Text(Option<PathBuf>),
-    /// A drawing no wider than a width in mm.
+    /// A drawing, at most as wide as the given width in mm.
     Drawing(PathBuf, Option<f64>),
-    /// Pages of paper.
+    /// Drawings on pages of paper.
     Pages(PathBuf, Paper),
 }
 
 /// File to be written.
-struct Written {
+struct OutputFile {
     path: PathBuf,
     content: String,
 }
 
-impl Form {
-    /// Returns what the arguments ask for.
+impl ConversionTarget {
+    /// Returns the target that `arguments` name.
     fn new(arguments: &ConvertArguments) -> Result<Self, Failure> {
         let output = arguments.output.as_ref().filter(|path| !input::is_standard(path));
         let ending = output.and_then(|path| path.extension()).map(|e| e.to_ascii_lowercase());
         let drawing = ending.as_ref().is_some_and(|ending| ending == "svg");
+
         let Some(path) = output.filter(|_| drawing) else {
             if arguments.paper.is_some() || arguments.width.is_some() {
                 let message = "--paper and --width are for a drawing: write it with -o NAME.svg";
@@ -80,6 +86,7 @@ impl Form {
                 output => Ok(Self::Text(output.cloned())),
             };
         };
+
         if let Some(word) = &arguments.paper {
             let paper = Paper::parse(word).ok_or_else(|| {
                 Failure::Usage(format!(
@@ -97,11 +104,11 @@ impl Form {
         }
     }
 
-    /// Returns the files of a pattern.
-    fn files(&self, from: &Path, pattern: &Pattern) -> Vec<Written> {
+    /// Returns the files of `pattern`, which was read from `from`.
+    fn files(&self, from: &Path, pattern: &Pattern) -> Vec<OutputFile> {
         match self {
             Self::Text(path) => {
-                let name = input::shown(from)
+                let name = input::message_path(from)
                     .file_name()
                     .unwrap_or_default()
                     .to_string_lossy()
@@ -111,24 +118,28 @@ impl Form {
                     env!("CARGO_PKG_VERSION")
                 );
                 let path = path.clone().unwrap_or_default();
-                vec![Written { path, content: pattern.to_toml(&heading) }]
+                vec![OutputFile { path, content: pattern.to_toml(&heading) }]
             }
+
             Self::Drawing(path, width) => {
-                vec![Written { path: path.clone(), content: pattern.to_svg(*width) }]
+                vec![OutputFile { path: path.clone(), content: pattern.to_svg(*width) }]
             }
+
             Self::Pages(path, paper) => {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                let page = |page: drape::pattern::Page| Written {
-                    path: path.with_file_name(format!("{stem}-{}.svg", page.name)),
-                    content: page.svg,
-                };
-                pattern.to_pages(*paper).into_iter().map(page).collect()
+                let pages = pattern.to_pages(*paper).into_iter();
+                pages
+                    .map(|page| OutputFile {
+                        path: path.with_file_name(format!("{stem}-{}.svg", page.name)),
+                        content: page.svg,
+                    })
+                    .collect()
             }
         }
     }
 }
 
-/// Returns the unit that the arguments ask for.
+/// Returns the unit of `--unit`.
 fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
     let Some(word) = &arguments.unit else { return Ok(None) };
     match Unit::parse(word) {
@@ -137,7 +148,7 @@ fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
     }
 }
 
-/// Prints the notes of a pattern, which are in the TOML too.
-fn notes(pattern: &Pattern) {
-    pattern.notes().iter().for_each(|note| tell(format_args!("note: {note}")));
+/// Prints the notes of `pattern`, which the TOML contains as well.
+fn print_notes(pattern: &Pattern) {
+    pattern.notes().iter().for_each(|note| print_message(format_args!("note: {note}")));
 }

@@ -6,13 +6,14 @@ use drape::kes::SheetDraft;
 
 use super::arguments::ConvertArguments;
 use crate::commands::sheets::{SHEET_FILE, drafted};
-use crate::console::tell;
+use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
-use crate::say::say;
+use crate::say::{counted, say};
 use drape::run::file;
 
-/// Drafts the sheets of tables and says what was assumed and what needs a word.
+/// Drafts the sheets of the tables at `from`, and prints the assumptions and the sections that the
+/// user has to complete.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
     let for_patterns = [
         ("--unit", arguments.unit.is_some()),
@@ -24,17 +25,20 @@ pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), F
         let message = format!("{name} is for patterns, and {} is none", from.display());
         return Err(Failure::Usage(message));
     }
+
     let to = target(arguments)?;
-    // On stdout the sheet is one for the folder of the tables.
-    let own = if from.is_dir() { from } else { from.parent().unwrap_or(Path::new("")) };
-    let beside = to.as_deref().map_or(own, |to| to.parent().unwrap_or(Path::new("")));
-    let drafts = drafted::drafts(from, beside, arguments.fabric.as_deref())?;
+    // On stdout the paths of the sheet start at the folder of the tables.
+    let tables_folder = if from.is_dir() { from } else { from.parent().unwrap_or(Path::new("")) };
+    let sheet_folder =
+        to.as_deref().map_or(tables_folder, |to| to.parent().unwrap_or(Path::new("")));
+    let drafts = drafted::drafts(from, sheet_folder, arguments.fabric.as_deref())?;
     let targets = targets(from, &drafts, arguments, to)?;
     for to in targets.iter().flatten() {
         file::refuse_existing(to, arguments.force, "replace it with --force")?;
     }
+
     for (draft, to) in drafts.iter().zip(targets) {
-        notes(draft);
+        print_notes(draft);
         let Some(to) = to else {
             say(draft.text.trim_end())?;
             continue;
@@ -42,14 +46,18 @@ pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), F
         file::write(&to, &draft.text)?;
         let SheetDraft { curves, values, open, .. } = draft;
         say(format_args!(
-            "written to {}: {curves} curves, {values} values, {open} sections that need a word",
-            to.display()
+            "written to {}: {}, {}, {} that need a word",
+            to.display(),
+            counted(*curves, "curve", "curves"),
+            counted(*values, "value", "values"),
+            counted(*open, "section", "sections"),
         ))?;
     }
     Ok(())
 }
 
-/// Returns the file of each draft, `None` for stdout; refuses one file for several.
+/// Returns the file of each draft, or `None` for stdout. `to` is the file of a single draft.
+/// Refuses a single file for several drafts.
 fn targets(
     from: &Path,
     drafts: &[SheetDraft],
@@ -59,16 +67,15 @@ fn targets(
     if drafts.len() == 1 {
         return Ok(vec![to]);
     }
+
     let folder = arguments.output.as_ref().filter(|path| !input::is_standard(path));
     drafted::refuse_file(from, folder.map_or(Path::new("-.toml"), PathBuf::as_path), drafts)?;
     let folder = folder.map_or(Path::new(""), PathBuf::as_path);
-    let file = |draft: &SheetDraft| {
-        Some(folder.join(format!("{}.sheet.toml", drafted::name(from, draft, true))))
-    };
-    Ok(drafts.iter().map(file).collect())
+    let names = drafts.iter().map(|draft| drafted::name(from, draft, true));
+    Ok(names.map(|name| Some(folder.join(format!("{name}.sheet.toml")))).collect())
 }
 
-/// Returns the file to write: a `*.toml`, or the sheet of a folder; `None` for stdout.
+/// Returns the file to write, a `*.toml` or the sheet of a folder, or `None` for stdout.
 fn target(arguments: &ConvertArguments) -> Result<Option<PathBuf>, Failure> {
     let Some(path) = arguments.output.as_ref().filter(|path| !input::is_standard(path)) else {
         return Ok(None);
@@ -83,7 +90,7 @@ fn target(arguments: &ConvertArguments) -> Result<Option<PathBuf>, Failure> {
     }
 }
 
-/// Prints the notes of a draft, which are in the sheet too.
-fn notes(draft: &SheetDraft) {
-    draft.notes.iter().for_each(|note| tell(format_args!("note: {note}")));
+/// Prints the notes of `draft`, which the sheet contains as well.
+fn print_notes(draft: &SheetDraft) {
+    draft.notes.iter().for_each(|note| print_message(format_args!("note: {note}")));
 }

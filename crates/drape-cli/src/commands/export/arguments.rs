@@ -16,18 +16,18 @@ pub(crate) struct ExportArguments {
     /// Format [default: by the ending of FILE].
     #[arg(long, value_enum, value_name = "F")]
     pub(crate) format: Option<Format>,
-    /// File to write. What a format has in several files is beside it: the OBJ file that PC2 and MDD
-    /// move, the numbered files of a sequence.
+    /// File to write. What a format has in several files is beside it: the OBJ file that PC2 and
+    /// MDD move, the numbered files of a sequence.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// One frame, by its number, from 0.
     #[arg(long, value_name = "N", conflicts_with = "frames")]
     pub(crate) frame: Option<usize>,
-    /// Frames from number A to number B, which is one of them; without A from the first, without B to
-    /// the last [default: all; of OBJ and SVG the last frame].
+    /// Frames from number A to number B, which is one of them; without A from the first, without B
+    /// to the last [default: all; of OBJ and SVG the last frame].
     #[arg(long, value_name = "A..B")]
     pub(crate) frames: Option<FrameRange>,
-    /// Frames per second [default: that of the run].
+    /// Frames per second [default: the rate of the run].
     #[arg(long, value_name = "F")]
     pub(crate) fps: Option<f64>,
     /// Replaces files that exist; of a sequence, those after its end are removed.
@@ -37,7 +37,7 @@ pub(crate) struct ExportArguments {
     pub(crate) look: LookArguments,
 }
 
-/// Format of other programs.
+/// Format of another program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// Wavefront OBJ: one frame, or a numbered sequence.
@@ -65,7 +65,7 @@ pub(crate) enum Format {
     Apng,
 }
 
-/// Numbers of frames as they are typed: `A..B`, `A..`, `..B`.
+/// Range of frame numbers, parsed from `A..B`, `A..` or `..B`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct FrameRange {
     first: Option<usize>,
@@ -73,7 +73,7 @@ pub(crate) struct FrameRange {
 }
 
 impl FrameRange {
-    /// Returns the numbers, of a run whose last frame has a number.
+    /// Returns the frame numbers. `last` is the number of the run's last frame.
     pub(crate) fn numbers(self, last: usize) -> RangeInclusive<usize> {
         self.first.unwrap_or(0)..=self.last.unwrap_or(last)
     }
@@ -83,13 +83,21 @@ impl FromStr for FrameRange {
     type Err = String;
 
     fn from_str(text: &str) -> Result<FrameRange, String> {
-        let wrong = || format!("`{text}` is no range of frames; give two numbers, such as 10..20");
-        let number = |text: &str| match text.trim() {
-            "" => Ok(None),
-            digits => digits.parse().map(Some).map_err(|_| wrong()),
-        };
-        let (first, last) = text.split_once("..").ok_or_else(wrong)?;
-        Ok(FrameRange { first: number(first)?, last: number(last)? })
+        let range = text
+            .split_once("..")
+            .and_then(|(first, last)| Some((open_end(first)?, open_end(last)?)))
+            .map(|(first, last)| FrameRange { first, last });
+        range.ok_or_else(|| {
+            format!("`{text}` is no range of frames; give two numbers, such as 10..20")
+        })
+    }
+}
+
+/// Parses one end of a range, which may be empty. Returns `None` if `text` is no number.
+fn open_end(text: &str) -> Option<Option<usize>> {
+    match text.trim() {
+        "" => Some(None),
+        digits => digits.parse().ok().map(Some),
     }
 }
 
@@ -104,7 +112,7 @@ mod tests {
         assert_eq!(numbers("10.."), Ok(10..=60));
         assert_eq!(numbers("..20"), Ok(0..=20));
         for wrong in ["10", "a..b", "1...3", "-1..3", ""] {
-            assert!(numbers(wrong).is_err_and(|told| told.contains("10..20")), "{wrong}");
+            assert!(numbers(wrong).is_err_and(|error| error.contains("10..20")), "{wrong}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Files of an export: their names, and whether they are there already.
+//! Files of an export: their names, and the check that no file is replaced unasked.
 
 use std::path::{Path, PathBuf};
 
@@ -14,21 +14,21 @@ use drape::run::file;
 type Writer = std::io::BufWriter<std::fs::File>;
 
 /// Files of an export.
-pub(super) struct Files<'a> {
+pub(super) struct OutputFiles<'a> {
     pub(super) output: &'a Path,
     pub(super) force: bool,
 }
 
-impl Files<'_> {
-    /// Returns a path beside the output, or in a folder of its name: its name with something added.
-    pub(super) fn beside(&self, added: &str) -> PathBuf {
+impl OutputFiles<'_> {
+    /// Returns a path beside the output, whose name is the stem of the output followed by `suffix`.
+    pub(super) fn beside(&self, suffix: &str) -> PathBuf {
         let mut name = self.output.file_stem().unwrap_or_default().to_owned();
-        name.push(added);
+        name.push(suffix);
         self.output.with_file_name(name)
     }
 
-    /// Refuses to replace files.
-    pub(super) fn free<'p>(
+    /// Refuses to replace any of `paths` that exist, unless the user gave `--force`.
+    pub(super) fn refuse_existing<'p>(
         &self,
         paths: impl IntoIterator<Item = &'p Path>,
     ) -> Result<(), Failure> {
@@ -37,22 +37,22 @@ impl Files<'_> {
         Ok(paths.try_for_each(|path| file::refuse_existing(path, self.force, help))?)
     }
 
-    /// Writes the output itself.
-    pub(super) fn one(
+    /// Writes the output file by `content`.
+    pub(super) fn write_one(
         &self,
         content: impl FnOnce(&mut Writer) -> Result<(), drape::export::Error>,
     ) -> Result<(), Failure> {
-        self.free([self.output])?;
+        self.refuse_existing([self.output])?;
         file::write_by(self.output, |to| content(to).map_err(Failure::from))
     }
 
-    /// Writes a field of the first frame of a clip on the flat pattern.
+    /// Writes `field` in the first frame of `clip` as colours on the flat pattern.
     pub(super) fn pattern_map(&self, clip: &Clip, field: Field) -> Result<(), Failure> {
         let recording = clip.recording();
         let frame = recording.frame(clip.frames()[0])?;
-        let fields = values(&mut Fields::new(recording), recording, &frame)?;
-        let Some((_, values)) = fields.iter().find(|(own, _)| *own == field) else {
-            let known: Vec<&str> = fields.iter().map(|(own, _)| own.key()).collect();
+        let fields = FieldSource::new(recording).values(&frame)?;
+        let Some((_, values)) = fields.iter().find(|(known, _)| *known == field) else {
+            let known: Vec<&str> = fields.iter().map(|(known, _)| known.key()).collect();
             return Err(Failure::Usage(format!(
                 "--map {}: it is not known in frame {}; what is known is {}",
                 field.key(),
@@ -61,27 +61,28 @@ impl Files<'_> {
             )));
         };
         let map = PatternMap { recording, frame: &frame, field, values };
-        self.one(|to| write_svg(&map, to).map_err(drape::export::Error::from))
+        self.write_one(|to| write_svg(&map, to).map_err(drape::export::Error::from))
     }
 
-    /// Writes an OBJ file for each frame, with its number, and removes those of a longer sequence that
-    /// was there.
+    /// Writes an OBJ file with its number for each frame of `clip`. Files of an earlier, longer
+    /// sequence are removed.
     pub(super) fn sequence(&self, clip: &Clip) -> Result<(), Failure> {
         let first = clip.frames()[0];
-        let path = |index: usize| self.beside(&format!("-{:05}.obj", first + index));
-        let paths: Vec<PathBuf> = (0..clip.frame_count()).map(path).collect();
-        self.free(paths.iter().map(PathBuf::as_path))?;
+        let mut numbered = (first..).map(|number| self.beside(&format!("-{number:05}.obj")));
+        let paths: Vec<PathBuf> = numbered.by_ref().take(clip.frame_count()).collect();
+        self.refuse_existing(paths.iter().map(PathBuf::as_path))?;
         for (path, number) in paths.iter().zip(clip.frames()) {
             let frame = clip.recording().frame(*number)?;
-            let write = |to: &mut Writer| write_obj(clip.recording(), &frame, to);
             file::write_by(path, |to| {
-                write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+                write_obj(clip.recording(), &frame, to)
+                    .map_err(|error| Failure::from(drape::export::Error::from(error)))
             })?;
         }
-        self.remove_following((clip.frame_count()..).map(path))
+        self.remove_following(numbered)
     }
 
-    /// Removes the files of a longer sequence that was there, where files may be replaced.
+    /// Removes the files of an earlier, longer sequence, whose next names are `paths`, if the user
+    /// gave `--force`.
     pub(super) fn remove_following(
         &self,
         paths: impl Iterator<Item = PathBuf>,
@@ -89,70 +90,65 @@ impl Files<'_> {
         if self.force { Ok(file::remove_following(paths)?) } else { Ok(()) }
     }
 
-    /// Writes a point cache, and beside it the OBJ file that it moves, in its first frame.
+    /// Writes a point cache by `content`, and beside it the OBJ file that the cache moves, in the
+    /// first frame of `clip`.
     pub(super) fn cache(
         &self,
         clip: &Clip,
         content: impl FnOnce(&mut Writer) -> Result<(), drape::export::Error>,
     ) -> Result<(), Failure> {
         let rest = self.output.with_extension("obj");
-        self.free([self.output, &rest])?;
+        self.refuse_existing([self.output, &rest])?;
         let frame = clip.recording().frame(clip.frames()[0])?;
-        let write = |to: &mut Writer| write_rest_obj(clip.recording(), &frame, to);
         file::write_by(&rest, |to| {
-            write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+            write_rest_obj(clip.recording(), &frame, to)
+                .map_err(|error| Failure::from(drape::export::Error::from(error)))
         })?;
         file::write_by(self.output, |to| content(to).map_err(Failure::from))
     }
 
-    /// Writes files of VTK: of one frame the output itself, of more a list of files in a folder beside
-    /// it. Bodies have files of their own, one for each place where they are.
-    pub(super) fn vtk(&self, clip: &Clip, one: bool) -> Result<(), Failure> {
+    /// Writes files of VTK. For a single frame the output is a `.vtp` file. For several frames the
+    /// output is a list of the files in a folder beside it. Bodies have separate files, one for
+    /// each state of motion.
+    pub(super) fn vtk(&self, clip: &Clip, is_single: bool) -> Result<(), Failure> {
         let (recording, has_bodies) =
             (clip.recording(), !clip.recording().manifest().bodies.is_empty());
-        let mut fields = Fields::new(recording);
-        let mut vtp = |path: &Path, number: usize, surface: Surface| {
-            let frame = recording.frame(number)?;
-            let fields = match surface {
-                Surface::Cloth => values(&mut fields, recording, &frame)?,
-                Surface::Bodies => Vec::new(),
-            };
-            let data = PolyData { recording, frame: &frame, surface, fields: &fields };
-            let write = |to: &mut Writer| write_vtp(&data, to);
-            file::write_by(path, |to| {
-                write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
-            })
-        };
-        if one {
-            let bodies = self.beside("-bodies.vtp");
-            self.free([self.output])?;
-            vtp(self.output, clip.frames()[0], Surface::Cloth)?;
+        let mut fields = FieldSource::new(recording);
+        if is_single {
+            let number = clip.frames()[0];
+            self.refuse_existing([self.output])?;
+            write_surface(self.output, &mut fields, &recording.frame(number)?, Surface::Cloth)?;
             if has_bodies {
-                self.free([&*bodies])?;
-                vtp(&bodies, clip.frames()[0], Surface::Bodies)?;
+                let bodies = self.beside("-bodies.vtp");
+                self.refuse_existing([&*bodies])?;
+                write_surface(&bodies, &mut fields, &recording.frame(number)?, Surface::Bodies)?;
             }
             return Ok(());
         }
+
         let folder = self.beside("");
         let list = self.output.with_extension("pvd");
-        self.free([&*folder, &list])?;
+        self.refuse_existing([&*folder, &list])?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy();
         let (mut listed, mut bodies) = (Vec::new(), None);
         for (number, &time) in clip.frames().iter().zip(clip.times()) {
             let cloth = format!("cloth-{number:05}.vtp");
-            vtp(&folder.join(&cloth), *number, Surface::Cloth)?;
+            let frame = recording.frame(*number)?;
+            write_surface(&folder.join(&cloth), &mut fields, &frame, Surface::Cloth)?;
             listed.push(CollectionFile {
                 time,
                 file: format!("{name}/{cloth}"),
                 surface: Surface::Cloth,
             });
+
+            // Frames between which no body moves share the file of the bodies.
             if has_bodies {
-                let source = recording.frame(*number)?.bodies_file;
-                let file = match bodies.take().filter(|(before, _)| *before == source) {
+                let source = frame.bodies_file.clone();
+                let file = match bodies.take().filter(|(earlier, _)| *earlier == source) {
                     Some((_, file)) => file,
                     None => {
                         let file = format!("bodies-{number:05}.vtp");
-                        vtp(&folder.join(&file), *number, Surface::Bodies)?;
+                        write_surface(&folder.join(&file), &mut fields, &frame, Surface::Bodies)?;
                         file
                     }
                 };
@@ -161,17 +157,46 @@ impl Files<'_> {
                 listed.push(CollectionFile { time, file, surface: Surface::Bodies });
             }
         }
+
         file::write_by(&list, |to| write_pvd(&listed, to).map_err(Failure::from))
     }
 }
 
-/// Returns the fields of a frame that are known.
-fn values(
-    fields: &mut Fields,
-    recording: &Recording,
+/// Writes one `surface` of `frame` as a `.vtp` file; the cloth has its known `fields`.
+fn write_surface(
+    path: &Path,
+    fields: &mut FieldSource<'_>,
     frame: &Frame,
-) -> Result<Vec<(Field, Vec<f64>)>, Failure> {
-    let before = frame.number.checked_sub(1).map(|number| recording.frame(number)).transpose()?;
-    let mut value = |field: Field| Some((field, fields.values(field, frame, before.as_ref())?));
-    Ok(Field::ALL.into_iter().filter_map(&mut value).collect())
+    surface: Surface,
+) -> Result<(), Failure> {
+    let values = match surface {
+        Surface::Cloth => fields.values(frame)?,
+        Surface::Bodies => Vec::new(),
+    };
+    let data = PolyData { recording: fields.recording, frame, surface, fields: &values };
+    file::write_by(path, |to| {
+        write_vtp(&data, to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+    })
+}
+
+/// Fields of the frames of a recording.
+struct FieldSource<'a> {
+    recording: &'a Recording,
+    fields: Fields<'a>,
+}
+
+impl<'a> FieldSource<'a> {
+    fn new(recording: &'a Recording) -> Self {
+        Self { recording, fields: Fields::new(recording) }
+    }
+
+    /// Returns the values of each field that is known in `frame`.
+    fn values(&mut self, frame: &Frame) -> Result<Vec<(Field, Vec<f64>)>, Failure> {
+        let earlier = frame.number.checked_sub(1);
+        let earlier = earlier.map(|number| self.recording.frame(number)).transpose()?;
+        let known = Field::ALL
+            .into_iter()
+            .filter_map(|field| Some((field, self.fields.values(field, frame, earlier.as_ref())?)));
+        Ok(known.collect())
+    }
 }

@@ -1,58 +1,60 @@
-//! Export as pictures: a numbered sequence of PNG files, or one that is animated.
+//! Export as pictures: a numbered sequence of PNG files, or one animated PNG.
 
 use std::path::{Path, PathBuf};
 
 use drape::export::Clip;
 use drape::report::{Animation, Picture};
 
-use super::files::Files;
+use super::files::OutputFiles;
 use crate::commands::show::look::LookArguments;
 use crate::failure::Failure;
-use crate::pages::run_picture::{Look, RunPictures};
+use crate::pages::run_picture::{PictureSettings, RunPictures};
 use drape::run::file;
 
 /// Width and height of an animation of one view, in pixels.
 pub(super) const ANIMATED: [u32; 2] = [800, 600];
 
-/// Largest number of pixels of all pictures together, which take some ten minutes.
+/// Largest number of pixels of all pictures together. Drawing that number takes some ten minutes.
 const PIXELS_MAX: u64 = 1_500_000_000;
 
 /// Pictures of a clip.
 pub(super) struct ClipPictures<'a> {
     clip: &'a Clip<'a>,
-    look: Look,
+    settings: PictureSettings,
 }
 
 impl<'a> ClipPictures<'a> {
-    /// Returns the pictures of a clip; `size` is taken where the options have none.
+    /// Returns the pictures of `clip`. `size` is the default width and height, in pixels, if `look`
+    /// has none.
     pub(super) fn new(
         clip: &'a Clip<'a>,
         look: &LookArguments,
         size: Option<[u32; 2]>,
     ) -> Result<ClipPictures<'a>, Failure> {
-        let look = look.look(clip.recording(), size)?;
-        let [width, height] = look.size;
+        let settings = look.settings(clip.recording(), size)?;
+        let [width, height] = settings.size;
         let count = clip.frame_count();
         if count as u64 * u64::from(width) * u64::from(height) > PIXELS_MAX {
-            let most = PIXELS_MAX / (u64::from(width) * u64::from(height));
+            let count_max = PIXELS_MAX / (u64::from(width) * u64::from(height));
             return Err(Failure::Usage(format!(
-                "{count} pictures of {width} x {height} pixels are too many; at most {most}: give a smaller --size, fewer --frames or a lower --fps"
+                "{count} pictures of {width} x {height} pixels are too many; at most {count_max}: give a smaller --size, fewer --frames or a lower --fps"
             )));
         }
-        Ok(ClipPictures { clip, look })
+        Ok(ClipPictures { clip, settings })
     }
 
-    /// Draws one picture after the other, and hands each on with its index.
+    /// Draws one picture after the other, and passes each with its index to `take`. A frame that
+    /// repeats is drawn once.
     fn each(
         &self,
         mut take: impl FnMut(usize, &Picture) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let numbers = self.clip.frames();
-        let mut pictures = RunPictures::new(self.clip.recording(), &self.look, numbers)?;
+        let mut pictures = RunPictures::new(self.clip.recording(), &self.settings, numbers)?;
         let mut drawn: Option<(usize, Picture)> = None;
         for (index, number) in numbers.iter().enumerate() {
             let picture = match drawn.take() {
-                Some((before, picture)) if before == *number => picture,
+                Some((earlier, picture)) if earlier == *number => picture,
                 _ => pictures.draw(*number)?,
             };
             take(index, &picture)?;
@@ -61,38 +63,40 @@ impl<'a> ClipPictures<'a> {
         Ok(())
     }
 
-    /// Writes a file for each picture, with its number; of one picture the output itself.
-    pub(super) fn sequence(&self, files: &Files<'_>) -> Result<(), Failure> {
+    /// Writes a file with its number for each picture. A single picture is written to the output
+    /// itself.
+    pub(super) fn sequence(&self, files: &OutputFiles<'_>) -> Result<(), Failure> {
         let first = self.clip.frames()[0];
-        let path = |index: usize| match self.clip.frame_count() {
-            1 => files.output.to_owned(),
-            _ => files.beside(&format!("-{:05}.png", first + index)),
+        let count = self.clip.frame_count();
+        let mut numbered = (first..).map(|number| files.beside(&format!("-{number:05}.png")));
+        let paths: Vec<PathBuf> = if count == 1 {
+            vec![files.output.to_owned()]
+        } else {
+            numbered.by_ref().take(count).collect()
         };
-        let paths: Vec<PathBuf> = (0..self.clip.frame_count()).map(path).collect();
-        files.free(paths.iter().map(PathBuf::as_path))?;
+
+        files.refuse_existing(paths.iter().map(PathBuf::as_path))?;
         self.each(|index, picture| {
-            Ok(file::write(&paths[index], picture.png().map_err(Failure::of_picture)?)?)
+            Ok(file::write(&paths[index], picture.png().map_err(Failure::from_picture)?)?)
         })?;
-        match self.clip.frame_count() {
-            1 => Ok(()),
-            count => files.remove_following((count..).map(path)),
-        }
+        if count == 1 { Ok(()) } else { files.remove_following(numbered) }
     }
 
-    /// Writes an animated PNG file that loops, with the times of the frames.
-    pub(super) fn animation(&self, files: &Files<'_>) -> Result<(), Failure> {
-        files.free([files.output as &Path])?;
+    /// Writes an animated PNG file that loops. Each picture is shown until the time of the next
+    /// frame.
+    pub(super) fn animation(&self, files: &OutputFiles<'_>) -> Result<(), Failure> {
+        files.refuse_existing([files.output as &Path])?;
         let times = self.clip.times();
         file::write_by(files.output, |to| {
             let count = self.clip.frame_count() as u32;
             let mut animation =
-                Animation::new(to, count, self.look.size).map_err(Failure::of_picture)?;
+                Animation::new(to, count, self.settings.size).map_err(Failure::from_picture)?;
             self.each(|index, picture| {
                 let until = times.get(index + 1);
                 let seconds = until.map_or(1.0 / self.clip.rate(), |next| next - times[index]);
-                animation.add(picture.clone(), seconds).map_err(Failure::of_picture)
+                animation.add(picture.clone(), seconds).map_err(Failure::from_picture)
             })?;
-            animation.finish().map_err(Failure::of_picture)
+            animation.finish().map_err(Failure::from_picture)
         })
     }
 }

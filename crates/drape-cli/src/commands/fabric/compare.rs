@@ -1,4 +1,4 @@
-//! `drape fabric compare`: fabrics side by side, what was measured and their laws.
+//! `drape fabric compare`: compares fabrics, their measurements and their laws.
 
 use std::path::{Path, PathBuf};
 
@@ -14,19 +14,20 @@ use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_json, say_written};
 
-/// Number of fabrics whose names are all in that of the page.
+/// Largest number of fabrics whose names all stand in the name of the page.
 const NAMED: usize = 3;
 
-/// Fabric with the sheet of its measurements, where that is at hand.
-struct Compared {
+/// Fabric with the sheet of its measurements, if there is one.
+struct MeasuredFabric {
     fabric: Fabric,
     sheet: Option<Sheet>,
 }
 
-/// Compares fabrics, prints the table and stores the page.
+/// Compares the fabrics at `paths`, prints the table and stores the page in the folder `report`.
 pub(super) fn compare(paths: &[PathBuf], report: Option<&Path>, json: bool) -> Result<(), Failure> {
-    let fabrics = paths.iter().map(|path| Compared::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let page = compare_page(&fabrics.iter().map(Compared::borrow).collect::<Vec<_>>());
+    let fabrics =
+        paths.iter().map(|path| MeasuredFabric::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let page = compare_page(&fabrics.iter().map(MeasuredFabric::borrow).collect::<Vec<_>>());
     if json {
         say_json(&page)?;
     } else {
@@ -42,7 +43,7 @@ pub(super) fn compare(paths: &[PathBuf], report: Option<&Path>, json: bool) -> R
     Ok(())
 }
 
-/// Returns the name of the page, of the names of the fabrics.
+/// Returns the name of the page, composed of the names of the fabrics.
 fn name(paths: &[PathBuf]) -> String {
     let stems: Vec<String> = paths.iter().map(|path| sheets::stem(path)).collect();
     match stems.len() {
@@ -51,8 +52,9 @@ fn name(paths: &[PathBuf]) -> String {
     }
 }
 
-impl Compared {
-    /// Reads a fabric with the sheet that it was fitted to: the path itself, or the sheet beside it.
+impl MeasuredFabric {
+    /// Reads the fabric at `path`, and the sheet to which it was fitted: `path` itself, or the
+    /// sheet beside it.
     fn read(path: &Path) -> Result<Self, Failure> {
         let fabric = read(path)?;
         let is_sheet = !input::is_standard(path) && FileKind::of(path) == Some(FileKind::Sheet);
@@ -65,8 +67,8 @@ impl Compared {
     }
 }
 
-/// Returns the sheet beside a fabric, if it is the one that the fabric was fitted to and has not been
-/// changed since.
+/// Returns the sheet beside the `fabric` at `path`, if the fabric was fitted to it and the sheet
+/// has not changed since.
 fn beside(path: &Path, fabric: &Fabric) -> Option<Sheet> {
     let provenance = fabric.provenance.as_ref()?;
     let file = path.parent()?.join(sheets::SHEET_FILE);

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_written};
 
-/// What the formats take and leave out, for the end of the help.
+/// Contents and limits of the formats. The long help ends with this text.
 const PROGRAMS: &str = "\
 The numbers are read off the laws by virtual tests. The file says what they lose: friction and \
 hysteresis, how the stiffness grows with the load, and for Blender and ppf-contact-solver the difference \
@@ -47,7 +47,8 @@ pub(crate) struct MaterialArguments {
 enum Format {
     /// Blender's cloth: a Python script that sets the cloth modifier of the selected meshes (.py).
     Blender,
-    /// ppf-contact-solver: a material profile of its Blender add-on, with the keys of Python (.toml).
+    /// ppf-contact-solver: a material profile of its Blender add-on, with the keys of Python
+    /// (.toml).
     Ppf,
     /// Browzwear: a table of what is typed into the physics of VStitcher and Lotta (.csv).
     Browzwear,
@@ -58,8 +59,8 @@ enum Format {
 }
 
 impl Format {
-    /// Returns the format of a file, by its ending.
-    fn of(path: &Path) -> Option<Self> {
+    /// Returns the format that the ending of `path` names.
+    fn from_ending(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
             "py" => Some(Self::Blender),
@@ -71,8 +72,9 @@ impl Format {
         }
     }
 
-    /// Returns the bytes of the file.
-    fn write(self, material: &Material, modified: SystemTime) -> Vec<u8> {
+    /// Returns the bytes of the file of `material`. `modified` is the time at which the fabric was
+    /// written.
+    fn encode(self, material: &Material, modified: SystemTime) -> Vec<u8> {
         match self {
             Self::Blender => material.to_blender().into(),
             Self::Ppf => material.to_ppf().into(),
@@ -92,12 +94,14 @@ pub(super) fn export(arguments: &MaterialArguments) -> Result<(), Failure> {
         file::refuse_existing(output, *force, "replace it with --force")?;
     }
 
-    // The numbers, and the file of them.
+    // The numbers are read off the laws at the load.
     let material = Material::from_fabric(&read(path)?, *load).map_err(|error| match error {
         Error::Load { .. } => Failure::Usage(format!("--load: {error}")),
-        error => Failure::Input(Diagnostic::new(input::shown(path), error.to_string()).into()),
+        error => {
+            Failure::Input(Diagnostic::new(input::message_path(path), error.to_string()).into())
+        }
     })?;
-    let content = format.write(&material, modified(path));
+    let content = format.encode(&material, modified(path));
     let Some(output) = output else {
         let text = String::from_utf8(content).expect("formats for standard output are texts");
         return say(text.trim_end());
@@ -111,26 +115,28 @@ pub(super) fn export(arguments: &MaterialArguments) -> Result<(), Failure> {
     material.losses.iter().try_for_each(|loss| say_written(format_args!("  {loss}")))
 }
 
-/// Returns the format that is asked for, by name or by the ending of the file.
+/// Returns the format of `--format`, or the format that the ending of `output` names.
 fn format(arguments: &MaterialArguments, output: Option<&Path>) -> Result<Format, Failure> {
-    let format = arguments.format.or_else(|| Format::of(output?));
-    let usage = |message: &str| Failure::Usage(message.into());
+    let format = arguments.format.or_else(|| Format::from_ending(output?));
     match (format, output) {
         (None, Some(path)) => Err(Failure::Usage(format!(
             "{}: the ending names no format; give --format blender, ppf, browzwear, u3m or u3ma, or a \
              file that ends in .py, .toml, .csv, .u3m or .u3ma",
             path.display()
         ))),
-        (None, None) => Err(usage(
+        (None, None) => Err(Failure::Usage(
             "name the program: --format blender, ppf, browzwear, u3m or u3ma, or a file with -o that \
-             ends in .py, .toml, .csv, .u3m or .u3ma",
+             ends in .py, .toml, .csv, .u3m or .u3ma"
+                .into(),
         )),
-        (Some(Format::U3ma), None) => Err(usage("a U3M archive is no text; give a file with -o")),
+        (Some(Format::U3ma), None) => {
+            Err(Failure::Usage("a U3M archive is no text; give a file with -o".into()))
+        }
         (Some(format), _) => Ok(format),
     }
 }
 
-/// Returns the time at which a fabric was written; standard input has none.
+/// Returns the time at which the fabric at `path` was written, or the epoch for standard input.
 fn modified(path: &Path) -> SystemTime {
     let modified = std::fs::metadata(input::sheet_file(path)).and_then(|file| file.modified());
     modified.unwrap_or(SystemTime::UNIX_EPOCH)

@@ -10,8 +10,9 @@ use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::say::{say, say_json};
 
+/// Lists the sheets in `folders`, and reports the mistakes of all sheets at the end.
 pub(super) fn list(folders: &[PathBuf], json: bool) -> Result<(), Failure> {
-    let paths = sheets::sheets(folders)?;
+    let paths = sheets::find_sheets(folders)?;
     let sheets: Vec<_> = paths.iter().map(|path| (path, sheets::read(path))).collect();
     if json {
         let rows = sheets.iter().filter_map(|(path, sheet)| Some(row(path, sheet.as_ref().ok()?)));
@@ -24,7 +25,7 @@ pub(super) fn list(folders: &[PathBuf], json: bool) -> Result<(), Failure> {
     Ok(Diagnostics::check(mistakes)?)
 }
 
-/// Prints the table of the sheets that could be read.
+/// Prints the table of the `sheets` that could be read.
 fn table(sheets: &[(&PathBuf, Result<Sheet, Diagnostics>)]) -> Result<(), Failure> {
     say(format_args!("{:<44} {:>6} {:>7}  {:<38} sheet", "fabric", "g/m²", "mm", "measured"))?;
     let read = sheets.iter().filter_map(|(path, sheet)| Some((path, sheet.as_ref().ok()?)));
@@ -34,7 +35,8 @@ fn table(sheets: &[(&PathBuf, Result<Sheet, Diagnostics>)]) -> Result<(), Failur
     Ok(())
 }
 
-/// Returns the tests of a sheet that have curves, and whether it has values.
+/// Returns the names of the tests of which `sheet` has curves, followed by `values` if it has
+/// values.
 fn measured(sheet: &Sheet) -> Vec<&str> {
     let mut tests: Vec<&str> = sheet.curves.iter().map(|curve| curve.test.name()).collect();
     tests.dedup();
@@ -44,7 +46,7 @@ fn measured(sheet: &Sheet) -> Vec<&str> {
     tests
 }
 
-/// Returns a sheet as JSON.
+/// Returns the `sheet` at `path` as JSON.
 fn row(path: &Path, sheet: &Sheet) -> Value {
     json!({
         "sheet": path,
@@ -55,12 +57,12 @@ fn row(path: &Path, sheet: &Sheet) -> Value {
     })
 }
 
-/// Line of the table for a sheet: mass, thickness, tests that have curves, and whether it has
-/// values.
+/// Returns the line of the table for `sheet`: mass in g/m², thickness in mm, and what was measured.
+fn number(value: Option<f64>, scale: f64, digits: usize) -> String {
+    value.map_or("–".into(), |value| format!("{:.digits$}", value * scale))
+}
+
 fn line(path: &Path, sheet: &Sheet) -> String {
-    let number = |value: Option<f64>, scale: f64, digits: usize| {
-        value.map_or("–".into(), |value| format!("{:.digits$}", value * scale))
-    };
     format!(
         "{:<44} {:>6} {:>7}  {:<38} {}",
         sheet.name,

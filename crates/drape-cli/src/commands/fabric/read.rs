@@ -9,11 +9,14 @@ use drape::scene::Model;
 use crate::failure::Failure;
 use crate::input;
 
-/// Kinds of files that give a fabric.
+/// Kinds of files that hold a fabric.
 const KINDS: [FileKind; 2] = [FileKind::Fabric, FileKind::Sheet];
 
-/// Reads a fabric from its file, or from a sheet or its folder, which it fits.
+/// Reads the fabric at `path`. A sheet, or the sheet in a folder, is fitted.
 pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     input::expect(path, &KINDS)?;
-    Ok(drape::run::fabric_of(&input::document_of(&input::sheet_file(path), &KINDS)?, Model::Kes)?)
+    Ok(drape::run::fabric_of(
+        &input::document_of_kind(&input::sheet_file(path), &KINDS)?,
+        Model::Kes,
+    )?)
 }

@@ -1,7 +1,8 @@
 //! `drape report`: the report on fabrics that a laboratory sends to its customer, one HTML page.
 //!
-//! The fabrics are read and fitted ([`tested`]), their drapes are taken from results of `drape test --drape`
-//! or run, girths of garments from runs ([`worn`]), and the page is made by `drape::run::reports`.
+//! The fabrics are read and fitted by [`tested`]. Their drapes are read from results of `drape test
+//! --drape`, or run. The girths of garments are read from runs by [`worn`]. `drape::run::reports`
+//! composes the page.
 
 mod arguments;
 mod tested;
@@ -14,15 +15,15 @@ use drape::run::file;
 use drape::run::reports::{CustomerSubject, customer_page, laws_digest};
 
 pub(crate) use self::arguments::ReportArguments;
-use self::tested::Tested;
-use crate::commands::test::drapes::stored::{Stored, picture, read, store};
+use self::tested::TestedFabric;
+use crate::commands::test::drapes::stored::{StoredDrape, picture, read, store};
 use crate::commands::test::drapes::{DrapeRequest, check_spacing};
-use crate::console::{Console, note, tell};
+use crate::console::{Console, note, print_message};
 use crate::failure::Failure;
 use crate::input;
 use crate::say::{say, say_json, say_written};
 
-/// Size of a page above which it is said to be large, in bytes.
+/// A page larger than this, in bytes, gets a note.
 const LARGE: usize = 3_000_000;
 
 /// Executes `drape report`.
@@ -33,23 +34,25 @@ pub(crate) fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     let request =
         arguments.drape.then(|| arguments.meter.request(arguments.spacing)).transpose()?;
     let stored = read(&arguments.drapes, arguments.drape)?;
+
     let fabrics = tested::read(&arguments.fabrics, arguments.fabric.as_deref())?;
     let records = arguments.record.records(&fabrics)?;
     let mut subjects = Vec::new();
     let drapes = drapes(&fabrics, &stored, request.as_ref(), arguments)?;
-    for ((own, record), drape) in fabrics.iter().zip(records).zip(drapes) {
+    for ((tested, record), drape) in fabrics.iter().zip(records).zip(drapes) {
         subjects.push(CustomerSubject {
-            fabric: own.fabric(),
-            measured: own.measured(),
+            fabric: tested.fabric(),
+            measured: tested.measured(),
             record,
             drape: drape.reported,
-            notes: own.notes.iter().cloned().chain(drape.notes).collect(),
+            notes: tested.notes.iter().cloned().chain(drape.notes).collect(),
         });
     }
 
     let mut page = customer_page(&subjects);
     page.garments = worn::read(&arguments.garments)?;
     let html = page.to_html()?;
+
     if let Some(csv) = &arguments.csv {
         file::write(csv, page.to_csv()?)?;
     }
@@ -71,10 +74,12 @@ pub(crate) fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses files that are no page and no table.
+fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+/// Refuses output files whose ending is not HTML or CSV, and two outputs on stdout.
 fn check_output(arguments: &ReportArguments) -> Result<(), Failure> {
-    let ending =
-        |path: &Path| path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let output = &arguments.output;
     if !input::is_standard(output) && !["html", "htm"].contains(&ending(output).as_str()) {
         let message = format!(
@@ -83,10 +88,12 @@ fn check_output(arguments: &ReportArguments) -> Result<(), Failure> {
         );
         return Err(Failure::Usage(message));
     }
+
     if input::is_standard(output) && arguments.json {
         let message = "-o - and --json both print to stdout; give one of them";
         return Err(Failure::Usage(message.into()));
     }
+
     match &arguments.csv {
         Some(csv) if ending(csv) != "csv" => Err(Failure::Usage(format!(
             "--csv {}: the numbers are a table of comma-separated values; write report.csv",
@@ -96,57 +103,60 @@ fn check_output(arguments: &ReportArguments) -> Result<(), Failure> {
     }
 }
 
-/// Drape of a fabric for its report.
+/// Drape of a fabric for its report, with notes on it.
 #[derive(Default)]
-struct FoundDrape {
+struct FabricDrape {
     reported: Option<ReportedDrape>,
     notes: Vec<String>,
 }
 
-/// Returns the drapes of fabrics: those that were stored, and the others if they are to be run.
+/// Returns the drape of each of `fabrics`: a stored one, or with a `request` a new one.
 fn drapes(
-    fabrics: &[Tested],
-    stored: &[Stored],
+    fabrics: &[TestedFabric],
+    stored: &[StoredDrape],
     request: Option<&DrapeRequest>,
     arguments: &ReportArguments,
-) -> Result<Vec<FoundDrape>, Failure> {
-    let mut found: Vec<FoundDrape> = fabrics.iter().map(|own| find(own, stored)).collect();
-    tell_unused(fabrics, stored);
-    let Some(request) = request else { return Ok(found) };
+) -> Result<Vec<FabricDrape>, Failure> {
+    let mut drapes: Vec<FabricDrape> = fabrics.iter().map(|tested| find(tested, stored)).collect();
+    note_unused(fabrics, stored);
+    let Some(request) = request else { return Ok(drapes) };
 
-    // The time of all of them is said before the first is run.
+    // The expected times are printed before the first drape is run.
     let missing: Vec<usize> =
-        (0..found.len()).filter(|index| found[*index].reported.is_none()).collect();
+        (0..drapes.len()).filter(|index| drapes[*index].reported.is_none()).collect();
     if !Console::get().quiet {
         for &index in &missing {
-            let specimens = request.of(fabrics[index].fabric(), true);
+            let specimens = request.specimens(fabrics[index].fabric(), true);
             let name = &fabrics[index].fabric().name;
-            tell(format_args!("{name}: drape of {}", specimens.expected()?));
+            print_message(format_args!("{name}: drape of {}", specimens.expected()?));
         }
     }
+
     let folder = arguments.drapes.iter().find(|path| !path.is_file());
     for index in missing {
-        let own = &fabrics[index];
-        let draped = request.of(own.fabric(), true).drape()?;
+        let tested = &fabrics[index];
+        let draped = request.specimens(tested.fabric(), true).drape()?;
         if let Some(folder) = folder {
-            let written = store(&draped, folder, &own.name)?;
-            note(format_args!("drape written to {}", written.result.display()));
+            let files = store(&draped, folder, &tested.name)?;
+            note(format_args!("drape written to {}", files.result.display()));
         }
-        found[index].reported = draped.result.reported(picture(&draped)?);
-        found[index].notes.clear();
+        drapes[index].reported = draped.result.reported(picture(&draped)?);
+        drapes[index].notes.clear();
     }
-    Ok(found)
+    Ok(drapes)
 }
 
-/// Returns the stored drape of a fabric; one of a fabric with its name and other laws is noted.
-fn find(own: &Tested, stored: &[Stored]) -> FoundDrape {
-    let laws = laws_digest(own.fabric());
-    if let Some(found) = stored.iter().find(|stored| stored.result.laws == laws) {
-        return FoundDrape { reported: found.reported(), notes: Vec::new() };
+/// Returns the stored drape of a fabric. A drape of an equal name but other laws is left out with a
+/// note.
+fn find(tested: &TestedFabric, stored: &[StoredDrape]) -> FabricDrape {
+    let laws = laws_digest(tested.fabric());
+    if let Some(drape) = stored.iter().find(|drape| drape.result.laws == laws) {
+        return FabricDrape { reported: drape.reported(), notes: Vec::new() };
     }
-    let name = &own.fabric().name;
-    let of_name = stored.iter().find(|stored| stored.result.fabric == *name);
-    let notes = of_name.map(|stale| {
+
+    let name = &tested.fabric().name;
+    let stale = stored.iter().find(|drape| drape.result.fabric == *name);
+    let notes = stale.map(|stale| {
         note(format_args!(
             "{}: a drape of \"{name}\" with other laws than those of this report; it is left out. Run \
              drape test --drape --report again",
@@ -154,18 +164,17 @@ fn find(own: &Tested, stored: &[Stored]) -> FoundDrape {
         ));
         "a drape was given, but of other laws than these; it is left out".to_owned()
     });
-    FoundDrape { reported: None, notes: notes.into_iter().collect() }
+    FabricDrape { reported: None, notes: notes.into_iter().collect() }
 }
 
-/// Tells of stored drapes that belong to none of the fabrics.
-fn tell_unused(fabrics: &[Tested], stored: &[Stored]) {
-    for own in stored {
-        let is_of = |fabric: &Tested| {
-            let fabric = fabric.fabric();
-            fabric.name == own.result.fabric || laws_digest(fabric) == own.result.laws
-        };
-        if !fabrics.iter().any(is_of) {
-            let (path, name) = (own.path().display(), &own.result.fabric);
+/// Prints a note for each stored drape that belongs to none of `fabrics`.
+fn note_unused(fabrics: &[TestedFabric], stored: &[StoredDrape]) {
+    for drape in stored {
+        let is_used = fabrics.iter().map(TestedFabric::fabric).any(|fabric| {
+            fabric.name == drape.result.fabric || laws_digest(fabric) == drape.result.laws
+        });
+        if !is_used {
+            let (path, name) = (drape.path().display(), &drape.result.fabric);
             note(format_args!("{path} is of \"{name}\", which is not in this report"));
         }
     }

@@ -8,14 +8,14 @@ use drape::input::Setting;
 
 #[derive(Args)]
 pub(crate) struct FitArguments {
-    /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside; - for
-    /// standard input. Or tables, of which a sheet is drafted first: workbooks (.xlsx, .xls, .xlsm,
-    /// .ods), .csv and other tables, a .zip, or a folder of exports without a sheet.
+    /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside; -
+    /// for standard input. Or tables, of which a sheet is drafted first: workbooks (.xlsx, .xls,
+    /// .xlsm, .ods), .csv and other tables, a .zip, or a folder of exports without a sheet.
     #[arg(required = true, value_name = "SHEET")]
     pub(crate) sheets: Vec<PathBuf>,
     /// The fabric to write, - for stdout, or the folder for several [default: fabric.toml beside
-    /// each sheet, NAME.toml for tables NAME]. The sheet that is drafted of tables is NAME.sheet.toml
-    /// beside the fabric NAME.toml, and sheet.toml in a folder of exports.
+    /// each sheet, NAME.toml for tables NAME]. The sheet that is drafted of tables is
+    /// NAME.sheet.toml beside the fabric NAME.toml, and sheet.toml in a folder of exports.
     #[arg(short, long, value_name = "FABRIC.toml")]
     pub(crate) output: Option<PathBuf>,
     /// The fabric to take of tables that hold several.
@@ -38,7 +38,7 @@ pub(crate) struct FitArguments {
     pub(crate) laws: LawArguments,
 }
 
-/// Laws to take instead of those that the curves support best.
+/// Laws that replace the laws which the curves support best.
 #[derive(Args, Clone, Copy)]
 pub(crate) struct LawArguments {
     /// Traction laws.
@@ -84,6 +84,7 @@ enum Loop {
 }
 
 impl Loop {
+    /// Returns the [`LoopModel`] of the law.
     fn model(self) -> LoopModel {
         match self {
             Self::FirstOrder => LoopModel::Linear(FrictionOrder::First),
@@ -96,7 +97,7 @@ impl Loop {
 }
 
 impl LawArguments {
-    /// Returns the settings of the fit that the arguments ask for.
+    /// Returns the [`FitSettings`] that the arguments name.
     pub(crate) fn settings(self) -> FitSettings {
         FitSettings {
             traction: self.traction.map(|traction| match traction {

@@ -1,4 +1,5 @@
-//! Many sheets fitted on all threads, each to its own fabric and page; printed as one table.
+//! Batch: many sheets fitted on all threads. Each sheet gets a fabric and a page, and all are
+//! printed as one table.
 
 use std::path::Path;
 
@@ -10,12 +11,13 @@ use super::arguments::FitArguments;
 use super::identify::{page, store};
 use super::job::Job;
 use crate::console::progress;
-use crate::console::{Console, tell};
+use crate::console::{Console, print_message};
 use crate::failure::Failure;
 use crate::say::{say, say_json};
 use drape::run::file;
 
-/// Reads the sheet of a job, unless its files are there already and may not be replaced; a drafted one is written.
+/// Reads the sheet of `job`, and writes a drafted one. Existing files are refused unless `force` is
+/// set.
 fn read(job: &Job, force: bool) -> Result<Sheet, Failure> {
     job.refuse_existing(force, "replace it with --force")?;
     job.write_sheet()?;
@@ -25,7 +27,8 @@ fn read(job: &Job, force: bool) -> Result<Sheet, Failure> {
 /// Heads of the columns of the table.
 const HEAD: [&str; 5] = ["fabric", "fit", "misfit", "warnings", "assumed"];
 
-/// Row of the table: all that is kept of a fitted sheet, because there may be thousands.
+/// Row of the table. Nothing else is kept of a fitted sheet, because there may be thousands of
+/// sheets.
 struct Row {
     /// Name of the fabric.
     name: String,
@@ -35,22 +38,28 @@ struct Row {
     assumed: usize,
 }
 
-/// Fits every sheet on all threads; a sheet that fails does not stop the others.
+/// Fits the sheets of all `jobs` on all threads. A failed sheet does not stop the others.
 pub(crate) fn fit_all(jobs: &[Job], arguments: &FitArguments) -> Result<(), Failure> {
     let bar = progress::bar(jobs.len() as u64, "{pos}/{len} sheets, {per_sec}, {eta} left");
     let settings = arguments.laws.settings();
-    let read = |job: &Job| read(job, arguments.force);
-    let rows = identify_all(jobs, &settings, read, |job, found| {
-        let row = found.and_then(|FittedSheet { sheet, fit }| {
-            let page = page(sheet, fit, &settings)?;
-            file::write(&job.fabric, fit.fabric.to_toml())?;
-            store(&page, &job.name, arguments.report.as_deref())?;
-            Ok(Row::new(&page))
-        });
-        bar.inc(1);
-        row.map_err(|failure| failure.of(&job.sheet))
-    });
+    let force = arguments.force;
+    let rows = identify_all(
+        jobs,
+        &settings,
+        |job: &Job| read(job, force),
+        |job, outcome| {
+            let row = outcome.and_then(|FittedSheet { sheet, fit }| {
+                let page = page(sheet, fit, &settings)?;
+                file::write(&job.fabric, fit.fabric.to_toml())?;
+                store(&page, &job.name, arguments.report.as_deref())?;
+                Ok(Row::new(&page))
+            });
+            bar.inc(1);
+            row.map_err(|failure| failure.in_sheet(&job.sheet))
+        },
+    );
     bar.finish_and_clear();
+
     let failed = rows.iter().filter(|row| row.is_err()).count();
     if arguments.json {
         let rows: Vec<_> = jobs.iter().zip(&rows).map(|(job, row)| json(&job.sheet, row)).collect();
@@ -62,15 +71,16 @@ pub(crate) fn fit_all(jobs: &[Job], arguments: &FitArguments) -> Result<(), Fail
             say(line(&job.sheet, row))?;
         }
     }
+
     rows.iter().filter_map(|row| row.as_ref().err()).for_each(Failure::print);
     if !Console::get().quiet {
-        tell(format_args!("{} of {} sheets fitted", jobs.len() - failed, jobs.len()));
+        print_message(format_args!("{} of {} sheets fitted", jobs.len() - failed, jobs.len()));
     }
     if failed > 0 { Err(Failure::Batch) } else { Ok(()) }
 }
 
 impl Row {
-    /// Summarises a page: its least trusted law, its largest misfit.
+    /// Summarises `page` by its least trusted law and its largest misfit.
     fn new(page: &FitPage) -> Self {
         let verdicts = page.laws.iter().map(|law| law.verdict(&page.limits).trust);
         let misfits = page.laws.iter().filter_map(|law| law.statistics.as_ref());
@@ -84,6 +94,7 @@ impl Row {
     }
 }
 
+/// Returns the line of the table for `sheet`.
 fn line(sheet: &Path, row: &Result<Row, Failure>) -> String {
     let path = sheet.display();
     let Ok(Row { name, trust, misfit, warnings, assumed }) = row else {
@@ -94,6 +105,7 @@ fn line(sheet: &Path, row: &Result<Row, Failure>) -> String {
     format!("{name:<36} {trust:<10} {misfit:>8} {warnings:>8} {assumed:>8}  {path}")
 }
 
+/// Returns the row of `sheet` as JSON.
 fn json(sheet: &Path, row: &Result<Row, Failure>) -> serde_json::Value {
     match row {
         Ok(row) => serde_json::json!({

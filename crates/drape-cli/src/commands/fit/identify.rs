@@ -1,4 +1,4 @@
-//! One sheet fitted, with the report of its fit, and the files of both.
+//! One sheet: its fit, the report of the fit, and the files of both.
 
 use std::path::{Path, PathBuf};
 
@@ -14,27 +14,27 @@ use drape::run::file;
 /// A fitted sheet.
 pub(crate) struct Identified {
     pub(crate) fit: Fit,
-    /// The report of the fit.
+    /// Report of the fit.
     pub(crate) page: FitPage,
 }
 
-/// Reads a sheet, fits it and reports the fit.
+/// Reads the sheet of `job`, fits it and composes the report.
 pub(crate) fn identify(job: &Job, settings: &FitSettings) -> Result<Identified, Failure> {
     let sheet = job.read()?;
     let fit = identify_with(&sheet, settings);
-    let fit = fit.map_err(|error| Failure::from(error).of(&job.sheet))?;
+    let fit = fit.map_err(|error| Failure::from(error).in_sheet(&job.sheet))?;
     let page = page(&sheet, &fit, settings)?;
     Ok(Identified { fit, page })
 }
 
-/// Returns the report of a fit, checked.
+/// Returns the report of `fit`, or an error if a name or number of it cannot be shown.
 pub(crate) fn page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> Result<FitPage, Failure> {
     let page = fit_page(sheet, fit, settings);
     page.check()?;
     Ok(page)
 }
 
-/// Writes the page of a fit into a folder, if one is given, and returns its path.
+/// Writes `page` as `name.html` into `folder`, if there is one, and returns the path of the file.
 pub(crate) fn store(
     page: &FitPage,
     name: &str,

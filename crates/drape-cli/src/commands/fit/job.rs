@@ -1,4 +1,5 @@
-//! Jobs of a fit: sheets, and tables of which a sheet is drafted first, each with the files that it writes.
+//! Jobs of a fit: sheets, and tables from which a sheet is drafted first, each with the files that
+//! it writes.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -13,38 +14,39 @@ use drape::run::file;
 
 /// Sheet to be fitted.
 pub(crate) struct Job {
-    /// The sheet; of a drafted one, where it is written.
+    /// Path of the sheet. A drafted sheet is written there.
     pub(crate) sheet: PathBuf,
-    /// Draft of the sheet, where it does not exist yet.
+    /// Draft of the sheet, if the sheet is drafted from tables.
     draft: Option<SheetDraft>,
-    /// Name of its page, and of its fabric in a folder of several.
+    /// Name of the page, and of the fabric in a folder of several.
     pub(crate) name: String,
-    /// File of its fabric.
+    /// Path of the fabric.
     pub(crate) fabric: PathBuf,
 }
 
-/// Plans the jobs of the arguments: one, or several with names of their own.
+/// Returns the jobs of `arguments`. Several jobs have different names.
 pub(crate) fn jobs(arguments: &FitArguments) -> Result<Vec<Job>, Failure> {
     let mut jobs = Vec::new();
     for path in &arguments.sheets {
-        if sheets::is_of_tables(path) {
-            jobs.extend(of_tables(path, arguments)?);
+        if sheets::holds_tables(path) {
+            jobs.extend(table_jobs(path, arguments)?);
         } else if arguments.fabric.is_some() {
             let path = path.display();
             let message = format!("--fabric takes one of several in tables, and {path} is a sheet");
             return Err(Failure::Usage(message));
         } else {
-            let paths = sheets::sheets(std::slice::from_ref(path))?;
-            jobs.extend(paths.into_iter().map(Job::of_sheet));
+            let paths = sheets::find_sheets(std::slice::from_ref(path))?;
+            jobs.extend(paths.into_iter().map(Job::from_sheet));
         }
     }
+
     if let [job] = &mut jobs[..] {
         if let Some(fabric) = &arguments.output {
             job.write_to(fabric.clone());
         }
         return Ok(jobs);
     }
-    // Several: each is named by its stem, with a number where that is taken.
+    // Several jobs are named by their stems, with a number where a stem repeats.
     let mut taken = BTreeSet::new();
     for job in &mut jobs {
         let stem = job.name.clone();
@@ -59,31 +61,32 @@ pub(crate) fn jobs(arguments: &FitArguments) -> Result<Vec<Job>, Failure> {
     Ok(jobs)
 }
 
-/// Drafts the sheets of tables: all of them, or that of one fabric.
-fn of_tables(path: &Path, arguments: &FitArguments) -> Result<Vec<Job>, Failure> {
+/// Returns the jobs of the sheets that are drafted from the tables at `path`: all of them, or the
+/// one of `--fabric`.
+fn table_jobs(path: &Path, arguments: &FitArguments) -> Result<Vec<Job>, Failure> {
     let is_alone = arguments.sheets.len() == 1;
     let folder = match &arguments.output {
         Some(output) if is_alone => output.parent().unwrap_or(Path::new("")),
         Some(output) => output,
-        None => own_folder(path),
+        None => tables_folder(path),
     };
     let mut drafts = drafted::drafts(path, folder, arguments.fabric.as_deref())?;
-    // Of several fabrics the output is a folder.
+    // With several fabrics the output is a folder, and the paths in the sheets start there.
     if let (true, true, Some(output)) = (drafts.len() > 1, is_alone, &arguments.output) {
         drafted::refuse_file(path, output, &drafts)?;
         drafts = drafted::drafts(path, output, None)?;
     }
     let several = drafts.len() > 1;
-    Ok(drafts.into_iter().map(|draft| Job::of_draft(path, draft, several)).collect())
+    Ok(drafts.into_iter().map(|draft| Job::from_draft(path, draft, several)).collect())
 }
 
 /// Returns the folder of tables.
-fn own_folder(path: &Path) -> &Path {
+fn tables_folder(path: &Path) -> &Path {
     if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) }
 }
 
 impl Job {
-    fn of_sheet(sheet: PathBuf) -> Self {
+    fn from_sheet(sheet: PathBuf) -> Self {
         Self {
             name: sheets::stem(&sheet),
             fabric: sheets::fabric_beside(&sheet),
@@ -92,10 +95,10 @@ impl Job {
         }
     }
 
-    /// Returns the job of a draft: its files lie beside the tables, or in the folder of the tables.
-    fn of_draft(path: &Path, draft: SheetDraft, several: bool) -> Self {
+    /// Returns the job of `draft`, whose files lie beside the tables, or in their folder.
+    fn from_draft(path: &Path, draft: SheetDraft, several: bool) -> Self {
         let name = drafted::name(path, &draft, several);
-        let folder = own_folder(path);
+        let folder = tables_folder(path);
         let (sheet, fabric) = if path.is_dir() && !several {
             let sheet = folder.join(SHEET_FILE);
             let fabric = sheets::fabric_beside(&sheet);
@@ -107,7 +110,7 @@ impl Job {
         Self { name, sheet, fabric, draft: Some(draft) }
     }
 
-    /// Sets the file of the fabric; a drafted sheet lies beside it.
+    /// Sets the path of the fabric. A drafted sheet moves beside `fabric`.
     fn write_to(&mut self, fabric: PathBuf) {
         if self.is_drafted() {
             self.sheet = drafted::sheet_beside(&fabric);
@@ -115,12 +118,13 @@ impl Job {
         self.fabric = fabric;
     }
 
-    /// Returns whether the sheet is drafted.
+    /// Returns whether the sheet is drafted from tables.
     pub(crate) fn is_drafted(&self) -> bool {
         self.draft.is_some()
     }
 
-    /// Refuses to replace files that are there, unless that is allowed.
+    /// Refuses to replace existing files unless `force` is set. `help` is the remedy for the
+    /// fabric.
     pub(crate) fn refuse_existing(&self, force: bool, help: &str) -> Result<(), Failure> {
         if self.is_drafted() && !force && self.sheet.exists() {
             let sheet = self.sheet.display();
@@ -137,7 +141,7 @@ impl Job {
         Ok(file::write(&self.sheet, &draft.text)?)
     }
 
-    /// Reads the sheet.
+    /// Reads the [`Sheet`], or parses its draft.
     pub(crate) fn read(&self) -> Result<Sheet, Diagnostics> {
         match &self.draft {
             Some(draft) => drafted::read(draft, &self.sheet),

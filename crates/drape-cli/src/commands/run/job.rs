@@ -1,4 +1,4 @@
-//! Job: one run of a scene, from its start or from a checkpoint to its pictures.
+//! Job: one run of a scene, from its start or a checkpoint to its pictures.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -17,21 +17,21 @@ use crate::console::note;
 use crate::console::progress::RunProgress;
 use crate::console::signal;
 use crate::failure::Failure;
-use crate::pages::picture::{self, Pictures};
+use crate::pages::picture::{self, SnapshotPictures};
 use crate::pages::strain_map::draw_strains;
 use crate::say::{say, say_written};
 use drape::run::file;
 
-/// Time after a signal up to which a picture of the last frame is still drawn.
+/// After a signal, a picture of the last frame is drawn only within this time.
 const PICTURE_MAX: Duration = Duration::from_millis(700);
 
-/// Options of a run, whether it begins or goes on.
+/// Options of a run that begins or is resumed.
 #[derive(Args)]
 pub(crate) struct JobArguments {
     /// Draws no picture, no map of strains and no view.
     #[arg(long)]
     pub(crate) no_picture: bool,
-    /// Prints the summary as JSON, those of several scenes as a list.
+    /// Prints the summary as JSON, the summaries of several scenes as a list.
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
@@ -39,45 +39,50 @@ pub(crate) struct JobArguments {
 }
 
 impl JobArguments {
-    /// Returns the options of the run; `replace` allows the results of an earlier run to be replaced.
+    /// Returns the options of the run. With `replace` the results of an earlier run are replaced.
     pub(crate) fn run_options(&self, replace: bool) -> RunOptions {
         RunOptions {
             limits: self.limits.limits(),
             program: std::env::current_exe().unwrap_or_default(),
             replace,
-            give_up: signal::give_up_flag(),
+            give_up: signal::cancel_step_flag(),
         }
     }
 }
 
-/// Run that is ready, in a folder that is its own.
+/// Prepared run with its folder.
 pub(crate) struct Job<'a> {
     pub(crate) run: FolderRun,
     pub(crate) folder: &'a Path,
     pub(crate) options: &'a JobArguments,
 }
 
-/// How a job draws its end.
-struct Shown {
+/// View of the picture of the last frame.
+struct FinalView {
+    /// Azimuth and elevation of the scene, in degrees, if the scene states them.
     view: [Option<f64>; 2],
     is_garment: bool,
 }
 
 impl Job<'_> {
-    /// Runs it, stores its results and says what came out; a run that fails has a summary too.
+    /// Runs the simulation, stores and prints the results, and returns the [`Summary`]. A failed
+    /// run has a summary as well.
     pub(crate) fn run(self) -> Result<Summary, Failure> {
         let Self { run, folder, options } = self;
         let scene = run.scene();
         let view = [scene.output.view.azimuth, scene.output.view.elevation];
         let is_garment = scene.sewing.is_some();
-        notes(scene);
+        print_notes(scene);
+
         let mut progress = RunProgress::new(scene);
-        let ended = run.run(&mut progress);
+        let outcome = run.run(&mut progress);
         progress.finish();
-        let ended = ended?;
-        let drawn = match options.no_picture {
-            true => Vec::new(),
-            false => draw(&Shown { view, is_garment }, &ended, folder)?,
+        let ended = outcome?;
+
+        let drawn = if options.no_picture {
+            Vec::new()
+        } else {
+            draw(&FinalView { view, is_garment }, &ended, folder)?
         };
         let summary = ended.close();
         if !options.json {
@@ -92,52 +97,58 @@ impl Job<'_> {
 }
 
 /// File of a run that a person opens.
-struct Drawn {
-    /// What the file is, in a word or two.
+struct DrawnFile {
+    /// Name of the kind of file, in messages.
     kind: &'static str,
     path: PathBuf,
 }
 
-/// Returns the line that says where the results of a run are, and which files of them to open.
-fn results(folder: &Path, drawn: &[Drawn]) -> String {
-    let file = |Drawn { kind, path }: &Drawn| format!("{kind} {}", path.display());
-    let files: Vec<String> = drawn.iter().map(file).collect();
+/// Returns the line that names the `folder` of the results and the files in it to open.
+fn results(folder: &Path, drawn: &[DrawnFile]) -> String {
+    let files: Vec<String> =
+        drawn.iter().map(|file| format!("{} {}", file.kind, file.path.display())).collect();
     match files[..] {
         [] => format!("results in {}", folder.display()),
         _ => format!("results in {}: {}", folder.display(), files.join(", ")),
     }
 }
 
-/// Stores the view and the pictures, of an interrupted run those that take no time, and returns their
-/// files.
-fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<Vec<Drawn>, Failure> {
+/// Stores the viewer page and the pictures of the run in `folder`, and returns the files. An
+/// interrupted run has one picture only, so that the program ends soon.
+fn draw(
+    final_view: &FinalView,
+    ended: &EndedRun,
+    folder: &Path,
+) -> Result<Vec<DrawnFile>, Failure> {
     let EndedRun { summary, output, last, .. } = ended;
-    let Shown { view, is_garment } = shown;
+    let FinalView { view, is_garment } = final_view;
     let mut drawn = Vec::new();
-    let mut keep = |kind, name: &str| drawn.push(Drawn { kind, path: folder.join(name) });
-    if let Some(since) = signal::since() {
+    if let Some(since) = signal::time_since_first() {
         if since <= PICTURE_MAX {
-            let picture = Pictures::new(last)?.draw(*view, picture::SIZE)?;
+            let picture = SnapshotPictures::new(last)?.draw(*view, picture::SIZE)?;
             save(&picture, &output.path("picture.png"))?;
-            keep("picture", "picture.png");
+            drawn.push(DrawnFile { kind: "picture", path: folder.join("picture.png") });
         }
         return Ok(drawn);
     }
+
     let page = ViewerPage::new(&[Recording::open(folder)?], VIEWER_SIZE_MAX)?;
     file::write(&output.path("view.html"), page.html)?;
-    let pictures = Pictures::new(last)?;
+
+    let pictures = SnapshotPictures::new(last)?;
     let picture = match (is_garment, view) {
-        (true, [None, None]) => pictures.draw_round()?,
+        (true, [None, None]) => pictures.draw_garment()?,
         _ => pictures.draw(*view, picture::SIZE)?,
     };
     save(&picture, &output.path("picture.png"))?;
-    keep("picture", "picture.png");
-    keep("page", "view.html");
+    drawn.push(DrawnFile { kind: "picture", path: folder.join("picture.png") });
+    drawn.push(DrawnFile { kind: "page", path: folder.join("view.html") });
+
     if let Some(place) = summary.place {
-        let near = picture::near(last, place);
-        let picture = Pictures::new(&near)?.draw(*view, picture::SIZE)?;
+        let detail = picture::detail(last, place);
+        let picture = SnapshotPictures::new(&detail)?.draw(*view, picture::SIZE)?;
         save(&picture, &output.path("place.png"))?;
-        keep("picture of the seam", "place.png");
+        drawn.push(DrawnFile { kind: "picture of the seam", path: folder.join("place.png") });
     }
     if *is_garment {
         file::write(&output.path("strain.svg"), draw_strains(last, &pictures)?)?;
@@ -146,10 +157,10 @@ fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<Vec<Drawn>, Fa
 }
 
 fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
-    Ok(file::write(path, picture.png().map_err(Failure::of_picture)?)?)
+    Ok(file::write(path, picture.png().map_err(Failure::from_picture)?)?)
 }
 
-/// Prints the notes on a scene, and what contact cannot promise.
-fn notes(scene: &Scene) {
+/// Prints the notes on `scene`, and the limits of contact in it.
+fn print_notes(scene: &Scene) {
     scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(note);
 }

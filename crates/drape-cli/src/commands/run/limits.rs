@@ -3,7 +3,7 @@
 use clap::Args;
 use drape::run::Limits;
 
-/// Limits of a run. One that is reached ends it with a checkpoint.
+/// Limits of a run. A run that reaches a limit ends with a checkpoint.
 #[derive(Args)]
 pub(crate) struct LimitArguments {
     /// Ends the run with a checkpoint after this time, in seconds (exit code 8).
@@ -18,14 +18,14 @@ pub(crate) struct LimitArguments {
 }
 
 impl LimitArguments {
-    /// Returns the limits that the arguments ask for.
+    /// Returns the [`Limits`] that the arguments name.
     pub(crate) fn limits(&self) -> Limits {
         let Self { max_wall, max_memory, max_disk } = *self;
         Limits { max_wall, max_memory, max_disk }
     }
 }
 
-/// Reads a number above 0.
+/// Parses `text` as a finite number above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "no number".to_owned())?;
     if number > 0.0 && number.is_finite() {

@@ -1,4 +1,4 @@
-//! Result of a run in words: what came out, and what failed with its remedy.
+//! Result of a run in words: a summary, and the failure with its remedy.
 
 use std::path::Path;
 
@@ -7,16 +7,20 @@ use serde_json::Value;
 
 use crate::console::signal;
 use crate::failure::Failure;
+use crate::say::counted;
 
-/// Describes a run in a few lines.
+/// Describes `summary` in a few lines.
 pub(crate) fn describe(summary: &Summary) -> String {
     let Summary { energy, strain, contact, .. } = summary;
     let relaxes = summary.phases.last().is_some_and(|phase| phase.name == PhaseName::Relax);
-    let rest = match (summary.settled, relaxes) {
-        (true, true) => "at rest",
-        (true, false) => "moving again after rest",
-        (false, _) => "moving",
+    let rest = if !summary.settled {
+        "moving"
+    } else if relaxes {
+        "at rest"
+    } else {
+        "moving again after rest"
     };
+
     let cpu = summary.cpu_seconds.map_or(String::new(), |cpu| format!(", {cpu:.1} s of processor"));
     let smallest =
         contact.min_distance.map_or("none near".into(), |d| format!("{:.3} mm", 1e3 * d));
@@ -25,7 +29,7 @@ pub(crate) fn describe(summary: &Summary) -> String {
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; \
          99 of 100 curvatures below {:.0} 1/m\n\
-         contact: smallest distance {smallest}, {} intersections or particles inside{}{}{}{}{}",
+         contact: smallest distance {smallest}, {} or particles inside{}{}{}{}{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,
@@ -35,7 +39,7 @@ pub(crate) fn describe(summary: &Summary) -> String {
         100.0 * strain.traction_p99,
         strain.shear_max.to_degrees(),
         strain.curvature_p99,
-        contact.intersections,
+        counted(contact.intersections, "intersection", "intersections"),
         exempt(contact),
         pinched(contact),
         grown(contact),
@@ -44,43 +48,46 @@ pub(crate) fn describe(summary: &Summary) -> String {
     )
 }
 
-/// Describes girth and ease of each garment, in mm.
+/// Describes the girth and ease of each garment, in mm, from the top to the bottom.
 fn girths(summary: &Summary) -> String {
     let garments = summary.measures.get("girths").and_then(Value::as_object);
-    let whole = |value: &Value| (1e3 * value.as_f64().unwrap_or_default()).round();
-    let place = |(name, row): (&String, &Value)| match row["not_measured"].as_str() {
-        Some(reason) => format!("{name} not measured ({reason})"),
-        // The ease is the difference of the girths that are shown.
-        None => {
-            let [garment, body] = [&row["garment"], &row["body"]].map(whole);
-            format!("{name} {} mm (garment {garment}, body {body})", garment - body)
-        }
-    };
-    let line = |(name, places): (&String, &Value)| {
-        let mut places: Vec<_> = places.as_object().into_iter().flatten().collect();
-        let height = |row: &Value| row["height"].as_f64().unwrap_or_default();
-        places.sort_by(|a, b| height(b.1).total_cmp(&height(a.1)));
-        let places: Vec<String> = places.into_iter().map(place).collect();
-        format!("\nease of \"{name}\": {}", places.join(", "))
-    };
-    garments.into_iter().flatten().map(line).collect()
+    let lines = garments.into_iter().flatten().map(|(name, rows)| {
+        let mut rows: Vec<_> = rows.as_object().into_iter().flatten().collect();
+        rows.sort_by(|a, b| {
+            let [first, second] = [a, b].map(|row| row.1["height"].as_f64().unwrap_or_default());
+            second.total_cmp(&first)
+        });
+        let girths: Vec<String> = rows.into_iter().map(|(place, row)| girth(place, row)).collect();
+        format!("\nease of \"{name}\": {}", girths.join(", "))
+    });
+    lines.collect()
 }
 
-/// Describes intersections of closing seams.
+/// Describes the girth at `place`, in mm, from its `row` in the summary.
+fn girth(place: &str, row: &Value) -> String {
+    if let Some(reason) = row["not_measured"].as_str() {
+        return format!("{place} not measured ({reason})");
+    }
+    // The ease is the difference of the rounded girths, so that the printed numbers agree.
+    let [garment, body] = [&row["garment"], &row["body"]]
+        .map(|value| (1e3 * value.as_f64().unwrap_or_default()).round());
+    format!("{place} {} mm (garment {garment}, body {body})", garment - body)
+}
+
+/// Describes the intersections of closing seams, which `contact` exempts.
 fn exempt(contact: &Contacts) -> String {
     if contact.exempt_max == 0 {
         return String::new();
     }
     format!(
-        "; while seams closed, up to {} intersections of their sides, at most {:.4} mm deep, and {} \
-         at the end",
-        contact.exempt_max,
+        "; while seams closed, up to {} of their sides, at most {:.4} mm deep, and {} at the end",
+        counted(contact.exempt_max, "intersection", "intersections"),
         1e3 * contact.exempt_depth_max,
         contact.exempt
     )
 }
 
-/// Describes cloth that bodies pinched.
+/// Describes cloth that was pinched by bodies, from `contact`.
 fn pinched(contact: &Contacts) -> String {
     let thinned = match contact.thinned_max {
         0 => String::new(),
@@ -98,23 +105,24 @@ fn pinched(contact: &Contacts) -> String {
     }
 }
 
-/// Describes minimum separations that have grown.
+/// Describes minimum separations that were smaller at the start of the run, from `contact`.
 fn grown(contact: &Contacts) -> String {
     if contact.start_growth_fraction == 1.0 {
         return String::new();
     }
     let [from, to] =
-        [contact.start_growth_fraction, contact.growth_fraction].map(|part| 100.0 * part);
+        [contact.start_growth_fraction, contact.growth_fraction].map(|fraction| 100.0 * fraction);
     format!("; minimum separations were {from:.2} % at the start and {to:.2} % at the end")
 }
 
-/// Describes the balance of the energy.
+/// Describes the balance of `energy`, in J.
 fn balance(energy: &Energy) -> String {
     let integration = energy.numerical_dissipated + energy.rotation_dissipated;
-    let given = (-energy.gravity).max(0.0) + energy.work_in.max(0.0);
-    let share = match given > 0.0 {
-        true => format!(", {:.1} % of what came in", 100.0 * integration / given),
-        false => String::new(),
+    let supplied = (-energy.gravity).max(0.0) + energy.work_in.max(0.0);
+    let share = if supplied > 0.0 {
+        format!(", {:.1} % of what came in", 100.0 * integration / supplied)
+    } else {
+        String::new()
     };
     format!(
         "\nenergy: gravity gave {:.4} J; elastic {:+.4} J, kinetic {:.1e} J; lost in the fabric \
@@ -132,13 +140,13 @@ fn balance(energy: &Energy) -> String {
     )
 }
 
-/// Returns the failure that a run ended with, if any, and its remedy.
+/// Returns the failure with which a run ended, and its remedy. `folder` is the folder of the
+/// results.
 pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
-    let place = folder.display();
-    let shown = match folder.join("place.png").is_file() {
-        true => ", and place.png shows the seam",
-        false => "",
-    };
+    let run_folder = folder.display();
+    let picture_hint =
+        if folder.join("place.png").is_file() { ", and place.png shows the seam" } else { "" };
+
     match summary.status {
         Status::Ok => Ok(()),
         Status::DidNotSettle if summary.reason.is_some() => Err(Failure::Solver(format!(
@@ -157,7 +165,7 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
         ))),
         Status::SeamsOpen => Err(Failure::Solver(format!(
             "{}; something keeps its sides apart, or sew.seconds is too short; the last state was \
-             written{shown}",
+             written{picture_hint}",
             summary.reason.unwrap_or_default()
         ))),
         Status::FellOff => Err(Failure::Solver(format!(
@@ -176,19 +184,19 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
             summary.simulated_seconds
         ))),
         Status::Interrupted if summary.reason.is_some() => Err(Failure::Stopped(format!(
-            "ended at {:.4} s by {}; go on with `drape resume {place}`",
+            "ended at {:.4} s by {}; go on with `drape resume {run_folder}`",
             summary.simulated_seconds,
             summary.reason.unwrap_or_default()
         ))),
         Status::Interrupted => Err(Failure::Interrupted {
             signal: signal::received().unwrap_or_default(),
             message: format!(
-                "interrupted at {:.4} s; go on with `drape resume {place}`",
+                "interrupted at {:.4} s; go on with `drape resume {run_folder}`",
                 summary.simulated_seconds
             ),
         }),
         Status::SolverFailed => Err(Failure::Solver(format!(
-            "the step after {} s could not be solved; the last good state was written{shown}: {}",
+            "the step after {} s could not be solved; the last good state was written{picture_hint}: {}",
             summary.simulated_seconds,
             summary.reason.unwrap_or_default()
         ))),

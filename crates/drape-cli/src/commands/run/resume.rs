@@ -1,5 +1,5 @@
-//! `drape resume`: goes on with a run that was interrupted, from its last checkpoint, or with one
-//! that has ended, beyond its end.
+//! `drape resume`: continues an interrupted run from its last checkpoint, or a complete run beyond
+//! its end.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use drape::run::{ResumableRun, end_at};
 use crate::commands::run::job::{Job, JobArguments};
 use crate::commands::run::limits::positive;
 use crate::commands::run::report::outcome;
-use crate::console::{signal, tell};
+use crate::console::{print_message, signal};
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say_json;
@@ -23,7 +23,7 @@ pub(crate) struct ResumeArguments {
     /// Scene of the run, if it has another place now; - stands for standard input.
     #[arg(long, value_name = "SCENE")]
     scene: Option<PathBuf>,
-    /// Goes on for so many seconds beyond the end of the run.
+    /// Goes on for this number of seconds beyond the end of the run.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     extend: Option<f64>,
     #[command(flatten)]
@@ -43,16 +43,18 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
             "the scene was read from standard input: pipe it again, with --scene -".into(),
         ));
     }
-    input::set(&request.settings()?);
-    let mut scene = drape::run::scene_of(&input::document_of(&path, &[FileKind::Scene])?)?;
+
+    input::set_values(&request.settings()?);
+    let mut scene = drape::run::scene_of(&input::document_of_kind(&path, &[FileKind::Scene])?)?;
     if let Some(end) = request.until {
         end_at(&mut scene, end)?;
     }
     if arguments.scene.is_some() {
         request.move_scene(&path);
     }
+
     let (run, notes) = resumed.go_on(scene, &options.run_options(true))?;
-    notes.iter().for_each(tell);
+    notes.iter().for_each(print_message);
     let summary = Job { run, folder, options }.run()?;
     if options.json {
         say_json(&summary)?;

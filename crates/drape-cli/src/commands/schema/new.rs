@@ -1,4 +1,4 @@
-//! `drape new`: commented files to start from, which run as they are, with their schemas.
+//! `drape new`: writes commented files to start from, which run as they are, with their schemas.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use drape::run::file;
 pub(crate) struct NewArguments {
     /// Kind of the file.
     #[arg(value_enum)]
-    kind: Kind,
+    kind: TemplateKind,
     /// The file to write, or - for stdout [default: the kind, with the ending .toml].
     #[arg(short, long, value_name = "FILE.toml")]
     output: Option<PathBuf>,
@@ -25,7 +25,7 @@ pub(crate) struct NewArguments {
 
 /// Kinds of files to start from.
 #[derive(Clone, Copy, ValueEnum)]
-enum Kind {
+enum TemplateKind {
     /// A cloth on a ball, with the sheet of its fabric, if none is beside it.
     Scene,
     /// The KES values of a fabric.
@@ -34,7 +34,8 @@ enum Kind {
     Pattern,
 }
 
-impl Kind {
+impl TemplateKind {
+    /// Returns the default name of the file.
     fn file_name(self) -> &'static str {
         match self {
             Self::Scene => "scene.toml",
@@ -43,6 +44,7 @@ impl Kind {
         }
     }
 
+    /// Returns the text of the file, from the folder `templates`.
     fn content(self) -> &'static str {
         match self {
             Self::Scene => include_str!("../../../templates/scene.toml"),
@@ -51,7 +53,7 @@ impl Kind {
         }
     }
 
-    /// Returns the name of its schema, which is beside it.
+    /// Returns the name of the schema, which is written beside the file.
     fn schema_name(self) -> &'static str {
         match self {
             Self::Scene => "scene.schema.json",
@@ -68,7 +70,7 @@ impl Kind {
         }
     }
 
-    /// Returns what to do with the file next.
+    /// Returns the command to run on the file next.
     fn next(self) -> &'static str {
         match self {
             Self::Scene => "drape run",
@@ -88,15 +90,16 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<(), Failure> {
     }
     file::refuse_existing(path, *force, "give -o, or replace it with --force")?;
     write(path, *kind)?;
-    let sheet = path.with_file_name(Kind::Sheet.file_name());
-    if matches!(kind, Kind::Scene) && !sheet.exists() {
-        write(&sheet, Kind::Sheet)?;
+    let sheet = path.with_file_name(TemplateKind::Sheet.file_name());
+    if matches!(kind, TemplateKind::Scene) && !sheet.exists() {
+        write(&sheet, TemplateKind::Sheet)?;
     }
     say_written(format_args!("next: {} {}", kind.next(), path.display()))
 }
 
-/// Writes a file, and its schema beside it if none is there, which its first line names to editors.
-fn write(path: &Path, kind: Kind) -> Result<(), Failure> {
+/// Writes the file at `path`, with a first line that names its schema to editors, and the schema
+/// beside it if it does not exist.
+fn write(path: &Path, kind: TemplateKind) -> Result<(), Failure> {
     let name = kind.schema_name();
     file::write(path, format!("#:schema ./{name}\n{}", kind.content()))?;
     say_written(format_args!("{} written", path.display()))?;

@@ -1,4 +1,5 @@
-//! Sheets drafted from tables: workbooks, tables, archives, folders of exports; and what their files are called.
+//! Sheets drafted from tables: workbooks, tables, archives and folders of exports, with the names
+//! of their files.
 //!
 //! The sheet of a fabric `NAME.toml` is `NAME.sheet.toml` beside it.
 
@@ -7,30 +8,31 @@ use std::path::{Path, PathBuf};
 use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::{Sheet, SheetDraft};
 
-use crate::commands::sheets::in_input;
+use crate::commands::sheets::to_diagnostics;
 use crate::failure::Failure;
 use crate::input;
 
-/// Letters of the name of a file at most.
+/// Largest number of characters in the name of a file.
 const NAME_MAX: usize = 80;
 
-/// Drafts the sheets of tables, for a folder in which they will lie: of all fabrics, or of one.
+/// Drafts the sheets of the tables at `path`: all of them, or the one called `fabric`. Paths in the
+/// sheets start at `folder`.
 pub(crate) fn drafts(
     path: &Path,
     folder: &Path,
     fabric: Option<&str>,
 ) -> Result<Vec<SheetDraft>, Failure> {
-    let drafts = SheetDraft::of(path, folder).map_err(|error| in_input(error, path))?;
+    let drafts = SheetDraft::of(path, folder).map_err(|error| to_diagnostics(error, path))?;
     match fabric {
         None => Ok(drafts),
         Some(fabric) => {
-            let chosen = SheetDraft::chosen(drafts, path, Some(fabric));
-            Ok(vec![chosen.map_err(|error| in_input(error, path))?])
+            let draft = SheetDraft::chosen(drafts, path, Some(fabric));
+            Ok(vec![draft.map_err(|error| to_diagnostics(error, path))?])
         }
     }
 }
 
-/// Reads the sheet of a draft, which lies or will lie at a path.
+/// Reads the sheet of `draft`, whose path is or will be `sheet`.
 pub(crate) fn read(draft: &SheetDraft, sheet: &Path) -> Result<Sheet, Diagnostics> {
     if draft.curves + draft.values == 0 {
         let notes = draft.notes.join("; ");
@@ -39,10 +41,10 @@ pub(crate) fn read(draft: &SheetDraft, sheet: &Path) -> Result<Sheet, Diagnostic
         return Err(Diagnostic::new(sheet, message).help(help).into());
     }
     let document = input::with_settings(sheet, &draft.text)?;
-    draft.read_document(document).map_err(|error| in_input(error, sheet))
+    draft.read_document(document).map_err(|error| to_diagnostics(error, sheet))
 }
 
-/// Refuses a single file for several fabrics.
+/// Refuses a single file `output` for several `drafts`.
 pub(crate) fn refuse_file(
     path: &Path,
     output: &Path,
@@ -59,15 +61,16 @@ pub(crate) fn refuse_file(
     )))
 }
 
-/// Returns the name of the files of a draft: that of the tables, with that of the fabric where there are several.
+/// Returns the name for the files of `draft`: the name of the tables at `path`, or with `several`
+/// fabrics the name of the fabric.
 pub(crate) fn name(path: &Path, draft: &SheetDraft, several: bool) -> String {
-    let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let stem = if path.is_dir() { whole.file_name() } else { whole.file_stem() };
+    let full_path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let stem = if path.is_dir() { full_path.file_name() } else { full_path.file_stem() };
     let stem = stem.map_or("fabric".into(), |stem| stem.to_string_lossy().into_owned());
     if several { file_name(&draft.name) } else { file_name(&stem) }
 }
 
-/// Returns the path of the sheet of a fabric.
+/// Returns the path of the sheet beside the file `fabric`.
 pub(crate) fn sheet_beside(fabric: &Path) -> PathBuf {
     let name =
         fabric.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -75,16 +78,17 @@ pub(crate) fn sheet_beside(fabric: &Path) -> PathBuf {
     fabric.with_file_name(format!("{stem}.sheet.toml"))
 }
 
-/// Returns a name as that of a file: signs that a file system does not take, and blanks, are hyphens.
+/// Returns `name` as the name of a file. Blanks and characters that a file system refuses become
+/// hyphens.
 pub(crate) fn file_name(name: &str) -> String {
-    let letter = |letter: char| match letter {
+    let characters = name.trim().chars().map(|character| match character {
         '/' | '\\' | ':' | '*' | '?' | '"' | '<' | '>' | '|' => '-',
-        letter if letter.is_control() || letter.is_whitespace() => '-',
-        letter => letter,
-    };
-    let name: String = name.trim().chars().map(letter).take(NAME_MAX).collect();
-    let name = name.trim_matches(['.', '-']);
-    if name.is_empty() { "fabric".to_owned() } else { name.to_owned() }
+        _ if character.is_control() || character.is_whitespace() => '-',
+        _ => character,
+    });
+    let hyphenated: String = characters.take(NAME_MAX).collect();
+    let file_name = hyphenated.trim_matches(['.', '-']);
+    if file_name.is_empty() { "fabric".to_owned() } else { file_name.to_owned() }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use drape::report::Colour;
 
 use crate::failure::Failure;
 use crate::pages::picture::{ELEVATION, SIDES, SIZE, UPRIGHT};
-use crate::pages::run_picture::{Direction, Look, WIDTH_MIN};
+use crate::pages::run_picture::{Direction, PictureSettings, WIDTH_MIN};
 
 /// Largest number of pixels of a picture.
 const PIXELS_MAX: u64 = 64_000_000;
@@ -30,7 +30,7 @@ pub(crate) struct LookArguments {
     /// distance, seam-gap or speed; of svg too [default of svg: strain-warp].
     #[arg(long, value_name = "FIELD")]
     map: Option<Field>,
-    /// Ends of the colour map [default: those of nearly all values].
+    /// Ends of the colour map [default: the range of nearly all values].
     #[arg(long, value_name = "LOW,HIGH", requires = "map", allow_hyphen_values = true)]
     range: Option<Range>,
     /// Width and height, in pixels [default: 1200x900, of several views 600x1000 for each].
@@ -41,23 +41,23 @@ pub(crate) struct LookArguments {
     fabric_colour: Option<FabricColour>,
     /// Leaves something out.
     #[arg(long, value_enum, value_name = "WHAT")]
-    without: Option<LeftOut>,
+    without: Option<OmittedPart>,
 }
 
-/// What a picture can be without.
+/// Part of a picture that can be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LeftOut {
+enum OmittedPart {
     /// Bodies: the cloth alone.
     Bodies,
 }
 
 impl LookArguments {
-    /// Returns the field of the colour map, if one is given.
+    /// Returns the [`Field`] of `--map`.
     pub(crate) fn map(&self) -> Option<Field> {
         self.map
     }
 
-    /// Returns the options that were given.
+    /// Returns the names of the options that the user gave, such as `--map`.
     pub(crate) fn given(&self) -> impl Iterator<Item = &'static str> {
         let given = [
             ("--view", !self.views.is_empty()),
@@ -70,12 +70,13 @@ impl LookArguments {
         given.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name)
     }
 
-    /// Returns the look of pictures of a run; `size` is taken where the options have none.
-    pub(crate) fn look(
+    /// Returns the settings for pictures of `recording`. `size` is the default width and height, in
+    /// pixels.
+    pub(crate) fn settings(
         &self,
         recording: &Recording,
         size: Option<[u32; 2]>,
-    ) -> Result<Look, Failure> {
+    ) -> Result<PictureSettings, Failure> {
         let is_garment = !recording.manifest().seam_pairs.is_empty();
         let views: Vec<Direction> = match (&self.views[..], is_garment) {
             ([], true) => SIDES.map(level).into(),
@@ -83,27 +84,28 @@ impl LookArguments {
             (views, _) => views.iter().map(|view| view.0).collect(),
         };
         let columns = views.len() as u32;
-        let of_views = if columns == 1 { SIZE } else { [columns * UPRIGHT[0], UPRIGHT[1]] };
-        let look = Look {
+        let default_size = if columns == 1 { SIZE } else { [columns * UPRIGHT[0], UPRIGHT[1]] };
+        let settings = PictureSettings {
             views,
             columns,
-            size: self.size.map(|size| size.0).or(size).unwrap_or(of_views),
+            size: self.size.map(|size| size.0).or(size).unwrap_or(default_size),
             map: self.map,
             range: self.range.map(|range| range.0),
             colours: self.fabric_colour.map(|colours| colours.0),
             bodies: self.without.is_none(),
         };
-        look.check("one frame")?;
-        Ok(look)
+        settings.check("one frame")?;
+        Ok(settings)
     }
 }
 
-/// Returns the direction of a side that is seen from nearly its own height.
+/// Returns the direction of a view from `azimuth`, in degrees, at the elevation of pictures of
+/// garments.
 fn level(azimuth: f64) -> Direction {
     Direction { azimuth, elevation: ELEVATION }
 }
 
-/// View as it is typed: the name of a side, or azimuth and elevation.
+/// Direction of a view, parsed from the name of a side or from azimuth and elevation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Side(Direction);
 
@@ -118,10 +120,12 @@ impl FromStr for Side {
             "left" => level(-90.0),
             "above" => Direction { azimuth: 0.0, elevation: 90.0 },
             "below" => Direction { azimuth: 0.0, elevation: -90.0 },
-            other => {
-                let numbers = other.split_once(':').and_then(|(azimuth, elevation)| {
+            text => {
+                let numbers = text.split_once(':').and_then(|(azimuth, elevation)| {
                     Some([azimuth.parse().ok()?, elevation.parse().ok()?])
                 });
+
+                // A camera beyond these angles repeats another direction.
                 match numbers {
                     Some([azimuth, elevation])
                         if f64::abs(azimuth) <= 360.0 && f64::abs(elevation) <= 90.0 =>
@@ -130,7 +134,7 @@ impl FromStr for Side {
                     }
                     _ => {
                         return Err(format!(
-                            "`{other}` is no view; give front, right, back, left, above, below, or an azimuth up to 360 and an elevation up to 90 degrees, such as 30:28"
+                            "`{text}` is no view; give front, right, back, left, above, below, or an azimuth up to 360 and an elevation up to 90 degrees, such as 30:28"
                         ));
                     }
                 }
@@ -139,7 +143,7 @@ impl FromStr for Side {
     }
 }
 
-/// Range as it is typed.
+/// Range of a colour map, parsed from `LOW,HIGH`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Range([f64; 2]);
 
@@ -147,17 +151,18 @@ impl FromStr for Range {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Range, String> {
-        let ends = text.split_once(',');
-        let ends = ends
+        let ends = text
+            .split_once(',')
             .and_then(|(low, high)| Some([low.trim().parse().ok()?, high.trim().parse().ok()?]));
-        let is_range = |[low, high]: &[f64; 2]| low.is_finite() && high.is_finite() && low < high;
-        ends.filter(is_range).map(Range).ok_or_else(|| {
+        let range =
+            ends.filter(|[low, high]: &[f64; 2]| low.is_finite() && high.is_finite() && low < high);
+        range.map(Range).ok_or_else(|| {
             format!("`{text}` is no range; give a lower and a higher number, such as -2,2")
         })
     }
 }
 
-/// Size as it is typed.
+/// Width and height in pixels, parsed from `WxH`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Size([u32; 2]);
 
@@ -165,17 +170,16 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Size, String> {
-        let sides = text.split_once(['x', 'X']);
-        let sides = sides.and_then(|(width, height)| {
+        let sides = text.split_once(['x', 'X']).and_then(|(width, height)| {
             Some([width.trim().parse().ok()?, height.trim().parse().ok()?])
         });
-        let fits = |[width, height]: &[u32; 2]| {
+        let size = sides.filter(|[width, height]: &[u32; 2]| {
             let pixels = u64::from(*width) * u64::from(*height);
             (WIDTH_MIN..=16384).contains(width)
                 && (2 * WIDTH_MIN..=16384).contains(height)
                 && pixels <= PIXELS_MAX
-        };
-        sides.filter(fits).map(Size).ok_or_else(|| {
+        });
+        size.map(Size).ok_or_else(|| {
             format!(
                 "`{text}` is no size; give width and height from 128 to 16384 pixels, at most 64 million together, such as 1600x1200"
             )
@@ -183,7 +187,7 @@ impl FromStr for Size {
     }
 }
 
-/// Colours of front and back as they are typed.
+/// Colours of the front and the back, parsed from `#RRGGBB[,#RRGGBB]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct FabricColour([Colour; 2]);
 
@@ -191,19 +195,21 @@ impl FromStr for FabricColour {
     type Err = String;
 
     fn from_str(text: &str) -> Result<FabricColour, String> {
-        let colour = |text: &str| {
-            let digits = text.trim().trim_start_matches('#');
-            let is_hexadecimal = digits.len() == 6 && digits.bytes().all(|d| d.is_ascii_hexdigit());
-            let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_hexadecimal)?;
-            let [_, red, green, blue] = number.to_be_bytes();
-            Some([red, green, blue])
-        };
         let (front, back) = text.split_once(',').unwrap_or((text, text));
         let colours = colour(front).zip(colour(back));
         colours.map(|(front, back)| FabricColour([front, back])).ok_or_else(|| {
             format!("`{text}` is no colour; give six hexadecimal digits, such as #c8d6e5, and a second for the back after a comma")
         })
     }
+}
+
+/// Parses six hexadecimal digits as red, green and blue.
+fn colour(text: &str) -> Option<Colour> {
+    let digits = text.trim().trim_start_matches('#');
+    let is_hexadecimal = digits.len() == 6 && digits.bytes().all(|d| d.is_ascii_hexdigit());
+    let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_hexadecimal)?;
+    let [_, red, green, blue] = number.to_be_bytes();
+    Some([red, green, blue])
 }
 
 #[cfg(test)]
@@ -226,25 +232,25 @@ mod tests {
     #[test]
     fn mistakes_name_a_remedy_that_is_taken() {
         for wrong in ["top", "30", "30:91", "nan:3", "400:0", ""] {
-            let told = wrong.parse::<Side>().expect_err("no view");
-            assert!(told.contains("30:28") && "30:28".parse::<Side>().is_ok(), "{told}");
+            let error = wrong.parse::<Side>().expect_err("no view");
+            assert!(error.contains("30:28") && "30:28".parse::<Side>().is_ok(), "{error}");
         }
         for wrong in ["red", "#12345", "#12345g", "#+12345", "#123456,", "äääääé"] {
-            let told = wrong.parse::<FabricColour>().expect_err("no colour");
+            let error = wrong.parse::<FabricColour>().expect_err("no colour");
             assert!(
-                told.contains("#c8d6e5") && "#c8d6e5".parse::<FabricColour>().is_ok(),
-                "{told}"
+                error.contains("#c8d6e5") && "#c8d6e5".parse::<FabricColour>().is_ok(),
+                "{error}"
             );
         }
         for wrong in ["1200", "0x100", "100000x100", "16000x16000", "-5x100", "12.5x100"] {
-            let told = wrong.parse::<Size>().expect_err("no size");
-            assert!(told.contains("1600x1200") && "1600x1200".parse::<Size>().is_ok(), "{told}");
+            let error = wrong.parse::<Size>().expect_err("no size");
+            assert!(error.contains("1600x1200") && "1600x1200".parse::<Size>().is_ok(), "{error}");
         }
         for wrong in ["2", "2,1", "1,1", "nan,1", "0,inf", ","] {
-            let told = wrong.parse::<Range>().expect_err("no range");
-            assert!(told.contains("-2,2") && "-2,2".parse::<Range>().is_ok(), "{told}");
+            let error = wrong.parse::<Range>().expect_err("no range");
+            assert!(error.contains("-2,2") && "-2,2".parse::<Range>().is_ok(), "{error}");
         }
-        let told = "strain".parse::<Field>().expect_err("no field").to_string();
-        assert!(told.contains("strain-warp, strain-weft"), "{told}");
+        let error = "strain".parse::<Field>().expect_err("no field").to_string();
+        assert!(error.contains("strain-warp, strain-weft"), "{error}");
     }
 }

@@ -10,24 +10,26 @@ use drape::report::{Animation, Picture};
 use super::look::LookArguments;
 use crate::failure::Failure;
 use crate::input;
-use crate::pages::run_picture::{Direction, Look, RunPictures};
+use crate::pages::run_picture::{Direction, PictureSettings, RunPictures};
 use crate::say::say_written;
 use drape::run::file::{self, FileKind};
 
-/// Time in which a turntable turns once, in s.
-const TURN: f64 = 6.0;
+/// Duration of one turn of a turntable, in s.
+const TURN_SECONDS: f64 = 6.0;
 
-/// Width and height of a turntable, and of each frame of a strip, in pixels.
-const TURNTABLE: [u32; 2] = [600, 800];
-const FRAME: [u32; 2] = [400, 400];
+/// Width and height of a turntable, in pixels.
+const TURNTABLE_SIZE: [u32; 2] = [600, 800];
+
+/// Width and height of each frame of a strip, in pixels.
+const STRIP_FRAME_SIZE: [u32; 2] = [400, 400];
 
 #[derive(Args)]
 pub(crate) struct PictureArguments {
     /// Folder of a run.
     #[arg(value_name = "RUN")]
     run: PathBuf,
-    /// File of the picture [default: picture-FRAME.png in the folder of the run, with the map in its
-    /// name; turntable.png, strip.png].
+    /// File of the picture [default: picture-FRAME.png in the folder of the run, with the map in
+    /// its name; turntable.png, strip.png].
     #[arg(short, long, value_name = "FILE.png")]
     output: Option<PathBuf>,
     /// Frame: its number, from 0, or last [default: last].
@@ -51,7 +53,7 @@ pub(crate) struct PictureArguments {
     look: LookArguments,
 }
 
-/// Number of a frame as it is typed.
+/// Number of a frame, parsed from digits or `last`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FrameNumber {
     Last,
@@ -83,75 +85,81 @@ pub(crate) fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
     if let Some(count) = arguments.turntable {
         return turntable(arguments, &recording, [number, count as usize]);
     }
-    let look = arguments.look.look(&recording, None)?;
-    let picture = RunPictures::new(&recording, &look, &[number])?.draw(number)?;
-    let map = look.map.map(|field| format!("-{}", field.key())).unwrap_or_default();
+    let settings = arguments.look.settings(&recording, None)?;
+    let picture = RunPictures::new(&recording, &settings, &[number])?.draw(number)?;
+    let map = settings.map.map(|field| format!("-{}", field.key())).unwrap_or_default();
     save(arguments, &picture, &format!("picture-{number:05}{map}.png"))
 }
 
-/// Returns the number of the frame that is asked for.
+/// Returns the number of the requested frame, by `--frame` or by the time nearest to `--time`.
 fn number(arguments: &PictureArguments, recording: &Recording) -> Result<usize, Failure> {
     let last = recording.frame_count() - 1;
-    let Some(asked) = arguments.time else {
+    let Some(requested) = arguments.time else {
         return Ok(match arguments.frame {
             Some(FrameNumber::Number(number)) => number,
             Some(FrameNumber::Last) | None => last,
         });
     };
+
     let mut times = Vec::new();
     for number in 0..=last {
         let time = recording.read_time(number)?;
         times.push(time.ok_or_else(|| {
-            Failure::Usage(format!("--time {asked}: the frames have no times; give --frame"))
+            Failure::Usage(format!("--time {requested}: the frames have no times; give --frame"))
         })?);
     }
     let (first, end) = (times[0], times[last]);
-    if !(first..=end).contains(&asked) {
+    if !(first..=end).contains(&requested) {
         return Err(Failure::Usage(format!(
-            "--time {asked}: the run has the times from {first} to {end} s; give one of them"
+            "--time {requested}: the run has the times from {first} to {end} s; give one of them"
         )));
     }
-    let away = |number: &usize| (times[*number] - asked).abs();
-    let nearest = (0..=last).min_by(|a, b| away(a).total_cmp(&away(b)));
+    let nearest = (0..=last)
+        .min_by(|&a, &b| (times[a] - requested).abs().total_cmp(&(times[b] - requested).abs()));
     Ok(nearest.unwrap_or(last))
 }
 
-/// Writes an animated picture of a frame that turns, of so many views.
+/// Writes an animated picture of frame `number` that turns once, in `count` views.
 fn turntable(
     arguments: &PictureArguments,
     recording: &Recording,
     [number, count]: [usize; 2],
 ) -> Result<(), Failure> {
-    let mut look = arguments.look.look(recording, Some(TURNTABLE))?;
-    let Direction { azimuth, elevation } = look.views[0];
-    let turned = |k: usize| azimuth + 360.0 * k as f64 / count as f64;
-    look.views = (0..count).map(|k| Direction { azimuth: turned(k), elevation }).collect();
-    look.columns = 1;
-    let mut pictures = RunPictures::new(recording, &look, &[number])?;
+    let mut settings = arguments.look.settings(recording, Some(TURNTABLE_SIZE))?;
+    let Direction { azimuth, elevation } = settings.views[0];
+    settings.views = (0..count)
+        .map(|k| Direction { azimuth: azimuth + 360.0 * k as f64 / count as f64, elevation })
+        .collect();
+    settings.columns = 1;
+
+    let mut pictures = RunPictures::new(recording, &settings, &[number])?;
     let path = path(arguments, "turntable.png");
     file::write_by(&path, |to| {
         let mut animation =
-            Animation::new(to, count as u32, look.size).map_err(Failure::of_picture)?;
+            Animation::new(to, count as u32, settings.size).map_err(Failure::from_picture)?;
         let legend = pictures.legend();
         pictures.draw_each(number, |picture| {
-            animation.add(legend.below(picture), TURN / count as f64).map_err(Failure::of_picture)
+            animation
+                .add(legend.below(picture), TURN_SECONDS / count as f64)
+                .map_err(Failure::from_picture)
         })?;
-        animation.finish().map_err(Failure::of_picture)
+        animation.finish().map_err(Failure::from_picture)
     })?;
     say_written(format_args!("{count} views of frame {number} in {}", path.display()))
 }
 
-/// Writes a film strip of so many frames.
+/// Writes a film strip of `count` frames at about equal distances, from the first to the last.
 fn strip(arguments: &PictureArguments, recording: &Recording, count: u32) -> Result<(), Failure> {
     let count = (count as usize).min(recording.frame_count());
     let last = recording.frame_count() - 1;
-    let frame = |k: usize| (2 * k * last + count - 1) / (2 * (count - 1).max(1));
-    let numbers: Vec<usize> = (0..count).map(frame).collect();
-    let size = [count as u32 * FRAME[0], FRAME[1]];
-    let mut look: Look = arguments.look.look(recording, Some(size))?;
-    look.size[0] = (look.size[0] / count as u32).max(1);
-    look.check(&format!("{count} frames"))?;
-    let mut pictures = RunPictures::new(recording, &look, &numbers)?;
+    let numbers: Vec<usize> =
+        (0..count).map(|k| (2 * k * last + count - 1) / (2 * (count - 1).max(1))).collect();
+    let size = [count as u32 * STRIP_FRAME_SIZE[0], STRIP_FRAME_SIZE[1]];
+    let mut settings: PictureSettings = arguments.look.settings(recording, Some(size))?;
+    settings.size[0] = (settings.size[0] / count as u32).max(1);
+    settings.check(&format!("{count} frames"))?;
+
+    let mut pictures = RunPictures::new(recording, &settings, &numbers)?;
     let mut drawn = Vec::new();
     for number in &numbers {
         let caption = pictures.caption(*number)?;
@@ -161,13 +169,13 @@ fn strip(arguments: &PictureArguments, recording: &Recording, count: u32) -> Res
     save(arguments, &sheet, "strip.png")
 }
 
-/// Returns the path of the picture, with its name in the folder of the run where none is given.
+/// Returns the path of the output, by default `name` in the folder of the run.
 fn path(arguments: &PictureArguments, name: &str) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| arguments.run.join(name))
 }
 
 fn save(arguments: &PictureArguments, picture: &Picture, name: &str) -> Result<(), Failure> {
     let path = path(arguments, name);
-    file::write(&path, picture.png().map_err(Failure::of_picture)?)?;
+    file::write(&path, picture.png().map_err(Failure::from_picture)?)?;
     say_written(format_args!("picture in {}", path.display()))
 }

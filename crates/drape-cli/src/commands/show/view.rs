@@ -1,4 +1,4 @@
-//! `drape view`: runs as one page that turns, plays and measures them.
+//! `drape view`: shows runs on one page, which turns, plays and measures them.
 
 use std::path::PathBuf;
 
@@ -34,11 +34,10 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
         )));
     }
     arguments.runs.iter().try_for_each(|run| input::expect(run, &[FileKind::Run]))?;
-    let recordings: Result<Vec<Recording>, _> =
-        arguments.runs.iter().map(Recording::open).collect();
-    let recordings = recordings?;
-    let path = arguments.output.clone();
-    let path = path.unwrap_or_else(|| recordings[0].folder().join("view.html"));
+    let recordings =
+        arguments.runs.iter().map(Recording::open).collect::<Result<Vec<Recording>, _>>()?;
+    let default = recordings[0].folder().join("view.html");
+    let path = arguments.output.clone().unwrap_or(default);
     let page = ViewerPage::new(&recordings, arguments.size)?;
     page.thinned.iter().for_each(note);
     file::write(&path, page.html)?;

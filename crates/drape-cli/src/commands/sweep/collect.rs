@@ -9,7 +9,7 @@ use drape::sweep::{Error, Shard, Study, Table};
 use super::study::StudyArguments;
 use crate::failure::Failure;
 use crate::pages::sweep::page;
-use crate::say::{say, say_written};
+use crate::say::{counted, say, say_written};
 
 #[derive(Args)]
 pub(crate) struct SweepCollectArguments {
@@ -25,36 +25,42 @@ pub(crate) struct SweepCollectArguments {
 
 /// Executes `drape sweep collect`.
 pub(crate) fn collect(arguments: &SweepCollectArguments) -> Result<(), Failure> {
-    let own = &arguments.study;
+    let StudyArguments { study: study_path, .. } = &arguments.study;
     if arguments.join {
-        let study = own.study()?;
+        let study = arguments.study.study()?;
         let (table, missing) = joined(&study)?;
         if missing > 0 {
-            let study = own.study.display();
             say(format_args!(
-                "{missing} points are in no part: drape sweep collect {study} --shard I/N"
+                "{missing} {} in no part: drape sweep collect {} --shard I/N",
+                if missing == 1 { "point is" } else { "points are" },
+                study_path.display()
             ))?;
         }
-        return write(&study, &table, own.study.display());
+        return write(&study, &table, study_path.display());
     }
-    let (study, points) = own.read(arguments.shard)?;
+
+    let (study, points) = arguments.study.read(arguments.shard)?;
     let table = Table::collect(&study, &points);
     let Some(shard) = arguments.shard else {
-        return write(&study, &table, own.study.display());
+        return write(&study, &table, study_path.display());
     };
-    let path = parts(&study).join(format!("{}.csv", shard.to_string().replace('/', "-of-")));
+    let path =
+        tables_folder(&study).join(format!("{}.csv", shard.to_string().replace('/', "-of-")));
     file::write(&path, table.to_csv()?)?;
-    say_written(format_args!("{} points in {}", points.len(), path.display()))
+    let points = counted(points.len(), "point", "points");
+    say_written(format_args!("{points} in {}", path.display()))
 }
 
-/// Folder of the tables of parts.
-fn parts(study: &Study) -> PathBuf {
+/// Returns the folder for the tables of parts of `study`.
+fn tables_folder(study: &Study) -> PathBuf {
     study.output().join("tables")
 }
 
-/// Reads the tables of parts and joins them; returns the number of points that are in none too.
+/// Reads the tables of parts and joins them. Returns the table with the number of points that are
+/// in no part.
 fn joined(study: &Study) -> Result<(Table, usize), Failure> {
-    let folder = parts(study);
+    let folder = tables_folder(study);
+
     let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "csv"));
@@ -67,29 +73,35 @@ fn joined(study: &Study) -> Result<(Table, usize), Failure> {
         );
         return Err(Failure::Usage(message));
     }
-    let read = |path: &PathBuf| -> Result<Table, Failure> {
+
+    let mut tables = Vec::new();
+    for path in &paths {
         let text = std::fs::read(path).map_err(|source| Error::Io {
             what: "read",
             path: path.clone(),
             source,
         })?;
-        Ok(Table::from_csv(study, path, &text)?)
-    };
-    let tables: Result<Vec<Table>, Failure> = paths.iter().map(read).collect();
-    Ok(Table::join(study, &tables?))
+        tables.push(Table::from_csv(study, path, &text)?);
+    }
+    Ok(Table::join(study, &tables))
 }
 
-/// Writes the table and the page.
+/// Writes the table and the page of `study`. `name` is the path of the study in messages.
 fn write(study: &Study, table: &Table, name: impl std::fmt::Display) -> Result<(), Failure> {
     let path = study.output().join("table.csv");
     file::write(&path, table.to_csv()?)?;
     #[cfg(feature = "parquet")]
     file::write(&study.output().join("table.parquet"), table.to_parquet()?)?;
     let outcomes = &table.records[0].cells;
-    say_written(format_args!("{} points in {}", outcomes.len(), path.display()))?;
+    say_written(format_args!(
+        "{} in {}",
+        counted(outcomes.len(), "point", "points"),
+        path.display()
+    ))?;
     let not_run = outcomes.iter().filter(|cell| *cell == "not run").count();
     if not_run > 0 {
-        say(format_args!("{not_run} points have no result yet: drape sweep run {name}"))?;
+        let points = if not_run == 1 { "point has" } else { "points have" };
+        say(format_args!("{not_run} {points} no result yet: drape sweep run {name}"))?;
     }
     let path = study.output().join("index.html");
     file::write(&path, page(study, table)?)?;

@@ -1,4 +1,4 @@
-//! `drape sweep run`: points shared out to jobs.
+//! `drape sweep run`: distributes the points of a study to jobs.
 
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,10 +12,10 @@ use indicatif::ProgressBar;
 use serde_json::json;
 
 use super::study::StudyArguments;
-use super::worker::{Ended, TRIES, Worker};
-use crate::console::{Console, ProgressKind, progress, signal, tell};
+use super::worker::{PointEnd, TRIES, Worker};
+use crate::console::{Console, ProgressKind, print_message, progress, signal};
 use crate::failure::Failure;
-use crate::say::{say, say_written};
+use crate::say::{counted, say, say_written};
 
 #[derive(Args)]
 pub(crate) struct SweepRunArguments {
@@ -35,51 +35,54 @@ pub(crate) struct SweepRunArguments {
     list: bool,
 }
 
-/// Number of points in a row that could not be run, after which the sweep ends: the machine is bad.
+/// If this number of points in a row cannot be run, the machine is at fault and the sweep ends.
 const FAILED_MAX: usize = 3;
 
-/// Time between two looks for a signal.
+/// Time between two checks for a signal.
 const WATCH: Duration = Duration::from_millis(50);
 
-/// Executes `drape sweep run`. Points that fail are results: the exit code is that of a failure only
-/// where a worker failed, or a signal came.
+/// Executes `drape sweep run`. A point that fails is a result. The exit code is an error only if a
+/// worker failed or a signal was received.
 pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     let (study, points) = arguments.study.read(arguments.shard)?;
     let mut chosen = choose(arguments, &points)?;
     if arguments.list {
         return chosen.iter().try_for_each(|point| list(&study, point));
     }
-    // A part does not know the keys of the rest.
+
+    // A part of the points does not know the keys of the others.
     if arguments.shard.is_none() {
         write_manifest(&study, &points)?;
     }
-    // Those that could not be run before come last, since they may fail again and end the sweep.
+
+    // Points that could not be run before come last, since they may fail again and end the sweep.
     chosen.sort_by_cached_key(|point| {
         let record = PointStorage::new(&study, point).record();
         record.is_some_and(|record| record.outcome == Outcome::WorkerFailed)
     });
+
     let again = format!("drape sweep run {}", arguments.study.study.display());
-    let Ran { counts, failure } = run_points(&study, &chosen, arguments.jobs, &again)?;
+    let SweepEnd { counts, failure } = run_points(&study, &chosen, arguments.jobs, &again)?;
     say_written(counts)?;
     failure.map_or(Ok(()), Err)
 }
 
-/// What came of points that were run.
-pub(super) struct Ran {
-    /// Their numbers, in words.
+/// End of a sweep.
+pub(super) struct SweepEnd {
+    /// Numbers of points by outcome, in words.
     pub(super) counts: String,
-    /// Why not all of them were run.
+    /// Reason why some points were not run.
     pub(super) failure: Option<Failure>,
 }
 
-/// Runs points by so many jobs at once, as many as there are threads if there is no number; `again` is
-/// the command that goes on where it ended early.
+/// Runs `points` by `jobs` at once, by default one for each thread. `again` is the command that
+/// continues the sweep.
 pub(super) fn run_points(
     study: &Study,
     points: &[&Point],
     jobs: Option<u16>,
     again: &str,
-) -> Result<Ran, Failure> {
+) -> Result<SweepEnd, Failure> {
     signal::watch();
     let threads = rayon::current_num_threads();
     let jobs = jobs.map_or(threads, usize::from).min(points.len().max(1));
@@ -95,56 +98,61 @@ pub(super) fn run_points(
     sweep.bar.finish_and_clear();
     let counts = sweep.counts.into_inner().unwrap_or_else(PoisonError::into_inner);
     let failure = failures.into_iter().next().or_else(|| counts.failure(again));
-    Ok(Ran { counts: counts.describe(points.len()), failure })
+    Ok(SweepEnd { counts: counts.describe(points.len()), failure })
 }
 
-/// Writes the list of all points, unless it is there. Sweeps that begin at once write the same.
+/// Writes the list of all `points` unless the file has that text. Sweeps that start at the same
+/// time write the same text.
 fn write_manifest(study: &Study, points: &[Point]) -> Result<(), Failure> {
     let path = study.output().join("manifest.jsonl");
     let text = manifest(study, points);
     if std::fs::read_to_string(&path).ok().as_ref() == Some(&text) {
         return Ok(());
     }
-    let own = study.output().join(format!("manifest-{}.jsonl", std::process::id()));
-    file::write(&own, text)?;
-    std::fs::rename(&own, &path)
+    let temporary = study.output().join(format!("manifest-{}.jsonl", std::process::id()));
+    file::write(&temporary, text)?;
+    std::fs::rename(&temporary, &path)
         .map_err(|error| Failure::Output(format!("cannot write {}: {error}", path.display())))
 }
 
-/// Returns the points that are asked for, each key once.
+/// Returns the `points` that `--point` names, by default all, each key once.
 fn choose<'a>(
     arguments: &SweepRunArguments,
     points: &'a [Point],
 ) -> Result<Vec<&'a Point>, Failure> {
     let keys = &arguments.point;
-    if let Some(key) = keys.iter().find(|key| points.iter().all(|point| !is_of(point, key))) {
+    if let Some(key) = keys.iter().find(|key| points.iter().all(|point| !has_key(point, key))) {
         return Err(Failure::Usage(format!(
             "--point {key}: the study has no such point; `drape sweep run {} --list` lists them",
             arguments.study.study.display()
         )));
     }
     let mut known = BTreeSet::new();
-    let is_asked = |point: &&Point| keys.is_empty() || keys.iter().any(|key| is_of(point, key));
-    Ok(points.iter().filter(is_asked).filter(|point| known.insert(&point.key)).collect())
+    let chosen = points
+        .iter()
+        .filter(|point| keys.is_empty() || keys.iter().any(|key| has_key(point, key)))
+        .filter(|point| known.insert(&point.key));
+    Ok(chosen.collect())
 }
 
-fn is_of(point: &Point, key: &str) -> bool {
+/// Returns whether the key of `point` begins with `key`.
+fn has_key(point: &Point, key: &str) -> bool {
     !key.is_empty() && point.key.starts_with(key)
 }
 
-/// Prints a line for a point.
+/// Prints a line for `point`.
 fn list(study: &Study, point: &Point) -> Result<(), Failure> {
     let outcome = PointStorage::new(study, point).outcome();
     say(format_args!("{}\t{}\t{outcome}\t{}", point.index, point.key, values(point)))
 }
 
-/// Returns the values of a point in words.
+/// Returns the values of `point` as settings.
 fn values(point: &Point) -> String {
     let settings: Vec<String> = point.settings.iter().map(ToString::to_string).collect();
     settings.join(" ")
 }
 
-/// Points that are run by several jobs.
+/// Points that several jobs run.
 struct Sweep<'a> {
     worker: Worker<'a>,
     study: &'a Study,
@@ -154,35 +162,42 @@ struct Sweep<'a> {
     bar: ProgressBar,
 }
 
-/// Numbers of points by what came of them.
+/// Numbers of points by outcome.
 #[derive(Default)]
 struct Counts {
     done: usize,
+    /// Points that were done before.
     earlier: usize,
+    /// Points whose job was refused or failed.
     failed: usize,
+    /// Points that could not be run.
     workers: usize,
     /// Number of points in a row that could not be run.
     in_a_row: usize,
+    /// Points that another sweep runs.
     elsewhere: usize,
 }
 
 impl Counts {
-    fn describe(&self, all: usize) -> String {
+    /// Returns the counts in words. `total` is the number of all points.
+    fn describe(&self, total: usize) -> String {
         let Self { done, earlier, failed, workers, elsewhere, .. } = self;
-        let mut text = format!("{all} points: {done} run, {earlier} done before");
-        for (count, what) in [
+        let points = counted(total, "point", "points");
+        let mut text = format!("{points}: {done} run, {earlier} done before");
+        for (count, outcome) in [
             (failed, "refused or failed"),
             (workers, "could not be run"),
             (elsewhere, "left to another sweep"),
         ] {
             if *count > 0 {
-                text += &format!(", {count} {what}");
+                text += &format!(", {count} {outcome}");
             }
         }
         text
     }
 
-    /// Returns why not all points were run, if that is so.
+    /// Returns the reason why some points were not run, if there are such points. `again` is the
+    /// command that continues the sweep.
     fn failure(&self, again: &str) -> Option<Failure> {
         if let Some(signal) = signal::received() {
             let message = format!("interrupted; go on with `{again}`");
@@ -191,16 +206,16 @@ impl Counts {
         let rest = if self.in_a_row >= FAILED_MAX { ", and the rest is left" } else { "" };
         (self.workers > 0).then(|| {
             Failure::Output(format!(
-                "{} points could not be run on this machine, though tried {TRIES} times each{rest}; try \
+                "{} could not be run on this machine, though tried {TRIES} times each{rest}; try \
                  again with `{again}`",
-                self.workers
+                counted(self.workers, "point", "points")
             ))
         })
     }
 }
 
 impl Sweep<'_> {
-    /// Runs the points by so many jobs; returns failures to write results.
+    /// Runs the points by `jobs` threads, and returns failures to write results.
     fn run(&self, jobs: usize) -> Vec<Failure> {
         std::thread::scope(|scope| {
             let jobs: Vec<_> = (0..jobs).map(|_| scope.spawn(|| self.job())).collect();
@@ -215,14 +230,15 @@ impl Sweep<'_> {
         })
     }
 
-    /// Runs one point after the other.
+    /// Runs `points` one after the other until none remains, and returns the first failure to write
+    /// a result.
     fn job(&self) -> Result<(), Failure> {
         while signal::received().is_none() && self.counts().in_a_row < FAILED_MAX {
             let Some(point) = self.points.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
                 break;
             };
-            let ended = self.worker.run(&PointStorage::new(self.study, point), point)?;
-            self.count(point, &ended);
+            let end = self.worker.run(&PointStorage::new(self.study, point), point)?;
+            self.count(point, &end);
         }
         Ok(())
     }
@@ -231,14 +247,15 @@ impl Sweep<'_> {
         self.counts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn count(&self, point: &Point, ended: &Ended) {
+    /// Counts the end of `point`, and reports it.
+    fn count(&self, point: &Point, end: &PointEnd) {
         let mut counts = self.counts();
-        match ended {
-            Ended::Interrupted => return,
-            Ended::Elsewhere => counts.elsewhere += 1,
-            Ended::Before(Record { outcome: Outcome::JobFailed, .. }) => counts.failed += 1,
-            Ended::Before(_) => counts.earlier += 1,
-            Ended::Now(record) => {
+        match end {
+            PointEnd::Interrupted => return,
+            PointEnd::Elsewhere => counts.elsewhere += 1,
+            PointEnd::Before(Record { outcome: Outcome::JobFailed, .. }) => counts.failed += 1,
+            PointEnd::Before(_) => counts.earlier += 1,
+            PointEnd::Now(record) => {
                 let in_a_row = counts.in_a_row + 1;
                 counts.in_a_row = 0;
                 match record.outcome {
@@ -249,27 +266,30 @@ impl Sweep<'_> {
                         counts.in_a_row = in_a_row;
                     }
                 }
-                self.tell(point, record);
+                self.report(point, record);
             }
         }
+
         self.bar.inc(1);
     }
 
-    /// Tells what came of a point: all of them if asked, else failures.
-    fn tell(&self, point: &Point, record: &Record) {
+    /// Reports the outcome of `point`. Without `--verbose`, only failures are printed.
+    fn report(&self, point: &Point, record: &Record) {
         let console = Console::get();
         if console.progress == ProgressKind::Json {
-            tell(json!({
+            print_message(json!({
                 "point": point.index, "key": point.key, "outcome": record.outcome,
                 "exit_code": record.exit_code, "seconds": record.seconds,
             }));
         } else if record.outcome != Outcome::Done {
             let (index, values) = (point.index, values(point));
             let message = record.message.replace('\n', "\n  ");
-            self.bar.suspend(|| tell(format_args!("warning: point {index} ({values}): {message}")));
+            self.bar.suspend(|| {
+                print_message(format_args!("warning: point {index} ({values}): {message}"))
+            });
         } else if console.verbose {
             let (index, values, seconds) = (point.index, values(point), record.seconds);
-            tell(format_args!("point {index} ({values}): done in {seconds:.2} s"));
+            print_message(format_args!("point {index} ({values}): done in {seconds:.2} s"));
         }
     }
 }

@@ -23,8 +23,8 @@ pub(crate) struct TestArguments {
     /// given several times. The key is a path of names and numbers, the value one of TOML.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Folder for a page with the loops overlaid; with --drape for the results as JSON, a picture and the
-    /// shadow of a specimen, from which drape report takes them.
+    /// Folder for a page with the loops overlaid; with --drape for the results as JSON, a picture
+    /// and the shadow of a specimen, from which drape report takes them.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,
     /// Prints the loops and values as JSON.

@@ -1,7 +1,8 @@
-//! Specimens of a fabric on a simulated drapemeter: run, stored with a picture and a shadow, and read again.
+//! Specimens of a fabric on a simulated drapemeter: draped, stored with a picture and a shadow, and
+//! read again.
 //!
-//! `drape test --drape` and `drape report --drape` run them here ([`run`]); `drape report` reads what was
-//! stored ([`stored`]).
+//! `drape test --drape` and `drape report --drape` drape them by [`run`]. `drape report` reads
+//! stored results by [`stored`].
 
 pub(crate) mod run;
 pub(crate) mod stored;
@@ -45,7 +46,7 @@ enum Meter {
 }
 
 impl Meter {
-    /// Returns the instrument.
+    /// Returns the [`Drapemeter`].
     fn drapemeter(self) -> Drapemeter {
         match self {
             Self::Frl => Drapemeter::frl(),
@@ -55,8 +56,8 @@ impl Meter {
         }
     }
 
-    /// Returns the instrument in words.
-    fn words(self) -> &'static str {
+    /// Returns the name and the sizes of the instrument, for people.
+    fn description(self) -> &'static str {
         match self {
             Self::Frl => "FRL drapemeter, specimen of 254 mm on a disc of 127 mm",
             Self::Cusick24 => "Cusick's drapemeter, specimen of 24 cm on a disc of 18 cm",
@@ -73,18 +74,18 @@ enum ShakeName {
     Bounce,
 }
 
-/// Drapes that were asked for.
+/// Drapes that the user requested.
 pub(crate) struct DrapeRequest {
     meter: Drapemeter,
-    /// The instrument in words.
-    words: String,
+    /// Name and sizes of the instrument, and the shaking.
+    description: String,
     pub(crate) starts: u64,
-    /// Spacing of the particles, in m; by the fabric unless it is given.
+    /// Spacing of the particles, in m. `None` takes the spacing that the fabric requires.
     spacing: Option<f64>,
 }
 
 impl DrapeArguments {
-    /// Returns the request, with a spacing in mm.
+    /// Returns the request for specimens with this `spacing`, in mm.
     pub(crate) fn request(&self, spacing: Option<f64>) -> Result<DrapeRequest, Failure> {
         check_spacing(spacing)?;
         if self.starts < 2 {
@@ -96,14 +97,14 @@ impl DrapeArguments {
         let shaken = self.shake.map_or("", |ShakeName::Bounce| ", shaken");
         Ok(DrapeRequest {
             meter,
-            words: format!("{}{shaken}", self.meter.words()),
+            description: format!("{}{shaken}", self.meter.description()),
             starts: self.starts,
             spacing: spacing.map(|mm| 1e-3 * mm),
         })
     }
 }
 
-/// Refuses a spacing in mm that no specimen has.
+/// Refuses a `spacing`, in mm, outside the range of specimens.
 pub(crate) fn check_spacing(spacing: Option<f64>) -> Result<(), Failure> {
     match spacing.filter(|mm| !(*mm >= 0.5 && *mm <= 50.0)) {
         Some(spacing) => {

@@ -1,4 +1,4 @@
-//! Specimens of a fabric in simulated KES instruments: their loops against the laws.
+//! Specimens of a fabric in simulated KES instruments: their loops, compared with the laws.
 
 use drape::fabric::Fabric;
 use drape::run::reports::{DIRECTIONS, TESTS, TestedLoop, instruments_page};
@@ -11,13 +11,13 @@ use crate::failure::Failure;
 use crate::say::{say, say_json, say_written};
 use drape::run::file;
 
-/// Spacing of the particles, in mm.
+/// Default spacing of the particles, in mm.
 const SPACING: f64 = 5.0;
 
-/// Points of a branch of a loop.
+/// Number of points of a branch of a loop.
 const POINTS: usize = 50;
 
-/// Tests a specimen in every instrument and direction, and prints and stores what came out.
+/// Tests specimens of `fabric` in every instrument and direction. Prints and stores the loops.
 pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Failure> {
     let spacing = 1e-3 * arguments.spacing.unwrap_or(SPACING);
     let mut loops = Vec::new();
@@ -33,6 +33,7 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
             loops.push(tested);
         }
     }
+
     if arguments.json {
         let rows: Vec<serde_json::Value> = loops.iter().map(row).collect();
         say_json(&rows)?;
@@ -47,7 +48,8 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
     Ok(())
 }
 
-/// Line for a loop: its distance from the law's, and its values, simulated and of the law.
+/// Describes the loop `tested` in a line: its distance from the law's loop, and its values,
+/// simulated and of the law.
 fn line(tested: &TestedLoop) -> String {
     let TestedLoop { test, direction, comparison } = tested;
     let values = comparison.values().into_iter().map(|(symbol, [measured, ideal])| {
@@ -62,7 +64,7 @@ fn line(tested: &TestedLoop) -> String {
     )
 }
 
-/// Entry of the JSON output for a loop.
+/// Returns the loop `tested` as JSON.
 fn row(tested: &TestedLoop) -> serde_json::Value {
     let TestedLoop { test, direction, comparison } = tested;
     let values = comparison.values().into_iter().map(|(symbol, [simulated, law])| {

@@ -1,25 +1,26 @@
-//! Axes of a study as its page shows them.
+//! Axes of a study in the form in which its page shows them.
 
 use std::collections::BTreeSet;
 
 use drape::sweep::{AxisKind, Column};
 
-/// Most levels of an axis that has means and pairs; a sample has others at each point.
+/// An axis with more levels has no table of means. A sampled axis has another level at each point.
 const LEVELS_MAX: usize = 12;
 
-/// Axis of a study as the page shows it.
+/// Axis of a study, prepared for the page.
 pub(super) struct ShownAxis<'a> {
     pub(super) column: &'a Column,
-    /// Short names of its levels, if it is no axis of numbers.
+    /// Short names of the levels. The list is empty if all levels are numbers.
     pub(super) names: Vec<String>,
-    /// Its levels, each once, in the order of the plan.
+    /// The different levels, in the order of the plan.
     levels: Vec<String>,
-    /// Whether it has plots: its levels differ, and mean something.
+    /// Whether the axis has plots: it has several levels that mean something to the reader.
     pub(super) is_shown: bool,
     pub(super) has_means: bool,
 }
 
 impl<'a> ShownAxis<'a> {
+    /// Prepares the axis of `kind` whose cells stand in `column`.
     pub(super) fn new(column: &'a Column, kind: AxisKind) -> Self {
         let mut known = BTreeSet::new();
         let levels: Vec<String> =
@@ -31,41 +32,51 @@ impl<'a> ShownAxis<'a> {
         Self { column, names, levels, is_shown, has_means }
     }
 
-    /// Returns the place of a level on the axis of a plot.
-    pub(super) fn place(&self, level: &str) -> Option<f64> {
+    /// Returns the coordinate of `level` on the axis of a plot.
+    pub(super) fn position(&self, level: &str) -> Option<f64> {
         if self.names.is_empty() {
             return level.parse().ok();
         }
-        self.levels.iter().position(|own| own == level).map(|index| 1.0 + index as f64)
+        self.levels.iter().position(|known| known == level).map(|index| 1.0 + index as f64)
     }
 
-    /// Returns the level as the page names it.
+    /// Returns the name of `level` on the page.
     pub(super) fn name(&self, level: &str) -> String {
-        let index = self.levels.iter().position(|own| own == level);
+        let index = self.levels.iter().position(|known| known == level);
         index.and_then(|index| self.names.get(index)).map_or_else(|| level.to_owned(), Clone::clone)
     }
 }
 
-/// Returns the parts of texts in which they differ, such as the folder of `fabrics/NAME/sheet.toml`.
+/// Returns the parts in which the paths `levels` differ, such as `NAME` of
+/// `fabrics/NAME/sheet.toml`.
 fn short_names(levels: &[String]) -> Vec<String> {
     let parts: Vec<Vec<&str>> = levels.iter().map(|level| level.split('/').collect()).collect();
     let Some(first) = parts.first() else { return Vec::new() };
-    let same = |index: usize, from_end: bool| {
-        parts.iter().all(|own| {
-            let at = |parts: &[&'_ str]| -> Option<String> {
-                let index = if from_end { parts.len().checked_sub(index + 1)? } else { index };
-                parts.get(index).map(|part| (*part).to_owned())
-            };
-            own.len() > index + 1 && at(own) == at(first)
+
+    // At least one part of each level remains after the common parts are removed.
+    let begin = (0..first.len())
+        .take_while(|&index| {
+            parts
+                .iter()
+                .all(|level| level.len() > index + 1 && level.get(index) == first.get(index))
         })
-    };
-    let begin = (0..first.len()).take_while(|&index| same(index, false)).count();
-    let end = (0..first.len()).take_while(|&index| same(index, true)).count();
-    let name = |own: &Vec<&str>| match own.get(begin..own.len().saturating_sub(end)) {
-        Some(part) if !part.is_empty() => part.join("/"),
-        _ => own.join("/"),
-    };
-    parts.iter().map(name).collect()
+        .count();
+    let end = (0..first.len())
+        .take_while(|&index| {
+            parts.iter().all(|level| {
+                level.len() > index + 1
+                    && level.iter().nth_back(index) == first.iter().nth_back(index)
+            })
+        })
+        .count();
+
+    parts
+        .iter()
+        .map(|level| match level.get(begin..level.len().saturating_sub(end)) {
+            Some(different) if !different.is_empty() => different.join("/"),
+            _ => level.join("/"),
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -80,7 +91,7 @@ mod tests {
         assert_eq!(names(&["../f/wool/sheet.toml", "../f/cupro/sheet.toml"]), ["wool", "cupro"]);
         assert_eq!(names(&["a.toml", "b.toml"]), ["a.toml", "b.toml"]);
         assert_eq!(names(&["kes", "breen-1994"]), ["kes", "breen-1994"]);
-        // One alone differs from none, and keeps its whole name.
+        // A single level keeps its whole name.
         assert_eq!(names(&["a/b"]), ["a/b"]);
     }
 }

@@ -1,4 +1,4 @@
-//! Page of one scene on several grids: each measure over the spacing, with its limit.
+//! Page of one scene on several grids: each measure over the spacing, with its extrapolated limit.
 
 use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
 use drape::report::{EffectTable, Error, MeasureEffects, StudyPage};
@@ -10,18 +10,18 @@ use super::digits::{like_scatter, number, with_scatter};
 use super::failures;
 use super::unit::ShownMeasure;
 
-/// Beginnings of the names of the values that the grid changes and that mean something at its limit.
+/// Beginnings of the names of the values that depend on the grid and have a meaningful limit.
 const MEASURES: [&str; 4] = ["measures.", "strain.", "energy.elastic", "energy.gravity"];
 
-/// Number of parts of the curve of a plot.
-const PARTS: usize = 60;
+/// Number of line segments of an extrapolated curve.
+const SEGMENTS: usize = 60;
 
 /// Measures of one scene on several grids, in SI.
 #[derive(Serialize)]
 pub(crate) struct Converged {
-    /// Runs that came to their end, coarsest first.
+    /// Runs that came to their end, from the coarsest to the finest grid.
     pub(crate) spacings: Vec<Grid>,
-    /// Measures that two runs or more have, with values that differ.
+    /// Measures with values that differ between at least two runs.
     pub(crate) measures: Vec<ConvergedMeasure>,
 }
 
@@ -42,18 +42,18 @@ pub(crate) struct ConvergedMeasure {
     pub(crate) key: String,
     /// Value on each grid; `None` where the summary has none.
     values: Vec<Option<f64>>,
-    /// Value at a spacing of 0, if they approach one.
+    /// Value at a spacing of 0, if the values approach one.
     limit: Option<f64>,
     /// Uncertainty of the value on the finest grid.
     uncertainty: f64,
-    /// Order that three grids give.
+    /// Order of convergence that three grids give.
     order: Option<f64>,
     #[serde(skip)]
-    shown: Shown,
+    shown: MeasureInUnit,
 }
 
-/// Measure as it is shown, in its own unit.
-struct Shown {
+/// Measure in the unit in which it is shown.
+struct MeasureInUnit {
     label: String,
     unit: String,
     values: Vec<GridValue>,
@@ -61,51 +61,50 @@ struct Shown {
 }
 
 impl Converged {
-    /// Returns the convergence of the measures of a table, whose rows have these spacings, in m: of those
-    /// that are usual, and of those that are named.
-    pub(crate) fn of(table: &Table, spacings: &[f64], named: &[String]) -> Self {
+    /// Returns the convergence of the measures of `table`. `spacings` has the spacing of each row,
+    /// in m. The usual measures and the measures in `named` are taken.
+    pub(crate) fn new(table: &Table, spacings: &[f64], named: &[String]) -> Self {
         let outcomes = table.records[0].cells.iter().enumerate();
         let rows: Vec<usize> =
             outcomes.filter(|(_, outcome)| *outcome == "ok").map(|(row, _)| row).collect();
-        let of_table = |name: &str| table.columns().find(|own| own.name == name);
-        let numbers = |name: &str| of_table(name).map(Column::numbers).unwrap_or_default();
-        let [particles, seconds] = ["particles", "wall_seconds"].map(numbers);
-        let at = |numbers: &[Option<f64>], row: usize| numbers.get(row).copied().flatten();
+
+        let [particles, seconds] = ["particles", "wall_seconds"].map(|name| {
+            let column = table.columns().find(|column| column.name == name);
+            column.map(Column::numbers).unwrap_or_default()
+        });
         let grids = rows.iter().map(|&row| Grid {
             spacing: spacings[row],
-            particles: at(&particles, row),
-            seconds: at(&seconds, row),
+            particles: particles.get(row).copied().flatten(),
+            seconds: seconds.get(row).copied().flatten(),
         });
-        let is_usual = |name: &str| MEASURES.iter().any(|begin| name.starts_with(begin));
-        let chosen = table.measures.iter();
-        let chosen = chosen.filter(|own| is_usual(&own.name) || named.contains(&own.name));
-        let of = |column: &Column| -> Vec<Option<GridValue>> {
-            let numbers = column.numbers();
-            let value =
-                |&row: &usize| Some(GridValue { spacing: spacings[row], value: numbers[row]? });
-            rows.iter().map(value).collect()
-        };
+
+        let chosen = table.measures.iter().filter(|column| {
+            MEASURES.iter().any(|begin| column.name.starts_with(begin))
+                || named.contains(&column.name)
+        });
         let measures = chosen.filter_map(|column| {
-            let values: Vec<Option<GridValue>> = of(column);
-            let found: Vec<GridValue> = values.iter().copied().flatten().collect();
-            let differ = found.windows(2).any(|pair| pair[0].value != pair[1].value);
+            let values = grid_values(column, &rows, spacings);
+            let known: Vec<GridValue> = values.iter().copied().flatten().collect();
+            let differ = known.windows(2).any(|pair| pair[0].value != pair[1].value);
             if !differ && !named.contains(&column.name) {
                 return None;
             }
-            let convergence = Convergence::new(&found)?;
+
+            let convergence = Convergence::new(&known)?;
             let shown = ShownMeasure::new(column);
-            let in_unit: Vec<GridValue> = of(&shown.column).into_iter().flatten().collect();
+            let in_unit: Vec<GridValue> =
+                grid_values(&shown.column, &rows, spacings).into_iter().flatten().collect();
             let order = match convergence.approach {
                 Approach::Measured(order) => Some(order),
                 Approach::Assumed | Approach::None => None,
             };
             Some(ConvergedMeasure {
                 key: column.name.clone(),
-                values: values.iter().map(|own| own.map(|own| own.value)).collect(),
+                values: values.iter().map(|grid| grid.map(|grid| grid.value)).collect(),
                 limit: (convergence.approach != Approach::None).then_some(convergence.limit),
                 uncertainty: convergence.uncertainty,
                 order,
-                shown: Shown {
+                shown: MeasureInUnit {
                     convergence: Convergence::new(&in_unit)?,
                     label: shown.label,
                     unit: shown.unit,
@@ -117,13 +116,22 @@ impl Converged {
     }
 }
 
+/// Returns the numbers of `column` in `rows`, each with the spacing of its row.
+fn grid_values(column: &Column, rows: &[usize], spacings: &[f64]) -> Vec<Option<GridValue>> {
+    let numbers = column.numbers();
+    let rows = rows.iter();
+    rows.map(|&row| Some(GridValue { spacing: spacings[row], value: numbers[row]? })).collect()
+}
+
 impl ConvergedMeasure {
-    /// Returns a line for the terminal.
+    /// Returns the values and the `verdict` as a line for the terminal.
     pub(crate) fn line(&self) -> String {
-        let values: Vec<String> = self.shown.values.iter().map(|own| number(own.value)).collect();
+        let values = self.shown.values.iter();
+        let values: Vec<String> = values.map(|grid| number(grid.value)).collect();
         format!("{}: {}; {}", self.title(), values.join(", "), self.shown.verdict())
     }
 
+    /// Returns the label with its `unit`.
     fn title(&self) -> String {
         match self.shown.unit.as_str() {
             "" => self.shown.label.clone(),
@@ -132,15 +140,15 @@ impl ConvergedMeasure {
     }
 }
 
-impl Shown {
-    /// Returns the value on the finest grid with its uncertainty.
+impl MeasureInUnit {
+    /// Returns the value on the finest grid with its uncertainty, as `value ± uncertainty`.
     fn finest(&self) -> String {
-        let value = self.values.last().map_or(f64::NAN, |own| own.value);
+        let value = self.values.last().map_or(f64::NAN, |grid| grid.value);
         let deviation = Some(self.convergence.uncertainty);
         with_scatter(Some(Mean { value, deviation, count: self.values.len() }))
     }
 
-    /// Returns the limit, if there is one.
+    /// Returns the limit with the digits of its uncertainty, or `–` if there is none.
     fn limit(&self) -> String {
         match self.convergence.approach {
             Approach::None => "–".into(),
@@ -148,6 +156,7 @@ impl Shown {
         }
     }
 
+    /// Returns the order of convergence in words.
     fn order(&self) -> String {
         match self.convergence.approach {
             Approach::Measured(order) if order < GRID_ORDER => format!("{order:.2}"),
@@ -157,6 +166,7 @@ impl Shown {
         }
     }
 
+    /// Returns limit, finest value and order as one phrase.
     fn verdict(&self) -> String {
         match self.convergence.approach {
             Approach::None => format!("they approach no limit; the finest is {}", self.finest()),
@@ -170,7 +180,7 @@ impl Shown {
     }
 }
 
-/// Returns the page of a scene on several grids.
+/// Returns the HTML page of a scene on several grids.
 pub(crate) fn page(study: &Study, table: &Table, converged: &Converged) -> Result<String, Error> {
     let name = study.base_file().file_stem().unwrap_or_default().to_string_lossy();
     let grids = &converged.spacings;
@@ -185,6 +195,7 @@ pub(crate) fn page(study: &Study, table: &Table, converged: &Converged) -> Resul
             .into(),
         format!("scene {}", study.base_file().display()),
     ];
+
     let overview = MeasureEffects {
         name: "All measures".into(),
         plots: Vec::new(),
@@ -195,6 +206,7 @@ pub(crate) fn page(study: &Study, table: &Table, converged: &Converged) -> Resul
         plots: vec![plot(&measure.shown)],
         tables: Vec::new(),
     });
+
     StudyPage {
         version: VERSION.into(),
         title: format!("{name}: convergence with the spacing"),
@@ -205,12 +217,13 @@ pub(crate) fn page(study: &Study, table: &Table, converged: &Converged) -> Resul
     .to_html()
 }
 
-/// Returns the table of the runs.
+/// Returns the table of the runs on `grids`.
 fn runs(grids: &[Grid]) -> EffectTable {
-    let cell = |value: Option<f64>| value.map_or("–".into(), number);
-    let rows = grids
-        .iter()
-        .map(|grid| vec![number(1e3 * grid.spacing), cell(grid.particles), cell(grid.seconds)]);
+    let rows = grids.iter().map(|grid| {
+        let [particles, seconds] =
+            [grid.particles, grid.seconds].map(|value| value.map_or("–".into(), number));
+        vec![number(1e3 * grid.spacing), particles, seconds]
+    });
     EffectTable {
         caption: "Runs that ended well".into(),
         heads: ["spacing, mm", "particles", "wall time, s"].map(str::to_owned).to_vec(),
@@ -218,7 +231,7 @@ fn runs(grids: &[Grid]) -> EffectTable {
     }
 }
 
-/// Returns the table of the limits of all measures.
+/// Returns the table of the limits of all `measures`.
 fn limits(measures: &[ConvergedMeasure]) -> EffectTable {
     let rows = measures.iter().map(|measure| {
         let shown = &measure.shown;
@@ -231,14 +244,17 @@ fn limits(measures: &[ConvergedMeasure]) -> EffectTable {
     }
 }
 
-/// Returns the plot of a measure over the spacing.
-fn plot(shown: &Shown) -> GraphPlot {
-    let points = shown.values.iter().map(|own| [own.spacing, own.value]).collect();
+/// Returns the plot of a measure over the spacing, with the extrapolated curve if the values
+/// converge.
+fn plot(shown: &MeasureInUnit) -> GraphPlot {
+    let points = shown.values.iter().map(|grid| [grid.spacing, grid.value]).collect();
     let mut series = vec![GraphSeries { label: "run".into(), look: Look::Dots, points }];
     if shown.convergence.approach != Approach::None {
-        let coarsest = shown.values.first().map_or(0.0, |own| own.spacing);
-        let spacing = |part| coarsest * part as f64 / PARTS as f64;
-        let points = (0..=PARTS).map(|part| [spacing(part), shown.convergence.at(spacing(part))]);
+        let coarsest = shown.values.first().map_or(0.0, |grid| grid.spacing);
+        let points = (0..=SEGMENTS).map(|part| {
+            let spacing = coarsest * part as f64 / SEGMENTS as f64;
+            [spacing, shown.convergence.at(spacing)]
+        });
         let label = "extrapolated to 0".into();
         series.push(GraphSeries { label, look: Look::Line, points: points.collect() });
     }

@@ -1,9 +1,9 @@
-//! Digits of means: as many as their scatter leaves.
+//! Digits of means: a mean has as many digits as its standard deviation justifies.
 
 use drape::sweep::Mean;
 
-/// Returns a mean with its standard deviation as a cell: the deviation has two digits, and the mean
-/// as many decimals.
+/// Returns the cell `mean ± deviation`. The standard deviation has two digits, and the mean has an
+/// equal number of decimals.
 pub(super) fn with_scatter(mean: Option<Mean>) -> String {
     let Some(Mean { value, deviation, .. }) = mean else { return "–".into() };
     match deviation {
@@ -17,7 +17,7 @@ pub(super) fn with_scatter(mean: Option<Mean>) -> String {
     }
 }
 
-/// Returns a number with the decimals that a mean of this deviation has.
+/// Returns `value` with the decimals of a mean whose standard deviation is `deviation`.
 pub(super) fn like_scatter(value: f64, deviation: f64) -> String {
     match decimals(value, deviation).filter(|_| deviation >= 1e-12 * value.abs()) {
         Some(places) => format!("{value:.places$}"),
@@ -25,16 +25,17 @@ pub(super) fn like_scatter(value: f64, deviation: f64) -> String {
     }
 }
 
-/// Returns the decimals of a mean with its deviation; `None` if both have an exponent.
+/// Returns the number of decimals of a mean `value` with its `deviation`, or `None` if both are
+/// written with an exponent.
 fn decimals(value: f64, deviation: f64) -> Option<usize> {
     let places = places(deviation, 2);
     (places <= PLACES_MAX && value.abs().max(deviation) < 1e7).then_some(places)
 }
 
-/// Most decimals of a cell.
+/// Largest number of decimals of a cell.
 const PLACES_MAX: usize = 6;
 
-/// Returns a number with four digits.
+/// Returns `value` with four significant digits.
 pub(super) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -44,13 +45,14 @@ pub(super) fn number(value: f64) -> String {
         return format!("{value:.3e}");
     }
     let text = format!("{value:.places$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 
-/// Returns the decimals of a number that is written with so many significant digits.
+/// Returns the number of decimals of `value` when it is written with `digits` significant digits.
 fn places(value: f64, digits: i32) -> usize {
     let power = value.abs().log10().floor() as i32;
     usize::try_from(digits - 1 - power).unwrap_or(0)

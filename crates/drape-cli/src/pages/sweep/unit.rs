@@ -1,9 +1,11 @@
-//! Units of measures: those that a name ends with, or those of a summary, which is in SI.
+//! Units of measures. The unit is the end of a measure's name, or the unit of a value of a summary,
+//! which is in SI.
 
 use drape::input::is_unit;
 use drape::sweep::Column;
 
-/// Values of summaries by the end of their names: unit in which they are shown, and its value in SI.
+/// Units of the values of summaries. Each row has the end of a name, the unit in which the value is
+/// shown, and that unit in SI.
 const UNITS: [(&str, &str, f64); 29] = [
     ("height_max", "mm", 1e-3),
     ("height_mean", "mm", 1e-3),
@@ -40,13 +42,14 @@ const UNITS: [(&str, &str, f64); 29] = [
 pub(super) struct ShownMeasure {
     pub(super) label: String,
     pub(super) unit: String,
-    /// Its values in the unit.
+    /// Values of the measure, in `unit`.
     pub(super) column: Column,
 }
 
 impl ShownMeasure {
+    /// Converts `column` to the unit in which it is shown.
     pub(super) fn new(column: &Column) -> Self {
-        let (label, unit) = of_name(&column.name);
+        let (label, unit) = split_unit(&column.name);
         if !unit.is_empty() {
             return Self { label: label.into(), unit: unit.into(), column: column.clone() };
         }
@@ -59,15 +62,17 @@ impl ShownMeasure {
             None if column.name.starts_with("energy.") => ("J", 1.0),
             None => ("", 1.0),
         };
-        let cell = |number: &Option<f64>| {
-            number.map_or(String::new(), |number| (number / factor).to_string())
-        };
-        let cells = column.numbers().iter().map(cell).collect();
+
+        let numbers = column.numbers();
+        let cells = numbers
+            .iter()
+            .map(|number| number.map_or(String::new(), |number| (number / factor).to_string()))
+            .collect();
         let column = Column { name: column.name.clone(), cells };
         Self { label: label.into(), unit: unit.into(), column }
     }
 
-    /// Returns its name with its unit.
+    /// Returns the label with its `unit`.
     pub(super) fn title(&self) -> String {
         match self.unit.as_str() {
             "" => self.label.clone(),
@@ -76,9 +81,9 @@ impl ShownMeasure {
     }
 }
 
-/// Returns a name and the unit that it ends with, as in "length in mm"; an empty one if there is
+/// Splits a name such as `length in mm` into label and unit. The unit is empty if `name` ends with
 /// none.
-pub(super) fn of_name(name: &str) -> (&str, &str) {
+pub(super) fn split_unit(name: &str) -> (&str, &str) {
     let parts = name.rsplit_once(" in ").filter(|(_, unit)| is_unit(unit));
     parts.unwrap_or((name, ""))
 }
@@ -102,6 +107,6 @@ mod tests {
         );
         assert_eq!(shown("disease", "0.5"), ("disease".into(), cells("0.5")));
         assert_eq!(shown("energy.elastic", "2"), ("energy.elastic, J".into(), cells("2")));
-        assert_eq!(of_name("dressed in red"), ("dressed in red", ""));
+        assert_eq!(split_unit("dressed in red"), ("dressed in red", ""));
     }
 }
