@@ -2,53 +2,54 @@
 
 use std::path::PathBuf;
 
-/// Reason why a scene cannot be run or its results written.
+/// Reason why a scene cannot be run, or why its results cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The solver cannot be set up for the scene.
     #[error("the solver cannot be set up: {0}")]
     Solver(#[from] drape_implicit::Error),
-    /// The contact cannot be set up for the scene, which was changed after it had been checked.
+    /// Contact cannot be set up for the scene, which was changed after it was checked.
     #[error("the contact cannot be set up: {0}")]
     Contact(#[from] drape_collide::Error),
     /// A checkpoint cannot be written or read.
     #[error(transparent)]
     Checkpoint(#[from] drape_checkpoint::Error),
-    /// A checkpoint is not of the scene: run the scene anew.
+    /// A checkpoint does not fit the scene. Run the scene again.
     #[error("the checkpoint does not fit the scene: {reason}; run the scene anew with --force")]
     Unfit {
-        /// What does not fit, in words.
+        /// Description of the part that does not fit.
         reason: String,
     },
-    /// Frames that a checkpoint counts are missing: take an earlier one, or run the scene anew.
+    /// Frames that a checkpoint counts are missing. Take an earlier checkpoint, or run the scene
+    /// again.
     #[error("{} has {found} frames, of {frames} that the checkpoint counts; run the scene anew with --force", path.display())]
     LostFrames {
         /// The list of frames.
         path: PathBuf,
-        /// Number of those that are listed.
+        /// Number of frames in the list.
         found: usize,
-        /// Number of those that there should be.
+        /// Number of frames that the checkpoint counts.
         frames: usize,
     },
-    /// The folder for the results is there already: give another one, or allow it to be replaced.
+    /// The folder for the results holds results. Give another folder, or allow the replacement.
     #[error("{} holds results already; give another folder, or allow it with --force", folder.display())]
     Occupied {
         /// The folder.
         folder: PathBuf,
     },
-    /// Forces, or the motion of a body, that are asked for between steps do not suit the simulation.
+    /// Forces, or a motion of a body, that a program sets between steps do not suit the simulation.
     #[error("{reason}")]
     Unsuited {
-        /// What does not suit it, with the remedy.
+        /// Description of the fault, with the remedy.
         reason: String,
     },
-    /// A result could not be written: check space and permissions.
+    /// A result could not be written. Check space and permissions.
     #[error("cannot write {}: {reason}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
-        /// Message of the system.
+        /// Error message of the operating system.
         reason: std::io::Error,
     },
 }

@@ -21,7 +21,7 @@ pub use record::step_hashes::StepHashes;
 pub use record::summary::{
     Contacts, GridRecord, Phase, PhaseName, Solver, Status, Strain, Summary,
 };
-pub use record::topology::{Part, Topology};
+pub use record::topology::{SurfacePart, Topology};
 pub use simulation::plan::PlannedPhase;
 pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;

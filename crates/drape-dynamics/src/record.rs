@@ -1,9 +1,9 @@
 //! Record of a run: frames, their files, and the summary.
 //!
-//! A frame has the positions of all particles and of the bodies' vertices at a time; what all
-//! frames have in common is the topology, stored once. The summary has how the run went: phases,
-//! work of the solver, energy, strain, contact, measures. This chapter reads the world and writes
-//! files; it changes nothing.
+//! A frame has the positions of all particles and of the bodies' vertices at one time. The topology
+//! is common to all frames and is stored once. The summary says how the run went: phases, work of
+//! the solver, energy, strain, contact, measures. This chapter reads the world and writes files,
+//! but changes nothing in the world.
 
 mod array;
 pub(crate) mod frame;

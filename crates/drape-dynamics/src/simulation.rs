@@ -1,11 +1,11 @@
 //! Simulation: a scene from its start to the end of its run, phase by phase.
 //!
 //! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move.
-//! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
-//! phase, or the run, is over. `run.rs` makes them all, watched; `saved.rs` is what a run goes on
-//! from after it was interrupted; `coarser_grid.rs` lets the cloth come to rest on coarser grids first;
-//! `seams.rs` ends the sewing; `prescription.rs` is what a program does between steps; `plan.rs` says
-//! which phases are to come.
+//! The chapter `stepping` makes the steps. After each step the simulation checks whether the phase,
+//! or the run, is over. `run.rs` makes all steps and reports to a watcher. `saved.rs` stores the
+//! state from which an interrupted run resumes. `coarser_grid.rs` relaxes the cloth on coarser
+//! grids first. `seams.rs` ends the sewing. `prescription.rs` lets a program act between steps.
+//! `plan.rs` lists the phases that remain.
 
 pub(crate) mod coarser_grid;
 #[cfg(test)]
@@ -37,10 +37,10 @@ use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
 use crate::stepping::statistics::Statistics;
-use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
+use crate::stepping::{AcceptedStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 
-/// Acceleration that residuals are relative to, in m/s².
+/// Unit of imbalances, in m/s².
 const GRAVITY: f64 = 9.81;
 
 /// Simulation of a scene.
@@ -88,30 +88,30 @@ pub struct Simulation {
     stepping: Stepping,
     rest: RestDetector,
     phases: Phases,
-    /// Panels, garments and seams, for the measures.
+    /// Panels, garments and seams, for measures.
     parts: GarmentParts,
     statistics: Statistics,
     last: LastStep,
     outcome: Outcome,
-    /// Times of the frames so far, in s.
+    /// Times of the frames until now, in s.
     frame_times: Vec<f64>,
     /// Smallest distance of particles before deformation, in m.
     spacing: f64,
     source: Source,
     stopwatch: Stopwatch,
-    /// Coarser grids on which the cloth is still to come to rest, the next one first.
+    /// Remaining coarser grids, the current one first.
     coarser: VecDeque<CoarserGrid>,
-    /// What came of those before.
+    /// Records of the coarser grids that are finished.
     grids: Vec<GridRecord>,
-    /// Number of coming steps after each of which the memories of friction are reset.
+    /// Number of further steps after each of which the memories of friction are reset.
     steps_to_forget: usize,
 }
 
-/// Coarser grid on which the cloth comes to rest, and its relation to the next one.
+/// Coarser grid on which the cloth is relaxed, with the interpolation to the next grid.
 #[derive(Debug)]
 struct CoarserGrid {
     simulation: Box<Simulation>,
-    /// Interpolation of each panel, with the number of its first coordinate.
+    /// Interpolation of each panel, with the index of the first coordinate of the panel.
     panels: Vec<(usize, Interpolation)>,
 }
 
@@ -119,9 +119,10 @@ struct CoarserGrid {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Phases {
     begun: Vec<Phase>,
-    /// Time for which bodies and pins move once the cloth is at rest, in s, until they do.
+    /// Time for which bodies and pins move after the cloth has come to rest, in s. `None` once they
+    /// move, or if they need not wait.
     motion_seconds: Option<f64>,
-    /// Whether the cloth came to rest before they did.
+    /// Whether the cloth came to rest before bodies and pins moved.
     rested: bool,
 }
 
@@ -140,11 +141,11 @@ struct Outcome {
     status: Status,
     /// Reason why the run ended early.
     reason: Option<String>,
-    /// Warnings at the time when something happened.
+    /// Warnings that were raised during the run.
     events: Vec<String>,
     warnings: Vec<String>,
     measures: serde_json::Map<String, serde_json::Value>,
-    /// Place of the reason, in m.
+    /// Position to which `reason` refers, in m.
     place: Option<[f64; 3]>,
 }
 
@@ -161,19 +162,19 @@ pub struct Step {
     pub imbalance: f64,
     /// Report of the solver.
     pub report: Report,
-    /// Warnings about what happened in it: a seam that was sewn stretched, a garment that slid.
+    /// Warnings about the step, such as a seam that was sewn stretched or a garment that slid.
     pub events: Vec<String>,
     /// Phase of the run.
     pub phase: PhaseName,
-    /// Spacing of the coarser grid on which it was made, in m; `None` on that of the scene, whose cloth is at
-    /// its start until then.
+    /// Spacing of the coarser grid on which the step was made, in m. `None` on the grid of the
+    /// scene. The cloth of the scene stays at its start until then.
     pub coarser_grid: Option<f64>,
     /// Whether the simulation is over.
     pub finished: bool,
 }
 
 impl Simulation {
-    /// Prepares a scene.
+    /// Prepares the simulation of `scene` with the [`Scheme`] that the scene asks for.
     ///
     /// # Errors
     /// When the solver cannot be set up.
@@ -182,22 +183,31 @@ impl Simulation {
         Self::with_scheme(scene, scheme)
     }
 
-    /// Prepares a scene with another scheme than it asks for.
+    /// Prepares the simulation of `scene` with `scheme` instead of the scheme that the scene asks
+    /// for.
     ///
     /// # Errors
     /// When the solver cannot be set up.
     pub fn with_scheme(mut scene: Scene, scheme: Scheme) -> Result<Self, Error> {
-        let coarser = CoarserGrid::of_scene(&mut scene, &scheme)?;
+        let coarser = CoarserGrid::take_from(&mut scene, &scheme)?;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let (schedule, source) = (scene.schedule, scene.source.clone());
         let parts = GarmentParts::new(&scene);
         let world = World::new(scene)?;
-        let (name, steps) = match (parts.seams.is_empty(), schedule.relaxation) {
-            (false, _) => (PhaseName::Sew, PhaseSteps::sewing(spacing)),
-            (true, own @ Some(_)) => (PhaseName::Relax, PhaseSteps::new(own, world.relaxes())),
-            (true, None) => (PhaseName::Simulate, PhaseSteps::new(None, world.relaxes())),
+
+        // The first phase sews the garment if there are seams.
+        let steps = if parts.seams.is_empty() {
+            PhaseSteps::new(schedule.relaxation, world.relaxes())
+        } else {
+            PhaseSteps::sewing(spacing)
         };
+        let name = match schedule.relaxation {
+            _ if !parts.seams.is_empty() => PhaseName::Sew,
+            Some(_) => PhaseName::Relax,
+            None => PhaseName::Simulate,
+        };
+
         Ok(Self {
             stepping: Stepping::new(&world, scheme, schedule.clock, steps)?,
             world,
@@ -228,7 +238,7 @@ impl Simulation {
         })
     }
 
-    /// Returns the time of the end at the latest, in ticks of the clock.
+    /// Returns the latest end of the run, in ticks of the clock.
     #[must_use]
     pub fn ticks_to_do(&self) -> usize {
         self.stepping.clock().ticks_to_do()
@@ -240,24 +250,24 @@ impl Simulation {
         self.stepping.clock().step
     }
 
-    /// Gives up the step in hand as soon as a flag is set, wherever the solver is in it.
+    /// Cancels the current step as soon as `flag` is set, at any point of the solver.
     pub fn give_up_when(&mut self, flag: Arc<AtomicBool>) {
         self.coarser.iter_mut().for_each(|grid| grid.give_up_when(&flag));
         self.world.cancel = Some(flag);
     }
 
-    /// Returns the time so far, in s.
+    /// Returns the current time, in s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.coarser.front().map_or_else(|| self.stepping.time(), CoarserGrid::time)
     }
 
-    /// Returns the time so far, in ticks of the clock.
+    /// Returns the current time, in ticks of the clock.
     pub(crate) fn ticks(&self) -> usize {
         self.coarser.front().map_or_else(|| self.stepping.ticks(), CoarserGrid::ticks)
     }
 
-    /// Returns cloth and bodies now.
+    /// Returns the current positions of cloth and bodies as a [`Frame`].
     #[must_use]
     pub fn frame(&self) -> Frame {
         let bodies = self.world.contact.triangulations();
@@ -272,13 +282,13 @@ impl Simulation {
         }
     }
 
-    /// Returns cloth and bodies now, for a picture.
+    /// Returns the current cloth and bodies for a picture, as a [`Snapshot`].
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
         Snapshot::new(&self.world, &self.parts, self.spacing)
     }
 
-    /// Returns the data that all frames have in common.
+    /// Returns the data that all frames share, as a [`Topology`].
     #[must_use]
     pub fn topology(&self) -> Topology {
         Topology::new(&self.world, &self.parts)
@@ -290,13 +300,13 @@ impl Simulation {
         self.spacing
     }
 
-    /// Returns the positions of the particles now, three numbers for each, in m.
+    /// Returns the current positions of the particles, three numbers for each, in m.
     #[must_use]
     pub fn positions(&self) -> &[f64] {
         &self.world.state.positions
     }
 
-    /// Returns the velocities of the particles now, three numbers for each, in m/s.
+    /// Returns the current velocities of the particles, three numbers for each, in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[f64] {
         &self.world.state.velocities
@@ -314,7 +324,7 @@ impl Simulation {
         self.world.cloth.triangles()
     }
 
-    /// Returns the criteria of rest, where the scene asks for it.
+    /// Returns the criteria of rest, if the scene asks for rest.
     #[must_use]
     pub fn rest_criteria(&self) -> Option<Relaxation> {
         self.rest.criteria
@@ -327,25 +337,26 @@ impl Simulation {
     }
 
     /// Returns the loads of the pins, in the order of the scene, without the inertia of the
-    /// particles that they hold; those of a pin that has let go are zero.
+    /// particles that the pins hold. The load of a released pin is zero.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
         self.world.pin_loads(self.stepping.time())
     }
 
-    /// Returns the balance of the energy since the start, unless the scene does without.
+    /// Returns the energy balance since the start, or `None` if the scene switches it off.
     #[must_use]
     pub fn energy(&self) -> Option<Energy> {
         self.world.energy()
     }
 
-    /// Returns the hash of positions, velocities and memories to the last bit.
+    /// Returns the hash of positions, velocities and memories, which two runs share only if all
+    /// bits agree.
     #[must_use]
     pub fn state_hash(&self) -> String {
         state_hash(&self.world)
     }
 
-    /// Hashes positions and velocities after each step from now on, for the summary. A run that goes on
-    /// from a checkpoint does so if the one before it did.
+    /// Hashes positions and velocities after each step from now on, for [`Summary::step_hashes`]. A
+    /// run that resumes from a checkpoint continues the hashes of the earlier run.
     pub fn hash_steps(&mut self) {
         self.statistics.hashes.get_or_insert_default();
     }
@@ -353,21 +364,28 @@ impl Simulation {
     /// Advances by one step.
     ///
     /// # Errors
+    ///
+    /// Returns an error if the step cannot be solved even in parts. The state is then the last
+    /// accepted state.
+    ///
+    /// # Errors
     /// When the step cannot be solved even in parts; the state is then the last good one.
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
         if !self.coarser.is_empty() {
             return self.step_on_coarser_grid();
         }
-        let told = self.outcome.events.len();
-        let MadeStep { ticks, report } =
+        let earlier_events = self.outcome.events.len();
+
+        let AcceptedStep { ticks, report } =
             self.stepping.advance(&mut self.world, &mut self.statistics)?;
         let dt = ticks as f64 * self.stepping.clock().tick();
         if let Some(balance) = &mut self.world.balance {
             balance.add_report(&report);
         }
         self.statistics.add_step(&report, &mut self.world);
-        let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
-        let squares = self.world.state.velocities.chunks_exact(3).map(square);
+
+        let velocities = self.world.state.velocities.chunks_exact(3);
+        let squares = velocities.map(|velocity| velocity.iter().map(|v| v * v).sum::<f64>());
         let speed_max = squares.fold(0.0, f64::max).sqrt();
         let imbalance = self.stepping.acceleration(&self.world, dt) / GRAVITY;
         self.last = LastStep { speed_max, imbalance };
@@ -376,40 +394,45 @@ impl Simulation {
             self.steps_to_forget -= 1;
             self.world.forget();
         }
-        match self.world.closing_springs().is_some() {
-            true => self.check_seams()?,
-            false => {
-                self.check_rest(ticks)?;
-                self.check_fall();
-            }
+
+        // The step may have ended the phase or the run.
+        if self.world.closing_springs().is_some() {
+            self.check_seams()?;
+        } else {
+            self.check_rest(ticks)?;
+            self.check_fall();
         }
         self.check_growth();
-        if let (true, Some(seconds)) = (self.is_at_rest(), self.phases.motion_seconds) {
+        if self.is_at_rest()
+            && let Some(seconds) = self.phases.motion_seconds
+        {
             self.set_in_motion(seconds)?;
         }
+
         Ok(Step {
             time: self.time(),
             dt,
             speed_max,
             imbalance,
             report,
-            events: self.outcome.events[told..].to_vec(),
+            events: self.outcome.events[earlier_events..].to_vec(),
             phase: self.phase(),
             coarser_grid: None,
             finished: self.outcome.status != Status::Ok || self.is_over(),
         })
     }
 
-    /// Returns the phase that the run is in.
+    /// Returns the current phase of the run.
     fn phase(&self) -> PhaseName {
         self.phases.begun.last().map_or(PhaseName::Simulate, |phase| phase.name)
     }
 
-    /// Returns the summary of the run so far.
+    /// Returns the [`Summary`] of the run until now.
     #[must_use]
     pub fn summary(&self) -> Summary {
         let World { cloth, state, .. } = &self.world;
         let strains = cloth.strains(state);
+
         Summary {
             status: self.outcome.status.clone(),
             reason: self.outcome.reason.clone(),
@@ -446,14 +469,14 @@ impl Simulation {
         }
     }
 
-    /// Begins a phase, whose first frame is the next one.
+    /// Begins the phase `name`. Its first frame is the next frame.
     fn begin_phase(&mut self, name: PhaseName) {
         let (start, frame) = (self.time(), self.frame_times.len());
         self.phases.begun.push(Phase { name, start, frame });
     }
 
-    /// Sets bodies and pins in motion for so many seconds; the cloth, which is at rest, has inertia
-    /// from now on.
+    /// Sets bodies and pins in motion for `seconds`. The cloth, which is at rest, has inertia from
+    /// now on.
     fn set_in_motion(&mut self, seconds: f64) -> Result<(), drape_implicit::Error> {
         self.phases.rested = true;
         self.phases.motion_seconds = None;
@@ -464,13 +487,13 @@ impl Simulation {
         self.restart(None)
     }
 
-    /// Goes on from rest at the positions of the world.
+    /// Continues from rest at the positions of the world, with steps for `relaxation`.
     fn restart(&mut self, relaxation: Option<Relaxation>) -> Result<(), drape_implicit::Error> {
         let steps = PhaseSteps::new(relaxation, self.world.relaxes());
         self.stepping.restart(&mut self.world, steps)
     }
 
-    /// Takes a step of so many ticks into account for the detection of rest.
+    /// Updates the detection of rest after a step of `ticks`.
     fn check_rest(&mut self, ticks: usize) -> Result<(), drape_implicit::Error> {
         let Some(criteria) = self.rest.criteria else { return Ok(()) };
         let LastStep { speed_max, imbalance } = self.last;
@@ -480,7 +503,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Notes garments that slide, and ends a run in which a garment fell off.
+    /// Records garments that slide, and ends a run in which a garment fell off.
     fn check_fall(&mut self) {
         if !self.settles() {
             return;
@@ -488,14 +511,12 @@ impl Simulation {
         let time = self.time();
         let slid = note_slides(&mut self.parts, &self.world.state.positions, time);
         self.outcome.events.extend(slid);
-        if self.settles()
-            && let Some(reason) = fallen(&self.parts, &self.world.state.positions)
-        {
+        if let Some(reason) = fallen(&self.parts, &self.world.state.positions) {
             self.end_early(Status::FellOff, reason);
         }
     }
 
-    /// Ends a run in which surfaces are held nearer to each other than their distances.
+    /// Ends a run in which surfaces cannot reach the distances that they are to keep.
     fn check_growth(&mut self) {
         let Some(surfaces) = self.world.contact.surfaces() else { return };
         if self.outcome.status == Status::Ok && surfaces.growth_is_stuck(self.time()) {
@@ -508,7 +529,7 @@ impl Simulation {
         }
     }
 
-    /// Notes why a step could not be made.
+    /// Records that a step failed with `error`.
     fn fail(&mut self, error: &drape_implicit::Error) {
         let status = match error {
             drape_implicit::Error::NotConverged { stop: Stop::Intersection, .. } => {
@@ -516,19 +537,21 @@ impl Simulation {
             }
             _ => Status::SolverFailed,
         };
-        let sewing = self.open_seam();
-        self.end_early(status, format!("{error}{}{sewing}", self.closest_place()));
+        let open_seam = self.describe_open_seam();
+        self.end_early(status, format!("{error}{}{open_seam}", self.closest_place()));
     }
 
+    /// Ends the run with `status` and `reason`.
     fn end_early(&mut self, status: Status, reason: String) {
         self.outcome.status = status;
         self.outcome.reason = Some(reason);
     }
 
-    /// Place where surfaces are closest to their minimum separation, for the end of a message.
+    /// Describes where surfaces are closest to their minimum separation, for the end of a message.
     fn closest_place(&self) -> String {
         let surfaces = self.world.contact.surfaces();
-        let place = surfaces.and_then(|own| own.describe_closest(&self.world.state.positions));
+        let place =
+            surfaces.and_then(|surfaces| surfaces.describe_closest(&self.world.state.positions));
         place.map(|place| format!("; {place}")).unwrap_or_default()
     }
 
@@ -536,7 +559,7 @@ impl Simulation {
         self.rest.is_at_rest(self.stepping.clock().tick())
     }
 
-    /// Returns whether nothing is left to do: the cloth is at rest, or the time is over.
+    /// Returns whether no step remains: the cloth is at rest, or the time is over.
     fn is_over(&self) -> bool {
         self.is_at_rest() || self.ticks() >= self.ticks_to_do()
     }

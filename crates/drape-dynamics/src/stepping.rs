@@ -1,17 +1,17 @@
 //! Stepping: the world is carried through time, step by step.
 //!
-//! [`Stepping`] holds the integrator of the system that is solved now, which is the world or, once
-//! a garment is sewn, its reduction to independent degrees of freedom. It chooses the length of
-//! each step (`step_control.rs`), makes it, estimates its error, and takes it back where that is
-//! too large; with quasi-static relaxation it also chooses how well a step is solved
-//! (`accuracy.rs`). Time is counted in ticks, each the first step divided by a power of two, so
-//! that sums do not drift.
+//! [`Stepping`] holds the integrator of the current system. The system is the world or, once a
+//! garment is sewn, its reduction to independent degrees of freedom. For each step [`Stepping`]
+//! chooses the length (`step_control.rs`), makes the step, estimates its error, and takes the step
+//! back if the error is too large. With quasi-static relaxation it also chooses the accuracy of the
+//! solution (`accuracy.rs`). Time is counted in ticks. A tick is the first step divided by a power
+//! of two, so that sums of steps have no rounding errors.
 //!
-//! The state of the world owns the positions and velocities of the particles: every accepted step
+//! The state of the world holds the positions and velocities of all particles. Every accepted step
 //! writes them, and contact, measures and the recorder borrow them. The integrator keeps a second
-//! copy for a numerical reason: its unknowns are the degrees of freedom, fewer than the particles
-//! once a garment is sewn, and its formula needs those of the step before.
-//! Phases of a run are the business of [`Simulation`](crate::simulation::Simulation).
+//! copy for two reasons: its unknowns are the degrees of freedom, which are fewer than the
+//! particles once a garment is sewn, and its formula needs the previous step.
+//! [`Simulation`](crate::simulation::Simulation) divides a run into phases.
 
 mod accuracy;
 mod phase_steps;
@@ -44,28 +44,28 @@ pub use self::scheme::Scheme;
 pub(crate) struct Stepping {
     /// Scheme that the simulation asks for.
     scheme: Scheme,
-    /// Accuracy of the steps that are made now.
+    /// Accuracy of the current steps.
     accuracy: Accuracy,
     stepper: TimeStepper,
-    /// Degrees of freedom that are solved for, with their past.
+    /// Degrees of freedom, with their previous step.
     state: IntegratorState,
-    /// Reduction of the world to its independent degrees of freedom, once it is sewn.
+    /// Reduction to the independent degrees of freedom, once the garment is sewn.
     reduction: Option<Reduction>,
     estimate: ErrorEstimate,
     control: StepControl,
     clock: Clock,
-    /// Time so far, in ticks of the clock.
+    /// Current time, in ticks of the clock.
     ticks: usize,
 }
 
-/// Step that has been made.
+/// Step that was accepted.
 #[derive(Debug)]
-pub(crate) struct MadeStep {
+pub(crate) struct AcceptedStep {
     pub(crate) ticks: usize,
     pub(crate) report: Report,
 }
 
-/// State of a world and its integrator, to which a step may be taken back.
+/// State of a world and its integrator at the start of a step that may be taken back.
 struct StepStart {
     integrator: IntegratorState,
     cloth: State,
@@ -75,17 +75,22 @@ struct StepStart {
 }
 
 impl Stepping {
-    /// Sets up the integration of a world from its state.
+    /// Prepares the integration of `world` from its state by `scheme`, with the steps of `phase`.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the solver cannot be set up.
     pub(crate) fn new(
         world: &World,
         scheme: Scheme,
         clock: Clock,
         phase: PhaseSteps,
     ) -> Result<Self, Error> {
-        let PhaseScheme { scheme: own, accuracy } = PhaseScheme::new(&scheme, phase.accuracy);
+        let PhaseScheme { scheme: phase_scheme, accuracy } =
+            PhaseScheme::new(&scheme, phase.accuracy);
         Ok(Self {
             accuracy,
-            stepper: TimeStepper::new(&own, world)?,
+            stepper: TimeStepper::new(&phase_scheme, world)?,
             state: IntegratorState::new(
                 world.state.positions.clone(),
                 world.state.velocities.clone(),
@@ -99,45 +104,47 @@ impl Stepping {
         })
     }
 
-    /// Clock of the steps.
+    /// Returns the clock of the steps.
     pub(crate) fn clock(&self) -> &Clock {
         &self.clock
     }
 
-    /// Time so far, in ticks of the clock.
+    /// Returns the current time, in ticks of the clock.
     pub(crate) fn ticks(&self) -> usize {
         self.ticks
     }
 
-    /// Time so far, in s.
+    /// Returns the current time, in s.
     pub(crate) fn time(&self) -> f64 {
         self.ticks as f64 * self.clock.tick()
     }
 
-    /// Length of the next step, in s, unless its error makes it shorter.
+    /// Returns the length of the next step, in s. The estimate of its error may still shorten this
+    /// step.
     pub(crate) fn next_step(&self) -> f64 {
         self.control.next(self.ticks) as f64 * self.clock.tick()
     }
 
-    /// Lets the clock begin at a time, in ticks.
+    /// Sets the current time to `ticks` of the clock.
     pub(crate) fn start_at(&mut self, ticks: usize) {
         self.ticks = ticks;
         self.state.time = self.time();
     }
 
-    /// Lets the run end after so many more seconds of steps that are not longer than the first.
+    /// Ends the run after another `seconds`, with steps that are at most as long as the first step.
     pub(crate) fn end_after(&mut self, seconds: f64) {
         self.clock.end = self.time() + seconds;
         self.clock.ticks_max = self.clock.ticks_per_step;
     }
 
-    /// Reduces the world to its independent degrees of freedom from now on.
+    /// Reduces `world` to its independent degrees of freedom, with the seams `pairs` merged, from
+    /// now on.
     pub(crate) fn reduce(&mut self, world: &World, pairs: &SeamPairs) -> Result<(), Error> {
         self.reduction = Some(Reduction::new(world, pairs)?);
         Ok(())
     }
 
-    /// Goes on from rest at the positions of the world, with the steps of another phase.
+    /// Continues from rest at the positions of `world`, with the steps of `phase`.
     pub(crate) fn restart(&mut self, world: &mut World, phase: PhaseSteps) -> Result<(), Error> {
         let positions = match &self.reduction {
             Some(reduction) => reduction.restrict(&world.state.positions),
@@ -152,25 +159,33 @@ impl Stepping {
         Ok(())
     }
 
-    /// Makes one step, as long as it may be.
+    /// Makes one step of `world` with the length that step control chooses. Counts rejected steps
+    /// in `statistics`.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the step cannot be solved even in parts.
     pub(crate) fn advance(
         &mut self,
         world: &mut World,
         statistics: &mut Statistics,
-    ) -> Result<MadeStep, Error> {
-        // The clock counts ticks; a sum of lengths would drift.
+    ) -> Result<AcceptedStep, Error> {
+        // The clock counts ticks, because a sum of step lengths has rounding errors.
         self.state.time = self.time();
         if world.relaxes() {
             self.state.restart();
         }
+
         loop {
             let ticks = self.control.next(self.ticks);
             let dt = ticks as f64 * self.clock.tick();
             if self.control.error().is_none() {
                 let report = self.integrate(world, dt)?;
                 self.ticks += ticks;
-                return Ok(MadeStep { ticks, report });
+                return Ok(AcceptedStep { ticks, report });
             }
+
+            // A step whose error is too large is repeated from its start.
             let start = self.step_start(world);
             self.predict(world, dt);
             let report = self.integrate(world, dt)?;
@@ -178,60 +193,56 @@ impl Stepping {
             if self.control.adapt_to_error(self.ticks, ticks, error) {
                 statistics.note_error(error);
                 self.ticks += ticks;
-                return Ok(MadeStep { ticks, report });
+                return Ok(AcceptedStep { ticks, report });
             }
             self.take_back(world, start);
             statistics.add_inexact(&report);
         }
     }
 
-    /// Adapts the length of the next step to one in which no particle moved farther than a
-    /// distance, in m.
-    pub(crate) fn adapt_to_displacement(&mut self, ticks: usize, moved: f64) {
-        self.control.adapt_to_displacement(ticks, moved);
+    /// Adapts the length of the next step to a step of `ticks` in which no particle moved farther
+    /// than `displacement`, in m.
+    pub(crate) fn adapt_to_displacement(&mut self, ticks: usize, displacement: f64) {
+        self.control.adapt_to_displacement(ticks, displacement);
     }
 
-    /// Root-mean-square acceleration of the free particles in the last step, in m/s², of a length,
-    /// in s. A step of quasi-static relaxation began at rest.
+    /// Returns the root-mean-square acceleration of the free particles of `world` in the last step,
+    /// in m/s². The step has the length `dt`, in s. A step of quasi-static relaxation starts from
+    /// rest.
     pub(crate) fn acceleration(&self, world: &World, dt: f64) -> f64 {
         let Some(previous) = &self.state.previous else { return 0.0 };
-        // The step may have been made in parts; the last one is as long as it says.
+        // A step may have been made in parts. The length of the last part is in `previous`.
         let dt = if previous.dt < dt { previous.dt } else { dt };
         let kept = if world.relaxes() { 0.0 } else { 1.0 };
-        let (mut squares, mut free) = (0.0, 0_usize);
-        let mut add = |now: &[f64], before: &[f64]| {
+
+        let (mut squares, mut free_count) = (0.0, 0_usize);
+        let velocities = world.state.velocities.chunks_exact(3).zip(world.held());
+        for (particle, (now, _)) in velocities.enumerate().filter(|(_, (_, held))| !**held) {
+            let before = match &self.reduction {
+                None => [0, 1, 2].map(|axis| previous.velocities[3 * particle + axis]),
+                Some(reduction) => reduction.value_of(particle, &previous.velocities),
+            };
             let change = [0, 1, 2].map(|axis| now[axis] - kept * before[axis]);
             squares += change.map(|change| change * change).iter().sum::<f64>();
-            free += 1;
-        };
-        let now = world.state.velocities.chunks_exact(3).zip(world.held());
-        match &self.reduction {
-            None => {
-                let pairs = now.zip(previous.velocities.chunks_exact(3));
-                for ((now, _), before) in pairs.filter(|((_, held), _)| !**held) {
-                    add(now, before);
-                }
-            }
-            Some(reduction) => {
-                for (particle, (now, _)) in now.enumerate().filter(|(_, (_, held))| !**held) {
-                    add(now, &reduction.value_of(particle, &previous.velocities));
-                }
-            }
+            free_count += 1;
         }
-        (squares / free.max(1) as f64).sqrt() / dt
+        (squares / free_count.max(1) as f64).sqrt() / dt
     }
 
-    /// Solves the next steps of quasi-static relaxation the better the nearer the cloth is to rest.
-    /// Returns whether the last one was solved so well that the cloth may count as at rest.
+    /// Solves the next steps of quasi-static relaxation of `world` more accurately the nearer the
+    /// cloth is to `rest`. `imbalance` is the imbalance of the last step over g. Returns whether
+    /// the last step was accurate enough for the cloth to count as at rest.
     pub(crate) fn refine(
         &mut self,
         world: &mut World,
         rest: &Relaxation,
         imbalance: f64,
     ) -> Result<bool, Error> {
-        let (true, Scheme::Implicit(settings)) = (world.relaxes(), &self.scheme) else {
+        let Scheme::Implicit(settings) = &self.scheme else { return Ok(true) };
+        if !world.relaxes() {
             return Ok(true);
-        };
+        }
+
         let suffices = self.accuracy.suffices(settings, rest);
         let wanted = self.accuracy.refined(settings, rest, imbalance);
         if wanted != self.accuracy {
@@ -242,7 +253,7 @@ impl Stepping {
         Ok(suffices)
     }
 
-    /// Sets up a scheme for the system that is solved now.
+    /// Sets up `scheme` for the current system.
     fn set_up(&mut self, world: &mut World, scheme: &Scheme) -> Result<(), Error> {
         self.stepper = match &mut self.reduction {
             Some(reduction) => TimeStepper::new(scheme, &ReducedSystem { world, reduction })?,
@@ -251,11 +262,12 @@ impl Stepping {
         Ok(())
     }
 
-    /// Advances the system by a step of a length, in s.
+    /// Advances the system by a step of the length `dt`, in s.
     fn integrate(&mut self, world: &mut World, dt: f64) -> Result<Report, Error> {
         let Self { stepper, state, reduction, .. } = self;
-        let filtered = world.contact.surfaces().is_some();
-        let result = match (reduction, filtered) {
+
+        let is_filtered = world.contact.surfaces().is_some();
+        let result = match (reduction, is_filtered) {
             (None, false) => stepper.advance(world, state, dt),
             (None, true) => stepper.advance_filtered(world, state, dt),
             (Some(reduction), false) => {
@@ -265,18 +277,17 @@ impl Stepping {
                 stepper.advance_filtered(&mut ReducedSystem { world, reduction }, state, dt)
             }
         };
-        let made = match &result {
-            Ok(_) => None,
-            // A step that failed has moved on by the parts that were made.
-            Err(_) => self.stepper.unfinished(),
-        };
-        if let (Some(balance), Some(made)) = (&mut world.balance, made) {
-            balance.add_report(made);
+
+        // A step that failed has accepted parts, which belong to the energy balance.
+        if result.is_err()
+            && let (Some(balance), Some(report)) = (&mut world.balance, self.stepper.unfinished())
+        {
+            balance.add_report(report);
         }
         result
     }
 
-    /// Predicts the end of a step of a length, in s, for the estimate of its error.
+    /// Predicts the end of a step of the length `dt`, in s, for the estimate of its error.
     fn predict(&mut self, world: &World, dt: f64) {
         let integrator = match &self.scheme {
             Scheme::Implicit(settings) if !world.relaxes() => settings.integrator,
@@ -290,7 +301,7 @@ impl Stepping {
         }
     }
 
-    /// Error of the step that has been made, in m: that of all particles of the panels.
+    /// Returns the estimated error of the last step, in m, over all particles of the panels.
     fn estimate_error(&mut self) -> f64 {
         match &self.reduction {
             Some(reduction) => self.estimate.estimate(&reduction.prolonged(&self.state)),
@@ -298,6 +309,7 @@ impl Stepping {
         }
     }
 
+    /// Returns the current state of `world` and its integrator.
     fn step_start(&self, world: &World) -> StepStart {
         StepStart {
             integrator: self.state.clone(),
@@ -308,6 +320,7 @@ impl Stepping {
         }
     }
 
+    /// Restores the state `start` of `world` and its integrator.
     fn take_back(&mut self, world: &mut World, start: StepStart) {
         self.state = start.integrator;
         world.state = start.cloth;

@@ -60,7 +60,7 @@ pub use self::pins::PinLoad;
 /// Cloth, bodies, gravity and air.
 #[derive(Debug)]
 pub(crate) struct World {
-    /// Cloth, constant but for the moment at which it is sewn.
+    /// Cloth. It changes once, when a garment is sewn.
     pub(crate) cloth: Cloth,
     /// Positions, velocities and memory of the cloth.
     pub(crate) state: State,
@@ -68,58 +68,65 @@ pub(crate) struct World {
     pub(crate) contact: Contact,
     gravity: Gravity,
     air: AirDrag,
-    /// Forces that a program applies between steps.
+    /// Forces that a program sets between steps.
     pub(crate) external: ConstantForces,
     momentum: MomentumRemoval,
     pins: Pins,
     clock: MotionClock,
     seams: Seams,
-    /// Balance of the energy, if it is asked for; not while a garment is sewn.
+    /// Energy balance, if the scene asks for it. `None` while a garment is sewn.
     pub(crate) balance: Option<EnergyBalance>,
-    /// Whether the balance is asked for.
+    /// Whether the scene asks for an energy balance.
     with_balance: bool,
-    /// Flag that gives up the step in hand.
+    /// Flag that cancels the current step.
     pub(crate) cancel: Option<Arc<AtomicBool>>,
 }
 
 /// Seams while a garment is sewn.
 #[derive(Debug)]
 struct Seams {
-    /// Springs that close the seams, until they are closed.
+    /// Closing springs, until the seams are merged.
     springs: Option<ClosingSprings>,
-    /// The cloth once its seams are closed.
+    /// Cloth with merged seams, until it replaces the cloth of the panels.
     sewn: Option<SewnCloth>,
 }
 
 /// Cloth with closed seams.
 #[derive(Debug)]
 struct SewnCloth {
-    /// The cloth with the friction of its fabrics.
+    /// Cloth with the friction of its fabrics.
     cloth: Cloth,
-    /// Bending across its seams.
+    /// Bending across the seams.
     bending: SeamBending,
 }
 
 impl World {
-    /// Makes the world of a scene that has been checked.
+    /// Returns the world of the checked `scene`, at its start.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if contact cannot be set up for `scene`.
     pub(crate) fn new(scene: Scene) -> Result<Self, Error> {
         let contact = Contact::new(&scene)?;
         let held = scene.held_particles();
         let moves_at_once = scene.schedule.motion_seconds.is_none();
         let Scene { mut cloth, breen, start, pins, environment, sewing, schedule, .. } = scene;
         let seams = match sewing {
-            Some(Sewing { pairs, cloth: own, seconds, bending, .. }) => {
+            // The panels are drawn together without friction. The cloth with friction follows.
+            Some(Sewing { pairs, cloth: sewing_cloth, seconds, bending, .. }) => {
                 let springs = ClosingSprings::new(&pairs, &start.positions, seconds);
-                let cloth = std::mem::replace(&mut cloth, own);
+                let cloth = std::mem::replace(&mut cloth, sewing_cloth);
                 Seams { springs: Some(springs), sewn: Some(SewnCloth { cloth, bending }) }
             }
             None => Seams { springs: None, sewn: None },
         };
+
         let mut state = cloth.state(start.positions).expect("a scene places every particle");
         state.velocities = start.velocities;
         let coupled = seams.springs.as_ref().map_or_else(Vec::new, ClosingSprings::coupled_pairs);
         let mut internal = InternalForces::new(&cloth, breen, &coupled, &state.positions);
         let stored = internal.stored(&cloth, &state);
+
         let with_balance = scene.solver.energy_balance;
         let is_sewing = seams.springs.is_some();
         let mut world = Self {
@@ -138,27 +145,31 @@ impl World {
             with_balance,
             cancel: None,
         };
-        world.set_relaxing(is_sewing || schedule.relaxation.is_some_and(|own| !own.inertia));
-        // The balance of a garment begins when it is sewn.
+
+        world.set_relaxing(
+            is_sewing || schedule.relaxation.is_some_and(|relaxation| !relaxation.inertia),
+        );
+
+        // The balance of a garment starts when its seams are merged.
         if with_balance && !is_sewing {
             world.balance = Some(EnergyBalance::new(stored, world.kinetic_energy()));
         }
         Ok(world)
     }
 
-    /// Lets the steps start from rest from now on, as in quasi-static relaxation, or keep their
-    /// momentum.
+    /// Sets whether each step starts from rest, as in quasi-static relaxation (`relaxes`), or keeps
+    /// the momentum of the cloth.
     pub(crate) fn set_relaxing(&mut self, relaxes: bool) {
         self.momentum.set_active(relaxes, self.cloth.particles());
     }
 
-    /// Whether steps start from rest.
+    /// Returns whether each step starts from rest.
     pub(crate) fn relaxes(&self) -> bool {
         self.momentum.is_active()
     }
 
-    /// Starts the motions of bodies and pins at a time, in s, with a cloth at rest that keeps its
-    /// momentum.
+    /// Starts the motions of bodies and pins at `time`, in s. The cloth is at rest and keeps its
+    /// momentum from then on.
     pub(crate) fn set_in_motion(&mut self, time: f64) {
         self.clock.start(time);
         self.pins.release(HoldUntil::Rest, time);
@@ -166,50 +177,53 @@ impl World {
         self.set_relaxing(false);
     }
 
-    /// Time of the prescribed motions at a time of the simulation, both in s; none before they begin.
+    /// Returns the time of the prescribed motions at `time` of the simulation, both in s. Returns
+    /// `None` before the motions start.
     pub(crate) fn motion_time(&self, time: f64) -> Option<f64> {
         self.clock.start_time().is_finite().then(|| self.clock.time(time))
     }
 
-    /// Whether each particle is held in all directions in this step.
+    /// Returns whether each particle is held in all directions in this step.
     pub(crate) fn held(&self) -> &[bool] {
         &self.pins.held
     }
 
-    /// Springs that close the seams, while the garment is sewn.
+    /// Returns the springs that close the seams, while the garment is sewn.
     pub(crate) fn closing_springs(&self) -> Option<&ClosingSprings> {
         self.seams.springs.as_ref()
     }
 
-    /// Stiffens the springs that close the seams from a time on, in s, so far that a gap in m
-    /// closes; returns whether they were as usual before.
+    /// Stiffens the closing springs from `time` on, in s, so that a seam with the gap `gap`, in m,
+    /// closes. Returns whether the springs had their usual stiffness before.
     pub(crate) fn stiffen_springs(&mut self, time: f64, gap: f64) -> bool {
         self.seams.springs.as_mut().is_some_and(|springs| springs.stiffen(time, gap))
     }
 
-    /// Whether the closing springs are stiffened.
+    /// Returns whether the closing springs are stiffened.
     pub(crate) fn springs_are_stiffened(&self) -> bool {
         self.seams.springs.as_ref().is_some_and(|springs| springs.stiffening().is_some())
     }
 
-    /// Ends the sewing at a time, in s, with the cloth at rest at some positions, in m.
+    /// Ends the sewing at `time`, in s, with the cloth at rest at `positions`, in m.
     pub(crate) fn finish_sewing(&mut self, time: f64, positions: &[f64]) {
         self.seams.springs = None;
         if let Some(surfaces) = self.contact.surfaces_mut() {
             surfaces.contact.close_seams();
         }
+
         self.gravity.start_ramp(time);
         if let Some(SewnCloth { cloth, bending }) = self.seams.sewn.take() {
             self.cloth = cloth;
             self.internal.sew(&self.cloth, bending, positions);
         }
+
         let state = self.cloth.state(positions.to_vec());
         self.state = state.expect("a place for every particle");
         self.pins.release(HoldUntil::Sewn, time);
         self.begin_balance();
     }
 
-    /// Placement of cloth with closed seams at some positions, in m, among the bodies.
+    /// Returns how the cloth with merged seams lies at `positions`, in m, among the bodies.
     pub(crate) fn sewn_placement(
         &mut self,
         positions: &[f64],
@@ -221,8 +235,9 @@ impl World {
         surfaces.contact.sewn_placement(positions, &bodies)
     }
 
-    /// Sets the cloth, once its seams are closed, to positions in m at which nothing intersects, at a time in s.
-    /// Minimum separations are reduced to the distances there, and grow again within a time, in s.
+    /// Places the cloth with merged seams at `positions`, in m, at `time`, in s. Nothing may
+    /// intersect at `positions`. Minimum separations are reduced to the distances there, and grow
+    /// again within `growth_seconds`.
     pub(crate) fn place_sewn(
         &mut self,
         time: f64,
@@ -235,7 +250,7 @@ impl World {
         Ok(())
     }
 
-    /// Starts the energy balance at the present state, where the run keeps one.
+    /// Starts the energy balance at the current state, if the run keeps one.
     fn begin_balance(&mut self) {
         if self.with_balance {
             let stored = self.internal.stored(&self.cloth, &self.state);
@@ -243,19 +258,19 @@ impl World {
         }
     }
 
-    /// Begins at a time, in s, with cloth at rest at other places, in m, whose seams are closed there.
+    /// Starts at `time`, in s, with cloth at rest as `placed`, with merged seams.
     pub(crate) fn begin_at(&mut self, time: f64, placed: &PlacedSurfaces<'_>) -> Result<(), Error> {
         if let Some(surfaces) = self.contact.surfaces_mut() {
             surfaces.place(time, placed)?;
         }
         self.finish_sewing(time, placed.positions);
-        // Gravity has grown on the grid before.
+        // Gravity reached its full value on the previous grid.
         self.gravity.finish_ramp(time);
         Ok(())
     }
 
-    /// Lets the memories of friction and the balance of the energy begin anew from where the cloth is, as if
-    /// it had come there in one go.
+    /// Resets the memories of friction and the energy balance, as if the cloth had moved to its
+    /// current positions in one step.
     pub(crate) fn forget(&mut self) {
         let velocities = std::mem::take(&mut self.state.velocities);
         let positions = std::mem::take(&mut self.state.positions);
@@ -265,19 +280,21 @@ impl World {
         self.begin_balance();
     }
 
-    /// Time of the last change that a scene prescribes, in s: full gravity, full size of bodies,
-    /// and releases of pins.
+    /// Returns the time of the last change that the scene prescribes, in s: full gravity, full size
+    /// of bodies, or release of a pin.
     pub(crate) fn last_change(&self) -> f64 {
         let ramp_end = self.gravity.ramp_end();
         let surfaces = self.contact.surfaces();
-        let full = surfaces.map_or(ramp_end, |surfaces| ramp_end.max(surfaces.full_size_time()));
-        self.pins.last_release(full)
+        let full_time =
+            surfaces.map_or(ramp_end, |surfaces| ramp_end.max(surfaces.full_size_time()));
+        self.pins.last_release(full_time)
     }
 
-    /// Loads of the pins at a time, in s, without the inertia of the particles that they hold.
+    /// Returns the loads of the pins at `time`, in s, without the inertia of the particles that the
+    /// pins hold.
     pub(crate) fn pin_loads(&mut self, time: f64) -> Vec<PinLoad> {
         let positions = self.state.positions.clone();
-        // The forces that stand in for inertia count as little as inertia itself.
+        // The forces that replace inertia are left out, as inertia is.
         self.momentum.clear();
         let mut forces = vec![0.0; positions.len()];
         self.forces(&positions, &mut forces);
@@ -285,14 +302,15 @@ impl World {
         self.pins.loads(times, &positions, &forces)
     }
 
-    /// Balance of the energy since the start, if it is asked for.
+    /// Returns the energy balance since the start, if the run keeps one.
     pub(crate) fn energy(&self) -> Option<Energy> {
         self.balance.as_ref().map(|balance| balance.energy(self.kinetic_energy()))
     }
 
+    /// Returns the kinetic energy of the cloth, in J.
     fn kinetic_energy(&self) -> f64 {
-        let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
-        let speeds = self.state.velocities.chunks_exact(3).map(square);
-        self.cloth.masses().iter().zip(speeds).map(|(mass, square)| 0.5 * mass * square).sum()
+        let velocities = self.state.velocities.chunks_exact(3);
+        let squares = velocities.map(|velocity| velocity.iter().map(|v| v * v).sum::<f64>());
+        self.cloth.masses().iter().zip(squares).map(|(mass, square)| 0.5 * mass * square).sum()
     }
 }

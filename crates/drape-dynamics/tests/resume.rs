@@ -47,7 +47,7 @@ impl Progress for Keeper {
         saved.write(&mut checkpoint)?;
         let mut bytes = Vec::new();
         checkpoint.encode(&mut bytes).unwrap();
-        self.kept.push(Kept { bytes, frames: saved.frames() });
+        self.kept.push(Kept { bytes, frames: saved.frame_count() });
         Ok(())
     }
 }

@@ -1,30 +1,32 @@
-//! Garments that fell off their body, or slid from where they were put.
+//! Garments that fell off their body, or slid from their place on the body.
 
 use crate::measure::garment_parts::{GarmentParts, HungGarment, VerticalExtent};
 
-/// Fraction of its height by which a garment may sink until it rests: more is no settling on the
-/// body.
+/// Fraction of its height by which a garment may sink until it rests. A garment that sinks farther
+/// has slid.
 const SUNK: f64 = 0.25;
 
-/// Height of a garment, in m, from which on sinking by a fraction of it is sliding: a flat one falls
-/// on its body.
+/// Height, in m, below which the height of a garment does not count for [`SUNK`]: a flat garment
+/// falls onto its body.
 const SLIDE_MIN: f64 = 0.3;
 
-/// Reason why a run is of no use any more: a garment is below all bodies, and nothing can hold it.
+/// Returns a reason to end the run if a garment of `parts` is below all bodies at `positions`, so
+/// that nothing can hold it.
 pub(crate) fn fallen(parts: &GarmentParts, positions: &[f64]) -> Option<String> {
     let ground = parts.ground?;
-    let below = |garment: &&HungGarment| garment.extent(positions).high < ground;
-    let HungGarment { name, hung, slid, .. } = parts.garments.iter().find(below)?;
+    let mut garments = parts.garments.iter();
+    let HungGarment { name, hung, slid, .. } =
+        garments.find(|garment| garment.extent(positions).high < ground)?;
     let top = hung.high;
-    let left =
+    let slide =
         slid.map_or(String::new(), |time| format!(", left its place on the body at {time:.1} s"));
     Some(format!(
-        "the garment \"{name}\" fell off: it was up at {top:.2} m{left}, and is below {ground:.2} m, where the bodies end"
+        "the garment \"{name}\" fell off: it was up at {top:.2} m{slide}, and is below {ground:.2} m, where the bodies end"
     ))
 }
 
-/// Notes the time, in s, of garments that have just sunk farther than cloth settles; returns
-/// warnings about them. Without a body nothing slides.
+/// Records `time`, in s, for each garment that has just sunk farther than cloth settles, with the
+/// particles at `positions`. Returns a warning for each. Without a body nothing slides.
 pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64) -> Vec<String> {
     if !parts.has_bodies {
         return Vec::new();
@@ -44,13 +46,13 @@ pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64
     slides.collect()
 }
 
-/// Returns whether a garment has sunk farther than cloth settles, from where it was put to where its
-/// top is now, in m.
+/// Returns whether a garment that hung at first from `low` to `high` has sunk farther than cloth
+/// settles. `now` is the height of its top, in m.
 fn has_sunk(VerticalExtent { low, high: top }: VerticalExtent, now: f64) -> bool {
     top - now > SUNK * (top - low).max(SLIDE_MIN)
 }
 
-/// Warnings about garments that rest, but not where they were put.
+/// Returns a warning for each garment of `parts` that rests at `positions` after sliding.
 pub(crate) fn sunk(parts: &GarmentParts, positions: &[f64]) -> Vec<String> {
     let sunk = parts.garments.iter().filter_map(|garment| {
         let (top, now) = (garment.hung.high, garment.extent(positions).high);

@@ -1,11 +1,11 @@
-//! Parts of the cloth that measures refer to: panels, garments, seams, edges, and the fabrics'
-//! measured ranges.
+//! Parts of the cloth to which measures refer: panels, garments, seams, edges, and the measured
+//! ranges of the fabrics.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use drape_collide::{Body, Shape};
-use drape_scene::{Garment, Material, MeasuredGarment, Panel, Scene, Seam, SeamPairs};
+use drape_scene::{Garment, Material, MeasuredGarment, Scene, Seam, SeamPairs};
 use serde::{Deserialize, Serialize};
 
 /// Parts of the cloth of a scene.
@@ -14,107 +14,112 @@ pub(crate) struct GarmentParts {
     /// Panels, in the order of the scene.
     pub(crate) panels: Vec<PanelSpan>,
     pub(crate) garments: Vec<HungGarment>,
-    /// The garments as surfaces that girths are measured of.
+    /// The garments as surfaces whose girths are measured.
     pub(crate) measured: Vec<MeasuredGarment>,
-    /// Lowest point of the bodies, in m, if a garment that is below it falls for ever.
+    /// Lowest point of the bodies, in m, if nothing stops a garment below it.
     pub(crate) ground: Option<f64>,
-    /// Whether there is a body but the ground.
+    /// Whether there is a body other than the ground.
     pub(crate) has_bodies: bool,
     /// Particles of the seams.
     pub(crate) seams: SeamPairs,
-    /// The seams one by one.
+    /// Seams with their names.
     pub(crate) named_seams: Vec<Seam>,
-    /// Edges of panels that are not sewn.
+    /// Edges of panels that are not part of a seam.
     pub(crate) free_edges: Vec<FreeEdge>,
-    /// Largest deformation to which each law of each fabric was measured, by the names of fabrics
-    /// and the keys of laws.
+    /// Largest measured deformation of each law of each fabric, by the name of the fabric and the
+    /// key of the law.
     pub(crate) measured_ranges: BTreeMap<String, BTreeMap<String, f64>>,
 }
 
-/// Particles of a panel.
+/// Panel and its particles.
 #[derive(Debug, Clone)]
 pub(crate) struct PanelSpan {
     pub(crate) name: String,
-    /// Name of its fabric in the scene.
+    /// Name of the fabric in the scene.
     pub(crate) fabric: String,
-    /// Colour in sRGB that the scene states for its fabric.
+    /// Colour in sRGB that the scene states for the fabric.
     pub(crate) colour: Option<[u8; 3]>,
-    /// Direction of its weft in its own frame.
+    /// Direction of the weft in the frame of the panel.
     pub(crate) weft: [f64; 2],
     pub(crate) particles: Range<usize>,
 }
 
-/// Garment, and where it was when it began to hang.
+/// Garment, and its height range when it began to hang.
 #[derive(Debug, Clone)]
 pub(crate) struct HungGarment {
     pub(crate) name: String,
     particles: Range<usize>,
-    /// Its extent when it began to hang.
+    /// Height range when the garment began to hang.
     pub(crate) hung: VerticalExtent,
-    /// Time at which it left its place, in s, if it did.
+    /// Time at which the garment left its place, in s.
     pub(crate) slid: Option<f64>,
 }
 
-/// Lowest and highest point, in m.
+/// Height range: lowest and highest point, in m.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct VerticalExtent {
     pub(crate) low: f64,
     pub(crate) high: f64,
 }
 
-/// Edge of a panel that is not sewn, such as a hem.
+/// Edge of a panel that is not part of a seam, such as a hem.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FreeEdge {
-    /// PANEL.EDGE.
+    /// Name in the form PANEL.EDGE.
     pub(crate) name: String,
-    /// Its particles in their order.
+    /// Particles along the edge, in order.
     pub(crate) particles: Vec<u32>,
 }
 
 impl GarmentParts {
-    /// Parts of a scene.
+    /// Returns the parts of `scene`.
     pub(crate) fn new(scene: &Scene) -> Self {
-        let span = |panel: &Panel| PanelSpan {
+        let panels = scene.panels.iter().map(|panel| PanelSpan {
             name: panel.name.clone(),
             fabric: scene.materials[panel.material].name.clone(),
             colour: scene.materials[panel.material].colour,
             weft: panel.lattice.grain.weft(),
             particles: panel.particles(),
-        };
-        let hung = |garment: &Garment| HungGarment::new(garment, &scene.start.positions);
-        let garments: Vec<HungGarment> = scene.garments.iter().map(hung).collect();
+        });
+        let garments: Vec<HungGarment> = scene
+            .garments
+            .iter()
+            .map(|garment| HungGarment::new(garment, &scene.start.positions))
+            .collect();
+
         let bodies = scene.bodies.iter().map(|moving| &moving.body);
-        let seams = scene.sewing.as_ref().map(|sewing| sewing.pairs.clone());
+        let sewing = scene.sewing.as_ref();
+        let seams = sewing.map(|sewing| sewing.pairs.clone());
         Self {
-            panels: scene.panels.iter().map(span).collect(),
+            panels: panels.collect(),
             ground: if garments.is_empty() { None } else { lowest(bodies.clone()) },
             garments,
             measured: MeasuredGarment::all(scene),
             has_bodies: bodies.clone().any(|body| !matches!(body.shape, Shape::Plane)),
             seams: seams.unwrap_or_default(),
-            named_seams: scene.sewing.as_ref().map_or_else(Vec::new, |own| own.seams.clone()),
+            named_seams: sewing.map_or_else(Vec::new, |sewing| sewing.seams.clone()),
             free_edges: free_edges(scene),
             measured_ranges: measured_ranges(&scene.materials),
         }
     }
 
-    /// Garment that left its place first, in words.
+    /// Describes the garment that left its place first.
     pub(crate) fn first_slide(&self) -> Option<String> {
-        let slid = self.garments.iter().filter_map(|own| Some((own.slid?, &own.name)));
-        let (time, name) = slid.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let garments = self.garments.iter();
+        let slides = garments.filter_map(|garment| Some((garment.slid?, &garment.name)));
+        let (time, name) = slides.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(format!("the garment \"{name}\" left its place on the body at {time:.1} s"))
     }
 
-    /// Name of the seam that sews two particles to each other.
+    /// Returns the name of the seam that sews the particles `ends` to each other, or an empty name.
     pub(crate) fn seam_of(&self, ends: [u32; 2]) -> &str {
-        let sews = |seam: &&Seam| {
-            let tie = |particle| seam.pairs.ties.iter().any(|tie| tie.particle == particle);
-            seam.pairs.pairs.contains(&ends) || tie(ends[0])
-        };
-        self.named_seams.iter().find(sews).map_or("", |seam| &seam.name)
+        let seam = self.named_seams.iter().find(|Seam { pairs, .. }| {
+            pairs.pairs.contains(&ends) || pairs.ties.iter().any(|tie| tie.particle == ends[0])
+        });
+        seam.map_or("", |seam| &seam.name)
     }
 
-    /// Name of the panel of a particle.
+    /// Returns the name of the panel of `particle`, or an empty name.
     pub(crate) fn panel_of(&self, particle: usize) -> &str {
         let mut panels = self.panels.iter();
         panels.find(|panel| panel.particles.contains(&particle)).map_or("", |panel| &panel.name)
@@ -125,17 +130,17 @@ impl HungGarment {
     fn new(garment: &Garment, positions: &[f64]) -> Self {
         let Garment { name, particles, .. } = garment.clone();
         let hung = VerticalExtent { low: 0.0, high: 0.0 };
-        let mut own = Self { name, particles, hung, slid: None };
-        own.hang(positions);
-        own
+        let mut hung_garment = Self { name, particles, hung, slid: None };
+        hung_garment.hang(positions);
+        hung_garment
     }
 
-    /// Notes its extent as that with which it begins to hang.
+    /// Records the current height range, at `positions`. Slides are measured against it.
     pub(crate) fn hang(&mut self, positions: &[f64]) {
         self.hung = self.extent(positions);
     }
 
-    /// Its extent at some positions.
+    /// Returns the height range of the garment at `positions`, in m.
     pub(crate) fn extent(&self, positions: &[f64]) -> VerticalExtent {
         let heights = positions.iter().skip(1).step_by(3);
         let heights = heights.skip(self.particles.start).take(self.particles.len());
@@ -147,7 +152,7 @@ impl HungGarment {
     }
 }
 
-/// Lowest point of bodies, in m, where nothing below them could catch a garment.
+/// Returns the lowest point of `bodies`, in m, or `None` if a plane below could catch a garment.
 fn lowest<'a>(bodies: impl Iterator<Item = &'a Body> + Clone) -> Option<f64> {
     if bodies.clone().any(|body| matches!(body.shape, Shape::Plane)) {
         return None;
@@ -157,38 +162,41 @@ fn lowest<'a>(bodies: impl Iterator<Item = &'a Body> + Clone) -> Option<f64> {
     heights.reduce(f64::min)
 }
 
-/// Edges of panels whose particles between the ends are not sewn.
+/// Returns the edges of panels of `scene` whose particles between the ends are not sewn.
 fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
     let mut sewn = vec![false; scene.cloth.particles()];
     for SeamPairs { pairs, ties } in scene.sewing.iter().map(|sewing| &sewing.pairs) {
         pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
         ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
     }
+
     let edges = scene.panels.iter().flat_map(|panel| {
         panel.edges.iter().map(move |edge| FreeEdge {
             name: format!("{}.{}", panel.name, edge.name),
             particles: edge.nodes.iter().map(|node| panel.first as u32 + node).collect(),
         })
     });
-    let inner = |edge: &FreeEdge| {
+
+    let free_edges = edges.filter(|edge| {
         let count = edge.particles.len();
         count > 2 && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
-    };
-    edges.filter(inner).collect()
+    });
+    free_edges.collect()
 }
 
-/// Largest measured deformations of the fabrics of a scene, as their files tell; where one
-/// direction of the yarns stands for the other, it does so here.
+/// Returns the largest measured deformations of the fabrics of `materials`, from their files. A
+/// missing range of warp or weft is replaced by the range of the other direction.
 fn measured_ranges(materials: &[Material]) -> BTreeMap<String, BTreeMap<String, f64>> {
-    let ranges = |material: &Material| {
+    let ranges = materials.iter().filter_map(|material| {
         let mut ranges = material.fabric.provenance.as_ref()?.measured_range.clone();
-        for [one, other] in [["warp.traction", "weft.traction"], ["weft.traction", "warp.traction"]]
+        for [known, missing] in
+            [["warp.traction", "weft.traction"], ["weft.traction", "warp.traction"]]
         {
-            if let Some(strain) = ranges.get(one).copied() {
-                ranges.entry(other.into()).or_insert(strain);
+            if let Some(strain) = ranges.get(known).copied() {
+                ranges.entry(missing.into()).or_insert(strain);
             }
         }
         Some((material.name.clone(), ranges))
-    };
-    materials.iter().filter_map(ranges).collect()
+    });
+    ranges.collect()
 }

@@ -1,4 +1,4 @@
-//! Girths and ease of garments at bust, waist and hip of the body in its pose at the end.
+//! Girths and ease of garments at bust, waist and hip of the body in its final pose.
 
 use drape_collide::Shape;
 use drape_scene::{ClothPlaces, Figures, GirthPair, MeasuredGarment};
@@ -7,13 +7,15 @@ use serde_json::{Map, Value, json};
 use crate::measure::garment_parts::GarmentParts;
 use crate::world::World;
 
-/// Girths of the garments of a world, by their names and by places.
+/// Returns the girths of the garments of `world`, by the names of the garments and of the
+/// landmarks.
 pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
     let bodies = world.contact.bodies().iter().zip(world.contact.triangulations());
     let solid = bodies.filter(|(body, _)| !matches!(body.shape, Shape::Plane));
     let figures = Figures::new(solid.map(|(_, outline)| outline).collect());
     let cloth =
         ClothPlaces { coordinates: world.cloth.coordinates(), positions: &world.state.positions };
+
     let mut garments = Map::new();
     for garment in &parts.measured {
         let girths = garment.girths(cloth, &figures);
@@ -25,7 +27,7 @@ pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
     Value::Object(garments)
 }
 
-/// Returns the name of a garment, with a number if another one has it.
+/// Returns the name of `garment`, with a number if the name is a key of `taken`.
 fn key(taken: &Map<String, Value>, garment: &MeasuredGarment) -> String {
     let name = &garment.name;
     let numbered = (2..).map(|number| format!("{name} {number}"));
@@ -33,27 +35,29 @@ fn key(taken: &Map<String, Value>, garment: &MeasuredGarment) -> String {
     names.find(|name| !taken.contains_key(name)).unwrap_or_default()
 }
 
-/// Measures at a place, in m. Without a girth of the garment there is a reason, and no ease.
+/// Returns the measures of `pair`, in m. If the garment has no girth there, the row has a reason
+/// and no ease.
 fn row(pair: &GirthPair) -> Value {
     let GirthPair { landmark, body, garment } = pair;
-    let found = landmark.found_by.word();
+    let found_by = landmark.found_by.word();
+
     match garment {
-        Ok(own) => json!({
+        Ok(girth) => json!({
             "height": landmark.height,
-            "found_by": found,
-            "garment_height": own.height,
+            "found_by": found_by,
+            "garment_height": girth.height,
             "body": body,
-            "garment": own.worn,
-            "hull": own.hull,
-            "pattern": own.pattern,
-            "ease": own.worn - body,
-            "pattern_ease": own.pattern - body,
+            "garment": girth.worn,
+            "hull": girth.hull,
+            "pattern": girth.pattern,
+            "ease": girth.worn - body,
+            "pattern_ease": girth.pattern - body,
         }),
-        Err(none) => json!({
+        Err(missing) => json!({
             "height": landmark.height,
-            "found_by": found,
+            "found_by": found_by,
             "body": body,
-            "not_measured": none.reason(),
+            "not_measured": missing.reason(),
         }),
     }
 }

@@ -1,42 +1,45 @@
-//! Openings of garments, such as a waist or a hem: how wide they are, how much of that is ease, and in
-//! how many folds they hang.
+//! Openings of garments, such as a waist or a hem: their lengths, their ease and the number of
+//! their folds.
 
 use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 use drape_collide::{Shape, equivalence_classes};
 use serde_json::{Value, json};
 
 use crate::measure::garment_parts::{FreeEdge, GarmentParts};
+use crate::measure::vector::point_of;
 use crate::world::World;
 
-/// Least depth of a hollow between two folds, from the convex hull of the opening, in m; nodes of a
-/// drapemeter's specimen are counted by the same prominence.
+/// Smallest depth of a hollow between two folds, measured from the convex hull of the opening, in
+/// m. Nodes of a drapemeter's specimen are counted by the same prominence.
 const HOLLOW: f64 = 3e-3;
 
 /// Closed row of free edges, such as a waist or a hem.
 #[derive(Debug, Clone, PartialEq)]
 struct Opening {
-    /// PANEL.EDGE of each.
+    /// Names of the edges in the form PANEL.EDGE.
     edges: Vec<String>,
-    /// Its particles in their order, the first not repeated.
+    /// Particles in order, without a repetition of the first.
     particles: Vec<u32>,
-    /// Its length before deformation, in m.
+    /// Length before deformation, in m.
     relaxed: f64,
 }
 
-/// Measures of the openings of a world: their heights and lengths, and the girth of the body
-/// inside.
+/// Returns the measures of the openings of `world`: heights, lengths, folds, and the girth of the
+/// body inside.
 pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
     let positions = &world.state.positions;
-    let place = |particle: &u32| -> [f64; 3] {
-        std::array::from_fn(|axis| positions[3 * *particle as usize + axis])
-    };
     let bodies = world.contact.bodies().iter().zip(world.contact.triangulations());
     let bodies: Vec<_> = bodies.filter(|(body, _)| !matches!(body.shape, Shape::Plane)).collect();
-    let measure = |opening: &Opening| {
-        let places: Vec<[f64; 3]> = opening.particles.iter().map(place).collect();
-        let length = perimeter(&places);
-        let plane = SectionPlane::through(&places)?;
-        let ring: Vec<[f64; 2]> = places.iter().map(|&place| plane.flat(place)).collect();
+
+    let openings = openings(parts, world);
+    let measures = openings.iter().filter_map(|opening| {
+        let points: Vec<[f64; 3]> =
+            opening.particles.iter().map(|&particle| point_of(positions, particle)).collect();
+        let length = perimeter(&points);
+        let plane = SectionPlane::through(&points)?;
+        let ring: Vec<[f64; 2]> = points.iter().map(|&point| plane.flat(point)).collect();
+
+        // The section of the body within the opening is measured along its convex hull.
         let cuts = bodies.iter().flat_map(|(_, outline)| {
             outline.triangles.iter().flat_map(|triangle| {
                 plane.cuts(triangle.map(|corner| outline.vertices[corner as usize]))
@@ -44,84 +47,96 @@ pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
         });
         let inside: Vec<[f64; 2]> = cuts.filter(|&point| encloses(&ring, point)).collect();
         let girth = (inside.len() > 2).then(|| perimeter(&convex_hull(inside)));
-        let heights = places.iter().map(|place| place[1]);
+        let heights = points.iter().map(|point| point[1]);
         Some(json!({
             "edges": opening.edges,
-            "height_mean": heights.sum::<f64>() / places.len() as f64,
+            "height_mean": heights.sum::<f64>() / points.len() as f64,
             "length": length,
             "relaxed": opening.relaxed,
             "body": girth,
             "folds": folds(&ring),
             "ease": girth.map(|girth| length - girth),
         }))
-    };
-    Value::Array(openings(parts, world).iter().filter_map(measure).collect())
+    });
+    Value::Array(measures.collect())
 }
 
-/// Returns the number of folds of a closed curve: that of the hollows between them, in each of which it
-/// is deeper than [`HOLLOW`] within its convex hull.
+/// Returns the number of folds of the closed curve `ring`. It equals the number of hollows between
+/// folds, in which the curve is deeper than [`HOLLOW`] inside its convex hull.
 fn folds(ring: &[[f64; 2]]) -> usize {
     let hull = convex_hull(ring.to_vec());
-    let depth = |&[x, y]: &[f64; 2]| {
-        let sides = hull.iter().zip(hull.iter().cycle().skip(1));
-        let distances = sides.map(|([ax, ay], [bx, by])| {
-            let (u, v) = (bx - ax, by - ay);
-            // The hull runs anticlockwise: its inside is on the left.
-            (u * (y - ay) - v * (x - ax)) / u.hypot(v)
-        });
-        distances.fold(f64::INFINITY, f64::min)
-    };
-    let is_hollow: Vec<bool> = ring.iter().map(|point| depth(point) > HOLLOW).collect();
-    let before = is_hollow.iter().cycle().skip(is_hollow.len().saturating_sub(1));
-    is_hollow.iter().zip(before).filter(|(here, before)| **here && !**before).count()
+    let is_hollow: Vec<bool> = ring.iter().map(|&point| depth(point, &hull) > HOLLOW).collect();
+    let previous = is_hollow.iter().cycle().skip(is_hollow.len().saturating_sub(1));
+    is_hollow.iter().zip(previous).filter(|(current, previous)| **current && !**previous).count()
 }
 
-/// Free edges in closed rows.
+/// Returns the distance of a point inside the convex `hull` to its nearest side, in m.
+fn depth([x, y]: [f64; 2], hull: &[[f64; 2]]) -> f64 {
+    let sides = hull.iter().zip(hull.iter().cycle().skip(1));
+    let distances = sides.map(|([ax, ay], [bx, by])| {
+        let (u, v) = (bx - ax, by - ay);
+        // The hull runs anticlockwise, so its inside is on the left.
+        (u * (y - ay) - v * (x - ax)) / u.hypot(v)
+    });
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+/// Returns the closed rows of free edges of `parts`.
 fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
-    let class = equivalence_classes(world.cloth.particles(), &parts.seams.pairs);
-    let ends = |edge: &FreeEdge| {
-        let ends = [edge.particles[0], edge.particles[edge.particles.len() - 1]];
-        ends.map(|particle| class[particle as usize])
-    };
+    let classes = equivalence_classes(world.cloth.particles(), &parts.seams.pairs);
     let coordinates = world.cloth.coordinates();
-    let relaxed = |edge: &FreeEdge| -> f64 {
-        let places = edge.particles.windows(2).map(|pair| {
-            let [[a, b], [c, d]] = [pair[0], pair[1]].map(|p| coordinates[p as usize]);
-            (c - a).hypot(d - b)
-        });
-        places.sum()
-    };
-    let mut left: Vec<&FreeEdge> = parts.free_edges.iter().collect();
+    let mut remaining: Vec<&FreeEdge> = parts.free_edges.iter().collect();
     let mut openings = Vec::new();
-    while !left.is_empty() {
-        let first = left.remove(0);
-        let [start, mut end] = ends(first);
+    while !remaining.is_empty() {
+        let first = remaining.remove(0);
+        let [start, mut end] = ends(first, &classes);
         let mut opening = Opening {
             edges: vec![first.name.clone()],
             particles: first.particles.clone(),
-            relaxed: relaxed(first),
+            relaxed: relaxed_length(first, coordinates),
         };
+
+        // Edges are appended, reversed where necessary, until the row is closed.
         while end != start
-            && let Some(next) = left.iter().position(|edge| ends(edge).contains(&end))
+            && let Some(next) =
+                remaining.iter().position(|edge| ends(edge, &classes).contains(&end))
         {
-            let edge = left.remove(next);
-            let [one, other] = ends(edge);
-            let onwards = one == end;
-            end = if onwards { other } else { one };
+            let edge = remaining.remove(next);
+            let [edge_start, edge_end] = ends(edge, &classes);
+            let is_forward = edge_start == end;
+            end = if is_forward { edge_end } else { edge_start };
             let mut particles = edge.particles.clone();
-            if !onwards {
+            if !is_forward {
                 particles.reverse();
             }
             opening.edges.push(edge.name.clone());
             opening.particles.extend(&particles[1..]);
-            opening.relaxed += relaxed(edge);
+            opening.relaxed += relaxed_length(edge, coordinates);
         }
+
         if end == start {
             opening.particles.pop();
             openings.push(opening);
         }
     }
     openings
+}
+
+/// Returns the first and the last particle of `edge`, each as the class of `classes` that it is
+/// sewn into.
+fn ends(edge: &FreeEdge, classes: &[u32]) -> [u32; 2] {
+    let ends = [edge.particles[0], edge.particles[edge.particles.len() - 1]];
+    ends.map(|particle| classes[particle as usize])
+}
+
+/// Returns the length of `edge` before deformation, in m, from the material `coordinates` of the
+/// particles.
+fn relaxed_length(edge: &FreeEdge, coordinates: &[[f64; 2]]) -> f64 {
+    let lengths = edge.particles.windows(2).map(|pair| {
+        let [[a, b], [c, d]] = [pair[0], pair[1]].map(|p| coordinates[p as usize]);
+        (c - a).hypot(d - b)
+    });
+    lengths.sum()
 }
 
 #[cfg(test)]

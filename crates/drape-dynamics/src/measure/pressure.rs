@@ -5,37 +5,37 @@ use serde_json::{Value, json};
 use crate::measure::vector::distance;
 use crate::world::World;
 
-/// Pressure from which a place counts as touched, in Pa: a hundredth of the weight of a light
+/// Pressure above which a particle counts as touched, in Pa: a hundredth of the weight of a light
 /// weave.
 const TOUCH: f64 = 0.01;
 
-/// Pressure at a particle.
+/// Particle that something touches.
 struct Touched {
-    /// In Pa.
+    /// Pressure, in Pa.
     pressure: f64,
     /// Area of the particle, in m².
     area: f64,
 }
 
-/// Pressure of contact at each particle, in Pa, where surfaces are kept apart.
+/// Returns the contact pressure at each particle of `world` at `positions`, in Pa, if surfaces are
+/// kept apart.
 pub(crate) fn at_particles(world: &mut World, positions: &[f64]) -> Option<Vec<f64>> {
     let surfaces = world.contact.surfaces_mut()?;
     let mut forces = vec![0.0; positions.len()];
     surfaces.contact.add_forces(positions, &mut forces);
     let areas = world.cloth.areas();
-    let size = |force: &[f64; 3]| distance(*force, [0.0; 3]);
-    let forces = forces.as_chunks::<3>().0.iter().map(size);
-    Some(forces.zip(areas).map(|(force, area)| force / area).collect())
+    let sizes = forces.as_chunks::<3>().0.iter().map(|force| distance(*force, [0.0; 3]));
+    Some(sizes.zip(areas).map(|(size, area)| size / area).collect())
 }
 
-/// Area that is touched and pressures there, in Pa, where surfaces are kept apart and something
-/// touches.
+/// Returns the touched area of `world` at `positions` and the pressures there, in Pa. Returns
+/// `None` if nothing touches or surfaces are not kept apart.
 pub(crate) fn pressures(world: &mut World, positions: &[f64]) -> Option<Value> {
     let at_particles = at_particles(world, positions)?;
     summary(&at_particles, world.cloth.areas())
 }
 
-/// Summary of the pressures at particles, in Pa, with their areas, in m².
+/// Returns the summary of `pressures`, in Pa, at particles with `areas`, in m².
 fn summary(pressures: &[f64], areas: &[f64]) -> Option<Value> {
     let touched = pressures.iter().zip(areas);
     let touched = touched.map(|(&pressure, &area)| Touched { pressure, area });
@@ -59,7 +59,8 @@ mod tests {
 
     #[test]
     fn the_mean_is_the_force_over_the_area_and_one_of_a_hundred_is_above_the_99th() {
-        // Pressures of 1 to 200 Pa, the larger ones on twice the area, and particles that nothing touches.
+        // Pressures of 1 to 200 Pa, the larger ones on twice the area, and particles that nothing
+        // touches.
         let pressures: Vec<f64> = (1..=200).map(f64::from).chain([0.0, 0.0]).collect();
         let areas: Vec<f64> = (1..=202).map(|k| if k > 100 { 2e-4 } else { 1e-4 }).collect();
         let found = summary(&pressures, &areas).unwrap();

@@ -1,4 +1,4 @@
-//! Strains of the cloth, and warnings where they go beyond what its fabric was measured to.
+//! Strains of the cloth, and warnings where they exceed the measured range of the fabric.
 
 use drape_cloth::TriangleStrain;
 use serde_json::{Map, Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::measure::garment_parts::GarmentParts;
 use crate::world::World;
 
-/// Fraction of the area of a cloth that may be deformed beyond the measurements of its fabric
+/// Fraction of the area of a cloth that may be deformed beyond the measured range of its fabric
 /// without a warning.
 const UNMEASURED: f64 = 1e-3;
 
@@ -54,65 +54,70 @@ struct Deformed {
     area: f64,
 }
 
-/// Quantiles of the strains over the area of the cloth: minimum, 1 %, median, 99 % and maximum.
+/// Returns quantiles of the strains over the area of the cloth of `world`: minimum, 1 %, median, 99
+/// % and maximum.
 pub(crate) fn measures(world: &World) -> Value {
     let strains = strains(world);
-    let spread = |deformation: fn(&TriangleStrain) -> f64| {
-        let value = |strain| Deformed { value: deformation(strain), area: strain.area };
-        let mut values: Vec<Deformed> = strains.iter().map(value).collect();
-        values.sort_by(|a, b| a.value.total_cmp(&b.value));
-        let whole: f64 = values.iter().map(|own| own.area).sum();
-        let mut below = 0.0;
-        let sums: Vec<f64> = values
-            .iter()
-            .map(|own| {
-                below += own.area;
-                below / whole
-            })
-            .collect();
-        let at = |part: f64| {
-            let place = sums.partition_point(|sum| *sum < part);
-            values.get(place).or(values.last()).map(|own| own.value)
-        };
-        json!({
-            "min": at(0.0), "p01": at(0.01), "median": at(0.5), "p99": at(0.99), "max": at(1.0),
-        })
-    };
     let mut measures = Map::new();
-    measures.insert("warp".into(), spread(|strain| strain.warp));
-    measures.insert("weft".into(), spread(|strain| strain.weft));
-    measures.insert("shear".into(), spread(|strain| strain.shear));
+    measures.insert("warp".into(), quantiles(&strains, |strain| strain.warp));
+    measures.insert("weft".into(), quantiles(&strains, |strain| strain.weft));
+    measures.insert("shear".into(), quantiles(&strains, |strain| strain.shear));
     Value::Object(measures)
 }
 
-/// Warnings about cloth that is deformed beyond the measurements of its fabric.
+/// Returns the quantiles of `deformation` over the area of the triangles `strains`.
+fn quantiles(strains: &[TriangleStrain], deformation: fn(&TriangleStrain) -> f64) -> Value {
+    let values =
+        strains.iter().map(|strain| Deformed { value: deformation(strain), area: strain.area });
+    let mut values: Vec<Deformed> = values.collect();
+    values.sort_by(|a, b| a.value.total_cmp(&b.value));
+
+    // Fraction of the area up to each triangle, in ascending order of the deformation.
+    let total: f64 = values.iter().map(|deformed| deformed.area).sum();
+    let mut sum = 0.0;
+    let mut fractions = Vec::with_capacity(values.len());
+    for deformed in &values {
+        sum += deformed.area;
+        fractions.push(sum / total);
+    }
+
+    let [min, p01, median, p99, max] = [0.0, 0.01, 0.5, 0.99, 1.0].map(|part| {
+        let index = fractions.partition_point(|fraction| *fraction < part);
+        values.get(index).or(values.last()).map(|deformed| deformed.value)
+    });
+    json!({ "min": min, "p01": p01, "median": median, "p99": p99, "max": max })
+}
+
+/// Returns a warning for each law of a fabric of `parts` whose cloth in `world` is deformed beyond
+/// the measured range.
 pub(crate) fn extrapolated(parts: &GarmentParts, world: &World) -> Vec<String> {
     let strains = strains(world);
-    let mut found = Vec::new();
+    let mut warnings = Vec::new();
     for (fabric, ranges) in &parts.measured_ranges {
-        let own = |triangle: usize| {
-            let first = world.cloth.triangles()[triangle][0] as usize;
+        let of_fabric = world.cloth.triangles().iter().zip(&strains).filter(|(corners, _)| {
+            let first = corners[0] as usize;
             let mut panels = parts.panels.iter();
             panels.any(|panel| panel.fabric == *fabric && panel.particles.contains(&first))
-        };
-        let own: Vec<&TriangleStrain> =
-            strains.iter().enumerate().filter(|(t, _)| own(*t)).map(|(_, s)| s).collect();
-        let whole: f64 = own.iter().map(|strain| strain.area).sum();
+        });
+        let fabric_strains: Vec<&TriangleStrain> = of_fabric.map(|(_, strain)| strain).collect();
+        let total: f64 = fabric_strains.iter().map(|strain| strain.area).sum();
+
         for MeasuredLaw { key, name, deformation, written } in &LAWS {
             let Some(limit) = ranges.get(*key) else { continue };
-            let most = own.iter().map(|strain| deformation(strain)).fold(0.0, f64::max);
-            let beyond = own.iter().filter(|strain| deformation(strain) > *limit);
-            let fraction = beyond.map(|strain| strain.area).sum::<f64>() / whole;
+            let deformations = fabric_strains.iter().map(|strain| deformation(strain));
+            let largest = deformations.fold(0.0, f64::max);
+            let beyond = fabric_strains.iter().filter(|strain| deformation(strain) > *limit);
+            let fraction = beyond.map(|strain| strain.area).sum::<f64>() / total;
             if fraction > UNMEASURED {
-                found.push(format!(
+                warnings.push(format!(
                     "fabric \"{fabric}\": {name} reaches {}, and was measured up to {}: {:.1} % of the cloth go by what \
                      the law says beyond",
-                    written(most),
+                    written(largest),
                     written(*limit),
                     100.0 * fraction
                 ));
             }
         }
     }
-    found
+    warnings
 }

@@ -1,11 +1,11 @@
-//! Array: a table of numbers in the format of NumPy (`.npy`).
+//! Arrays of numbers in the format of NumPy (`.npy`).
 
 use std::io::{Result, Write};
 
 use npyz::half::f16;
 use npyz::{AutoSerialize, WriterBuilder};
 
-/// Writes rows of `N` numbers.
+/// Writes `rows` of `N` numbers each to `to`.
 pub(crate) fn write<T: AutoSerialize + Copy, const N: usize>(
     to: &mut dyn Write,
     rows: &[[T; N]],
@@ -13,7 +13,7 @@ pub(crate) fn write<T: AutoSerialize + Copy, const N: usize>(
     write_shape(to, &[rows.len() as u64, N as u64], rows.as_flattened())
 }
 
-/// Writes a column of numbers in half precision.
+/// Writes a column of `numbers` in half precision to `to`.
 pub(crate) fn write_half(to: &mut dyn Write, numbers: &[f16]) -> Result<()> {
     write_shape(to, &[numbers.len() as u64], numbers)
 }

@@ -11,13 +11,13 @@ pub struct Frame {
     pub time: f64,
     /// Positions of the particles, three numbers each, in m.
     pub positions: Vec<f64>,
-    /// Positions of the vertices of all bodies, likewise.
+    /// Positions of the vertices of all bodies, three numbers each, in m.
     pub bodies: Vec<f64>,
-    /// Fraction of their distances that surfaces keep at that time, 0 to 1.
+    /// Fraction of their distances that surfaces keep at `time`, 0 to 1.
     pub growth_fraction: f64,
-    /// Pressure of contact at each particle, in Pa, where surfaces are kept apart and a run hands the
+    /// Contact pressure at each particle, in Pa, if surfaces are kept apart and a run hands the
     /// frame to its watcher.
     pub pressures: Option<Vec<f64>>,
-    /// Balance of the energy since the start, or since the garment was sewn, where the scene keeps it.
+    /// Energy balance since the start, or since the garment was sewn, if the scene keeps one.
     pub energy: Option<Energy>,
 }

@@ -1,10 +1,10 @@
-//! Manifest: the files of a run in its folder, by its list of frames.
+//! Manifest: the files of a run in its folder, found from its list of frames.
 
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Name of the file of the summary, which marks a folder as one of results.
+/// Name of the file of the summary. A folder with this file holds results.
 pub(crate) const SUMMARY: &str = "summary.json";
 
 /// Name of the file of the topology.
@@ -19,10 +19,10 @@ pub(crate) const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-tri
 /// Name of the table of the energy balance at each frame.
 pub(crate) const ENERGY: &str = "energy.csv";
 
-/// Kinds of the arrays that frames have, by which their names begin.
+/// Kinds of arrays that frames have. The names of their files begin with the kind.
 const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
 
-/// Files of which a run has one, with those of older versions and of the command line.
+/// Files of which a run has at most one, including files of older versions and of the command line.
 const SINGLE: [&str; 12] = [
     "run.json",
     "status.json",
@@ -41,9 +41,8 @@ const SINGLE: [&str; 12] = [
 /// Longest list of frames that is read, in bytes.
 const LIST_MAX: u64 = 1 << 26;
 
-/// Returns the files of a run that are in a folder: those that it has once, and those of the frames
-/// that it lists, with the one that was being written. No other file is one of them, whatever its
-/// name.
+/// Returns the files of a run in `folder`: single files, and the files of the listed frames and of
+/// the frame that was being written. Other files do not belong to the run, whatever their names.
 pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let single = SINGLE.into_iter().chain(ARRAYS).map(str::to_owned);
     let numbered = numbers(folder)?.into_iter().flat_map(|number| {
@@ -54,10 +53,10 @@ pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths.filter(|path| fs::symlink_metadata(path).is_ok()).collect())
 }
 
-/// Returns the files of the frames from a number on.
+/// Returns the files of the frames of the run in `folder` from the number `first` on.
 pub(crate) fn frames_from(folder: &Path, first: u64) -> io::Result<Vec<PathBuf>> {
     let numbers = numbers(folder)?.into_iter().filter(|number| *number >= first);
-    // The run may have listed none of those that it wrote last.
+    // The last frames may have been written but not listed.
     let numbers = numbers.chain([first, first.saturating_add(1)]);
     let names =
         numbers.flat_map(|number| KINDS.map(|kind| folder.join(format!("{kind}-{number:05}.npy"))));
@@ -67,29 +66,35 @@ pub(crate) fn frames_from(folder: &Path, first: u64) -> io::Result<Vec<PathBuf>>
     Ok(paths)
 }
 
-/// Removes the files of a run. Of a symbolic link, the link itself is removed and not its target.
+/// Removes `files`. For a symbolic link, the link is removed and not its target.
+///
+/// # Errors
+///
+/// Returns the first file that cannot be removed, with the reason.
 pub(crate) fn remove(files: &[PathBuf]) -> Result<(), (PathBuf, io::Error)> {
-    // The list goes last: what was not removed is found by it.
+    // The list is removed last, because the remaining files are found from it.
     let (list, others): (Vec<_>, Vec<_>) =
         files.iter().partition(|path| path.file_name().is_some_and(|name| name == FRAMES));
     let mut all = others.into_iter().chain(list);
     all.try_for_each(|path| fs::remove_file(path).map_err(|reason| (path.clone(), reason)))
 }
 
-/// Returns the numbers of the frames of a run, and the one after them.
+/// Returns the numbers of the frames in `folder`, and the number after them.
 fn numbers(folder: &Path) -> io::Result<Vec<u64>> {
     let path = folder.join(FRAMES);
-    // A link or a pipe in its place is removed, not read.
+    // A link or a pipe in place of the list is removed, not read.
     if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
         // Older versions have no list.
-        let there = |number: &u64| folder.join(format!("frame-{number:05}.obj")).is_file();
-        return Ok((0..).take_while(there).collect());
+        let numbers = 0..;
+        return Ok(numbers
+            .take_while(|number| folder.join(format!("frame-{number:05}.obj")).is_file())
+            .collect());
     }
     let mut text = Vec::new();
     fs::File::open(&path)?.take(LIST_MAX).read_to_end(&mut text)?;
     let text = String::from_utf8_lossy(&text);
-    let first = |line: &str| line.split(',').next().and_then(|number| number.parse().ok());
-    let mut numbers: Vec<u64> = text.lines().filter_map(first).collect();
+    let listed = text.lines().filter_map(|line| line.split(',').next()?.parse().ok());
+    let mut numbers: Vec<u64> = listed.collect();
     numbers.push(numbers.last().map_or(0, |last| last.saturating_add(1)));
     Ok(numbers)
 }

@@ -1,4 +1,4 @@
-//! Snapshot: what a picture of a scene shows.
+//! Snapshot: the cloth and bodies that a picture shows.
 
 use drape_cloth::TriangleStrain;
 use drape_collide::Shape;
@@ -19,9 +19,9 @@ pub struct Snapshot {
     pub triangle_fabrics: Vec<usize>,
     /// Fabrics of the cloth, in the order of their first panels.
     pub fabrics: Vec<ShownFabric>,
-    /// Stretch and shear of each of them.
+    /// Stretch and shear of each triangle.
     pub strains: Vec<TriangleStrain>,
-    /// Bodies but planes, which have no end.
+    /// Bodies without planes, which have no end.
     pub bodies: Vec<Body>,
     /// Smallest distance of particles before deformation, in m.
     pub spacing: f64,
@@ -46,7 +46,8 @@ pub struct Body {
 }
 
 impl Snapshot {
-    /// Returns the snapshot of a world with the panels `parts`, whose particles are `spacing` apart, in m.
+    /// Returns the snapshot of a world with the panels `parts`, whose particles are `spacing`
+    /// apart, in m.
     pub(crate) fn new(world: &World, parts: &GarmentParts, spacing: f64) -> Self {
         let positions = &world.state.positions;
         // Fabrics, and the number of the fabric of each panel.
@@ -59,19 +60,20 @@ impl Snapshot {
                 fabrics.push(ShownFabric { name: fabric.clone(), colour: *colour });
             }
         }
+
         // A triangle lies in one panel, and panels follow each other in the list of particles.
-        let fabric_of = |corners: &[u32; 3]| {
+        let triangle_fabrics = world.cloth.triangles().iter().map(|corners| {
             let first = corners[0] as usize;
             let panel = parts.panels.partition_point(|panel| panel.particles.end <= first);
             panel_fabrics[panel]
-        };
+        });
         let bodies = world.contact.bodies().iter().zip(world.contact.triangulations());
         let bodies = bodies.filter(|(body, _)| !matches!(body.shape, Shape::Plane));
         Self {
             positions: positions.clone(),
             coordinates: world.cloth.coordinates().to_vec(),
             triangles: world.cloth.triangles().to_vec(),
-            triangle_fabrics: world.cloth.triangles().iter().map(fabric_of).collect(),
+            triangle_fabrics: triangle_fabrics.collect(),
             fabrics,
             strains: world.cloth.triangle_strains(positions),
             bodies: bodies

@@ -1,10 +1,10 @@
-//! Hash of a state to the last bit.
+//! Hash of all bits of a state.
 
 use drape_cloth::SeamBendingState;
 
 use crate::world::World;
 
-/// Hash of the positions, velocities and memories of a world.
+/// Returns the hash of the positions, velocities and memories of `world`.
 pub(crate) fn state_hash(world: &World) -> String {
     let mut hasher = blake3::Hasher::new();
     let state = &world.state;

@@ -1,8 +1,7 @@
 //! Hashes of the state after each step, by which two runs are compared to the last bit.
 //!
-//! Each is chained to the one before, so that any two runs whose hashes agree at a step have agreed in
-//! all steps up to it, and the first step in which they differ lies behind the last hash that they
-//! share.
+//! Each hash depends on the previous one. Two runs whose hashes agree at a step therefore agree in
+//! all earlier steps, and the first step in which the runs differ follows their last common hash.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,15 +11,15 @@ const KEPT_MAX: usize = 1024;
 /// Number of bytes of a hash that are kept.
 const BYTES: usize = 8;
 
-/// Chained hashes of positions and velocities after the steps of a run, at most 1024 of them: in
-/// longer runs those after every second step, every fourth, and so on.
+/// Chained hashes of positions and velocities after the steps of a run, at most 1024 of them.
+/// Longer runs keep the hashes after every second step, every fourth, and so on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StepHashes {
-    /// Number of steps between two of the hashes.
+    /// Number of steps between two hashes.
     pub every: usize,
-    /// Hashes, the first 64 bits of each: the first is that after step `every`.
+    /// First 64 bits of each hash. The first hash is the one after step `every`.
     pub hashes: Vec<String>,
-    /// Hash after the last step, in full; empty before the first.
+    /// Full hash after the last step. Empty before the first step.
     pub last: String,
     /// Number of steps.
     pub steps: usize,
@@ -33,15 +32,15 @@ impl Default for StepHashes {
 }
 
 impl StepHashes {
-    /// Adds the positions and velocities after a step.
+    /// Adds the hash of the `positions` and `velocities` after a step.
     pub(crate) fn add(&mut self, positions: &[f64], velocities: &[f64]) {
         let mut hasher = blake3::Hasher::new();
         hasher.update(self.last.as_bytes());
         for values in [positions, velocities] {
             for chunk in values.chunks(128) {
                 let mut bytes = [0; 8 * 128];
-                for (place, value) in bytes.as_chunks_mut::<8>().0.iter_mut().zip(chunk) {
-                    *place = value.to_le_bytes();
+                for (slot, value) in bytes.as_chunks_mut::<8>().0.iter_mut().zip(chunk) {
+                    *slot = value.to_le_bytes();
                 }
                 hasher.update(&bytes[..8 * chunk.len()]);
             }
@@ -49,7 +48,7 @@ impl StepHashes {
         self.note(hasher.finalize().to_hex().to_string());
     }
 
-    /// Notes the hash after a step.
+    /// Adds `hash`, the hash after a step.
     fn note(&mut self, hash: String) {
         self.steps += 1;
         if self.steps.is_multiple_of(self.every) {

@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-/// Time and processor time since it was started.
+/// Wall-clock and processor time since the start of a run.
 #[derive(Debug)]
 pub(crate) struct Stopwatch {
     start: Instant,
-    /// Processor time of the process at the start, in s, where the system tells.
+    /// Processor time of the process at the start, in s, if the system reports it.
     processor_start: Option<f64>,
     past: PastTime,
 }
@@ -23,34 +23,37 @@ pub(crate) struct PastTime {
 }
 
 impl Stopwatch {
-    /// A stopwatch that has been running for a while already.
+    /// Returns a stopwatch that continues from the times `past`.
     pub(crate) fn resumed(past: PastTime) -> Self {
         Self { past, ..Self::start() }
     }
 
-    /// Times until now.
+    /// Returns the times until now, as [`PastTime`].
     pub(crate) fn time(&self) -> PastTime {
         PastTime { wall: self.wall_seconds(), processor: self.cpu_seconds() }
     }
 
+    /// Starts a stopwatch at zero.
     pub(crate) fn start() -> Self {
         let past = PastTime { wall: 0.0, processor: Some(0.0) };
         Self { start: Instant::now(), processor_start: processor_seconds(), past }
     }
 
-    /// Wall-clock time, in s.
+    /// Returns the wall-clock time, in s.
     pub(crate) fn wall_seconds(&self) -> f64 {
         self.past.wall + self.start.elapsed().as_secs_f64()
     }
 
-    /// Processor time of all threads, in s, where the system tells.
+    /// Returns the processor time of all threads, in s, or `None` if the system does not report it.
     pub(crate) fn cpu_seconds(&self) -> Option<f64> {
-        let own = processor_seconds().zip(self.processor_start).map(|(now, start)| now - start);
-        own.zip(self.past.processor).map(|(own, past)| own + past)
+        let since_start =
+            processor_seconds().zip(self.processor_start).map(|(now, start)| now - start);
+        since_start.zip(self.past.processor).map(|(seconds, past)| seconds + past)
     }
 }
 
-/// Processor time of the process so far, in s, where the system tells.
+/// Returns the processor time of the process until now, in s, or `None` if the system does not
+/// report it.
 #[cfg(unix)]
 fn processor_seconds() -> Option<f64> {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);

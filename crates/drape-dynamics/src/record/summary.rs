@@ -10,8 +10,8 @@ use crate::world::Energy;
 pub struct Summary {
     /// `ok`, or the reason why the run ended early.
     pub status: Status,
-    /// Message of the solver on the step that ended the run, with the place where surfaces were
-    /// then nearest to each other.
+    /// Error message of the step that ended the run, with the position where surfaces were closest
+    /// to each other then.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Version of the program.
@@ -22,12 +22,13 @@ pub struct Summary {
     pub particles: usize,
     /// Phases in their order.
     pub phases: Vec<Phase>,
-    /// Coarser grids on which the cloth came to rest before, with their own steps.
+    /// Records of the coarser grids on which the cloth was relaxed first. Their steps are not part
+    /// of `steps`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub coarser_grids: Vec<GridRecord>,
     /// Number of steps.
     pub steps: usize,
-    /// Number of frames, the first at the start.
+    /// Number of frames. The first frame is at the start.
     pub frames: usize,
     /// Time of each frame, in s.
     pub frame_times: Vec<f64>,
@@ -35,13 +36,13 @@ pub struct Summary {
     pub simulated_seconds: f64,
     /// Wall-clock time taken, in s.
     pub wall_seconds: f64,
-    /// Processor time taken by all threads, in s, where the system tells.
+    /// Processor time taken by all threads, in s, if the system reports it.
     pub cpu_seconds: Option<f64>,
     /// Number of threads.
     pub threads: usize,
     /// Work of the solver.
     pub solver: Solver,
-    /// Balance of the energy, unless the scene does without.
+    /// Energy balance, or `None` if the scene switches it off.
     pub energy: Option<Energy>,
     /// Deformation of the cloth at the end.
     pub strain: Strain,
@@ -55,21 +56,21 @@ pub struct Summary {
     pub imbalance: f64,
     /// Hash of the final positions, velocities and memories.
     pub state_hash: String,
-    /// Hashes after the steps, where they are asked for.
+    /// Hashes after the steps, if they are asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_hashes: Option<StepHashes>,
     /// Warnings about the result.
     pub warnings: Vec<String>,
-    /// What contact cannot promise on the bodies, a sentence each.
+    /// Limits of the guarantees of contact on the bodies, a sentence each.
     pub contact_limits: Vec<String>,
     /// Measures of garments.
     pub measures: serde_json::Map<String, serde_json::Value>,
-    /// Place of the seam that was open when the run ended early, in m.
+    /// Position of the open seam that ended the run early, in m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<[f64; 3]>,
 }
 
-/// What came of a coarser grid.
+/// Result of the run on a coarser grid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GridRecord {
     /// Smallest distance of particles before deformation, in m.
@@ -78,22 +79,22 @@ pub struct GridRecord {
     pub particles: usize,
     /// Number of steps.
     pub steps: usize,
-    /// Iterations of conjugate gradients, of all linear solves.
+    /// Number of iterations of conjugate gradients in all linear solves.
     pub linear_iterations: usize,
-    /// Time at its end, in s.
+    /// Time at the end of the run on this grid, in s.
     pub end: f64,
-    /// Whether the next grid began with its cloth.
+    /// Whether the next grid began with the cloth of this grid.
     pub carried: bool,
 }
 
 /// Phase of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Phase {
-    /// Its name.
+    /// Name of the phase.
     pub name: PhaseName,
-    /// Time at which it begins, in s.
+    /// Time at which the phase begins, in s.
     pub start: f64,
-    /// Number of its first frame.
+    /// Number of the first frame of the phase.
     pub frame: usize,
 }
 
@@ -112,7 +113,7 @@ pub enum PhaseName {
 /// Reason why a run ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub enum Status {
-    /// It reached its end, or the cloth came to rest.
+    /// The run reached its end, or the cloth came to rest.
     #[serde(rename = "ok")]
     Ok,
     /// The end came before the rest that the scene asks for.
@@ -145,20 +146,20 @@ pub struct Solver {
     pub iterations_mean: f64,
     /// Largest number of iterations of a step.
     pub iterations_max: usize,
-    /// Number of attempts that were given up for a shorter step.
+    /// Number of attempts that were abandoned for a shorter step.
     pub rejected_steps: usize,
-    /// Number of attempts that were given up because their error was too large.
+    /// Number of attempts that were abandoned because their error was too large.
     pub inexact_steps: usize,
     /// Number of accepted parts of steps.
     pub sub_steps: usize,
     /// Largest residual of an accepted step: root-mean-square error of the acceleration over g.
-    /// Steps of quasi-static relaxation, but for the last ones, may end earlier, with little energy
-    /// left to gain.
+    /// Steps of quasi-static relaxation except the last ones may end with a larger residual if
+    /// little energy remains to be gained.
     pub residual_max: f64,
-    /// Most energy that such a step left to be gained, over its kinetic energy.
+    /// Largest energy that such a step left unminimized, over its kinetic energy.
     pub energy_left_max: f64,
-    /// Largest estimated error of the positions of an accepted step, in m, where the scene limits
-    /// it.
+    /// Largest estimated error of the positions of an accepted step, in m, if the scene limits
+    /// errors.
     pub error_max: Option<f64>,
     /// Number of evaluations of all forces.
     pub force_evaluations: usize,
@@ -193,32 +194,32 @@ pub struct Contacts {
     /// step.
     pub pairs_max: usize,
     /// Smallest distance of two surfaces after any step, or of a particle from a body at the end,
-    /// in m; none where nothing was near.
+    /// in m. `None` if nothing was near.
     pub min_distance: Option<f64>,
-    /// Number of intersections of surfaces at the end, by exact arithmetic, those of cloth that let
-    /// a body through among them; or of particles inside a body.
+    /// Number of intersections of surfaces at the end, by exact arithmetic, including cloth that
+    /// let a body through. Without surfaces, the number of particles inside a body.
     pub intersections: usize,
     /// Number of intersections that were found after steps, which were then taken back.
     #[serde(rename = "crossings_found")]
     pub intersections_found: usize,
-    /// Number of exempt intersections at the end: those of the two sides of a seam that counts as
-    /// closed before its vertices are merged. 0 once a garment is sewn.
+    /// Number of exempt intersections at the end: intersections of the two sides of a seam that
+    /// counts as closed before its vertices are merged. 0 once a garment is sewn.
     #[serde(rename = "exempt_intersections")]
     pub exempt: usize,
     /// Largest number of exempt intersections after a step.
     #[serde(rename = "exempt_intersections_max")]
     pub exempt_max: usize,
-    /// Widest gap of the seams at exempt intersections after any step, in m; no side is deeper in the
-    /// other.
+    /// Widest gap of the seams at exempt intersections after any step, in m. No side is deeper
+    /// inside the other.
     pub exempt_depth_max: f64,
-    /// Largest number of particles that bodies pinched after a step, and that kept less of their
-    /// distance from them.
+    /// Largest number of particles with reduced distances after a step, because bodies pinched the
+    /// cloth.
     pub thinned_max: usize,
-    /// Largest number of particles that had let a body through after a step: it is not promised
-    /// that cloth and bodies do not intersect there.
+    /// Largest number of particles that had let a body through after a step. Cloth and bodies may
+    /// intersect there.
     pub released_max: usize,
-    /// Fraction of their distances that surfaces kept at the start, 0 to 1; below 1 only with
-    /// `contact.grow`. In between no two came nearer than the fraction of that time.
+    /// Fraction of their distances that surfaces kept at the start, 0 to 1. Below 1 only with
+    /// `contact.grow`. At any time in between, surfaces kept at least the fraction of that time.
     #[serde(rename = "grown_from")]
     pub start_growth_fraction: f64,
     /// Fraction of their distances that surfaces keep at the end, 0 to 1.

@@ -1,5 +1,6 @@
-//! Topology: what all frames have in common, stored once.
+//! Topology: the data that all frames share, stored once.
 
+use drape_collide::ContactDistances;
 use serde::Serialize;
 
 use crate::measure::garment_parts::GarmentParts;
@@ -8,7 +9,7 @@ use crate::world::World;
 /// Format of a folder of frames, which `drape-frames` describes.
 const FORMAT: u64 = 2;
 
-/// Data that all frames of a run have in common: the content of `surfaces.json`, and arrays.
+/// Data that all frames of a run share: the content of `surfaces.json`, and arrays.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Topology {
     /// Format of the folder.
@@ -21,17 +22,17 @@ pub struct Topology {
     #[serde(rename = "guarded")]
     pub keeps_surfaces_apart: bool,
     /// Panels, in the order of the cloth's vertices.
-    pub panels: Vec<Part>,
+    pub panels: Vec<SurfacePart>,
     /// Bodies, in the order of their vertices.
-    pub bodies: Vec<Part>,
-    /// Fraction of the distance between cloth and bodies that is kept wherever bodies pinch the
-    /// cloth.
+    pub bodies: Vec<SurfacePart>,
+    /// Fraction of the distance between cloth and bodies that is kept where bodies pinch the cloth.
     #[serde(rename = "thinned", skip_serializing_if = "is_whole")]
     thinned_fraction: f64,
     /// Pairs of the cloth's vertices that are sewn together.
     #[serde(rename = "twins", skip_serializing_if = "Vec::is_empty")]
     pub seam_pairs: Vec<[u32; 2]>,
-    /// Vertices of the cloth that are sewn to a place between two others, and these.
+    /// Vertices of the cloth that are sewn to a point between two others. Each entry has the tied
+    /// vertex and the two others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<[u32; 3]>,
     /// Material coordinates of the particles, in m.
@@ -45,35 +46,35 @@ pub struct Topology {
     pub body_triangles: Vec<[u32; 3]>,
 }
 
-/// Panel or body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Part {
+/// Panel or body, with its numbers of vertices and triangles.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct SurfacePart {
     /// Name.
     pub name: String,
-    /// Number of its vertices.
+    /// Number of vertices.
     pub vertices: usize,
-    /// Number of its triangles.
+    /// Number of triangles.
     pub triangles: usize,
     /// Half of the activation distance to another part, in m; 0 where surfaces are not kept apart.
     #[serde(rename = "reach")]
     pub half_activation_distance: f64,
-    /// Half of the minimum separation from another part, in m; likewise.
+    /// Half of the minimum separation from another part, in m; 0 where surfaces are not kept apart.
     #[serde(rename = "separation")]
     pub half_min_separation: f64,
-    /// What only a panel has.
+    /// Data that only a panel has.
     #[serde(flatten)]
     pub panel: Option<PanelData>,
 }
 
-/// Data of a panel that a body has not.
+/// Data of a panel that a body does not have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelData {
-    /// Name of its fabric in the scene.
+    /// Name of the fabric in the scene.
     pub fabric: String,
-    /// Colour that the scene states for its fabric, as `#rrggbb` in sRGB.
+    /// Colour that the scene states for the fabric, as `#rrggbb` in sRGB.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<String>,
-    /// Direction of its weft in its own frame.
+    /// Direction of the weft in the frame of the panel.
     pub weft: [f64; 2],
 }
 
@@ -82,41 +83,59 @@ fn is_whole(fraction: &f64) -> bool {
     *fraction == 1.0
 }
 
+impl SurfacePart {
+    /// Returns this part with half of the `distances` of its group, if it has any.
+    fn with_distances(self, distances: Option<&ContactDistances>) -> Self {
+        let Some(distances) = distances else { return self };
+        Self {
+            half_activation_distance: distances.activation_distance,
+            half_min_separation: distances.min_separation,
+            ..self
+        }
+    }
+}
+
 impl Topology {
-    /// Topology of a world and the parts of its cloth.
+    /// Returns the topology of `world` and `parts`.
     pub(crate) fn new(world: &World, parts: &GarmentParts) -> Self {
         let cloth = &world.cloth;
         let surfaces = world.contact.surfaces();
-        let mut groups = 0..;
-        let mut part = |name: &str, vertices: usize, triangles: usize| {
-            let distances = surfaces.map(|surfaces| surfaces.contact.surface().group_distances());
-            let own = groups.next().and_then(|group: usize| distances?.get(group));
-            Part {
-                name: name.to_owned(),
-                vertices,
-                triangles,
-                half_activation_distance: own.map_or(0.0, |own| own.activation_distance),
-                half_min_separation: own.map_or(0.0, |own| own.min_separation),
-                panel: None,
-            }
-        };
-        let panels = parts.panels.iter().map(|panel| {
-            let own = |triangle: &&[u32; 3]| panel.particles.contains(&(triangle[0] as usize));
-            let triangles = cloth.triangles().iter().filter(own).count();
+        let distances = surfaces.map(|surfaces| surfaces.contact.surface().group_distances());
+
+        // The groups of the surface are the panels and then the bodies.
+        let panels = parts.panels.iter().enumerate().map(|(group, panel)| {
+            let first_corners = cloth.triangles().iter().map(|triangle| triangle[0] as usize);
+            let triangles = first_corners.filter(|corner| panel.particles.contains(corner)).count();
             let colour =
                 panel.colour.map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}"));
             let data = PanelData { fabric: panel.fabric.clone(), colour, weft: panel.weft };
-            Part { panel: Some(data), ..part(&panel.name, panel.particles.len(), triangles) }
+            let part = SurfacePart {
+                name: panel.name.clone(),
+                vertices: panel.particles.len(),
+                triangles,
+                panel: Some(data),
+                ..SurfacePart::default()
+            };
+            part.with_distances(distances.and_then(|distances| distances.get(group)))
         });
-        let panels = panels.collect();
+        let panels: Vec<SurfacePart> = panels.collect();
+
         let (mut bodies, mut body_triangles) = (Vec::new(), Vec::new());
         let mut first = 0;
         for (body, outline) in world.contact.bodies().iter().zip(world.contact.triangulations()) {
-            bodies.push(part(&body.name, outline.vertices.len(), outline.triangles.len()));
-            let corners = |triangle: &[u32; 3]| triangle.map(|corner| corner + first);
-            body_triangles.extend(outline.triangles.iter().map(corners));
+            let group = panels.len() + bodies.len();
+            let part = SurfacePart {
+                name: body.name.clone(),
+                vertices: outline.vertices.len(),
+                triangles: outline.triangles.len(),
+                ..SurfacePart::default()
+            };
+            bodies.push(part.with_distances(distances.and_then(|distances| distances.get(group))));
+            let triangles = outline.triangles.iter();
+            body_triangles.extend(triangles.map(|corners| corners.map(|corner| corner + first)));
             first += outline.vertices.len() as u32;
         }
+
         Self {
             format: FORMAT,
             units: "m",

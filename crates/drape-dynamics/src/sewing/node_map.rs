@@ -9,12 +9,12 @@ use drape_cloth::Tie;
 use drape_collide::equivalence_classes;
 use drape_scene::SeamPairs;
 
-/// Row of the map: the independent particles that give the position of a particle.
+/// Row of the map: the independent particles that determine the position of a particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Row {
-    /// The two ends of a tied particle; twice the same where it is not tied.
+    /// The two ends of a tied particle. Both are equal if the particle is not tied.
     pub(super) ends: [u32; 2],
-    /// Fraction of the distance from the first end to the second; 0 at an end.
+    /// Fraction of the distance from the first end to the second. 0 if the particle is not tied.
     pub(super) fraction: f64,
 }
 
@@ -25,33 +25,38 @@ pub(super) struct Weight {
     pub(super) weight: f64,
 }
 
-/// Pair of independent particles that a pair of rows couples, with the product of their weights.
+/// Pair of independent particles that a pair of rows couples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CoupledPair {
     pub(super) row: usize,
     pub(super) column: usize,
+    /// Product of the weights in the two rows.
     pub(super) weight: f64,
 }
 
 impl Row {
-    /// Weights of the row that are not zero.
+    /// Returns the weights of the row that are not zero, as [`Weight`]s.
     pub(super) fn weights(&self) -> impl Iterator<Item = Weight> + use<> {
         let [first, second] = self.ends.map(|particle| particle as usize);
-        let both = [(first, 1.0 - self.fraction), (second, self.fraction)];
-        let both = both.map(|(particle, weight)| Weight { particle, weight });
-        both.into_iter().take(if self.is_tied() { 2 } else { 1 })
+        let weights = [
+            Weight { particle: first, weight: 1.0 - self.fraction },
+            Weight { particle: second, weight: self.fraction },
+        ];
+        weights.into_iter().take(if self.is_tied() { 2 } else { 1 })
     }
 
+    /// Returns whether the particle is tied between two others.
     pub(super) fn is_tied(&self) -> bool {
         self.fraction != 0.0
     }
 
-    /// Number of the independent particle of a row that is not tied.
+    /// Returns the independent particle of a row that is not tied.
     pub(super) fn particle(&self) -> usize {
         self.ends[0] as usize
     }
 
-    /// Writes the value of the row from those of all independent particles.
+    /// Writes the value of the row to `value`, three numbers, from the `values` of all independent
+    /// particles.
     pub(super) fn interpolate(&self, values: &[f64], value: &mut [f64]) {
         let [first, second] = self.ends.map(|end| &values[3 * end as usize..][..3]);
         value.copy_from_slice(first);
@@ -61,7 +66,7 @@ impl Row {
     }
 }
 
-/// Pairs of independent particles that a block in the row and column of two particles couples.
+/// Returns the pairs of independent particles that a block in the rows `row` and `column` couples.
 pub(super) fn coupled_pairs(row: &Row, column: &Row) -> impl Iterator<Item = CoupledPair> {
     row.weights().flat_map(move |a| {
         column.weights().map(move |b| CoupledPair {
@@ -72,73 +77,84 @@ pub(super) fn coupled_pairs(row: &Row, column: &Row) -> impl Iterator<Item = Cou
     })
 }
 
-/// Pairs of the block of a particle with itself, each once.
-pub(super) fn coupled_pairs_of_one(row: &Row) -> impl Iterator<Item = CoupledPair> {
+/// Returns the pairs of independent particles that the diagonal block of `row` couples, each once.
+pub(super) fn coupled_diagonal_pairs(row: &Row) -> impl Iterator<Item = CoupledPair> {
     coupled_pairs(row, row).filter(|pair| pair.row <= pair.column)
 }
 
-/// Merges the particles of pairs: moves them to the mean of all that they are sewn to, weighted
-/// with their masses, and moves tied particles between their ends.
+/// Merges the particles of each pair of `pairs`: moves the particles to the mean of their `values`,
+/// three numbers each, weighted with their `masses`. Tied particles move between their ends.
 pub(crate) fn merge(pairs: &SeamPairs, masses: &[f64], values: &mut [f64]) {
     let rows = rows(masses.len(), pairs);
-    let free = || rows.iter().zip(masses).filter(|(row, _)| !row.is_tied());
     let count = rows.iter().map(|row| row.particle() + 1).max().unwrap_or(0);
-    let mut whole = vec![0.0; count];
-    free().for_each(|(row, mass)| whole[row.particle()] += mass);
-    let mut means = vec![0.0; 3 * whole.len()];
-    let all = rows.iter().zip(masses).zip(values.chunks_exact(3));
-    for ((row, mass), value) in all.filter(|((row, _), _)| !row.is_tied()) {
-        let fraction = mass / whole[row.particle()];
+    let mut total_masses = vec![0.0; count];
+    for (row, mass) in rows.iter().zip(masses).filter(|(row, _)| !row.is_tied()) {
+        total_masses[row.particle()] += mass;
+    }
+
+    let mut means = vec![0.0; 3 * total_masses.len()];
+    let particles = rows.iter().zip(masses).zip(values.chunks_exact(3));
+    for ((row, mass), value) in particles.filter(|((row, _), _)| !row.is_tied()) {
+        let fraction = mass / total_masses[row.particle()];
         (0..3).for_each(|axis| means[3 * row.particle() + axis] += fraction * value[axis]);
     }
+
     for (row, value) in rows.iter().zip(values.chunks_exact_mut(3)) {
         row.interpolate(&means, value);
     }
 }
 
-/// Masses of the independent particles from those of all particles.
+/// Returns the masses of the independent particles from the `masses` of all particles, one for each
+/// of `rows`.
 pub(super) fn reduced_masses(rows: &[Row], masses: &[f64]) -> Vec<f64> {
     let count = rows.iter().map(|row| row.particle() + 1).max().unwrap_or(0);
     let mut reduced = vec![0.0; count];
     for (row, mass) in rows.iter().zip(masses) {
-        row.weights().for_each(|own| reduced[own.particle] += own.weight * mass);
+        row.weights().for_each(|end| reduced[end.particle] += end.weight * mass);
     }
     reduced
 }
 
-/// Rows of the map for so many particles. Independent particles are numbered in the order of their
-/// first particle of the panels; the particles of a pair have the same.
+/// Returns the rows of the map for `particles` particles with the seams `pairs`. Independent
+/// particles are numbered in the order of their first particle of the panels. The two particles of
+/// a pair have the same independent particle.
 pub(super) fn rows(particles: usize, pairs: &SeamPairs) -> Vec<Row> {
     let first = equivalence_classes(particles, &pairs.pairs);
-    let mut tie = vec![None; particles];
-    pairs.ties.iter().for_each(|own| tie[own.particle as usize] = Some(*own));
+    let mut ties = vec![None; particles];
+    pairs.ties.iter().for_each(|tie| ties[tie.particle as usize] = Some(*tie));
+
+    // The first particle of each class gets the next number, and the others share it.
     let mut count = 0;
     let mut independent = vec![0; particles];
-    for particle in (0..particles).filter(|&particle| tie[particle].is_none()) {
-        let own = first[particle] as usize;
-        if own == particle {
+    for particle in (0..particles).filter(|&particle| ties[particle].is_none()) {
+        let representative = first[particle] as usize;
+        if representative == particle {
             independent[particle] = count;
             count += 1;
         } else {
-            independent[particle] = independent[own];
+            independent[particle] = independent[representative];
         }
     }
-    let row = |particle: usize| match tie[particle] {
+
+    let rows = ties.iter().zip(&independent).map(|(tie, &number)| match tie {
         Some(Tie { ends, fraction, .. }) => {
-            Row { ends: ends.map(|end| independent[end as usize]), fraction }
+            Row { ends: ends.map(|end| independent[end as usize]), fraction: *fraction }
         }
-        None => Row { ends: [independent[particle]; 2], fraction: 0.0 },
-    };
-    (0..particles).map(row).collect()
+        None => Row { ends: [number; 2], fraction: 0.0 },
+    });
+    rows.collect()
 }
 
-/// Groups of independent particles that ties join, directly or through others.
+/// Returns the groups of independent particles that ties in `rows` join, directly or through other
+/// ties. `independent` is the number of independent particles.
 pub(super) fn tied_groups(rows: &[Row], independent: usize) -> Vec<Vec<u32>> {
     let tied: Vec<[u32; 2]> = rows.iter().filter(|row| row.is_tied()).map(|row| row.ends).collect();
     let first = equivalence_classes(independent, &tied);
     let mut groups: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     let joined: BTreeSet<u32> = tied.into_iter().flatten().collect();
-    joined.into_iter().for_each(|own| groups.entry(first[own as usize]).or_default().push(own));
+    for particle in joined {
+        groups.entry(first[particle as usize]).or_default().push(particle);
+    }
     groups.into_values().collect()
 }
 

@@ -1,11 +1,11 @@
-//! Sewn world as the solver sees it: a system of its independent particles.
+//! System of the independent particles of a sewn world, as the solver sees it.
 
 use drape_implicit::{
     AllowedStep, BlockMatrix, Coupling, MaterialPoint, Sparsity, StepFilter, Stiffness, System,
     TrialStep,
 };
 
-use crate::sewing::node_map::coupled_pairs;
+use crate::sewing::node_map::{Row, Weight, coupled_pairs};
 use crate::sewing::reduction::Reduction;
 use crate::world::World;
 
@@ -16,8 +16,13 @@ pub(crate) struct ReducedSystem<'a> {
 }
 
 impl ReducedSystem<'_> {
-    /// Calls with the world and the positions of all its particles.
-    fn at<T>(&mut self, positions: &[f64], call: impl FnOnce(&mut World, &[f64]) -> T) -> T {
+    /// Calls `call` with the world and the positions of all its particles. `positions` are the
+    /// positions of the independent particles. Returns the result of `call`.
+    fn with_all_positions<T>(
+        &mut self,
+        positions: &[f64],
+        call: impl FnOnce(&mut World, &[f64]) -> T,
+    ) -> T {
         let mut all = std::mem::take(&mut self.reduction.positions);
         self.reduction.prolong(positions, &mut all);
         let answer = call(self.world, &all);
@@ -41,27 +46,29 @@ impl System for ReducedSystem<'_> {
 
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
         let mut ends = std::mem::take(&mut self.reduction.values);
-        self.at(start, |world, positions| {
+        self.with_all_positions(start, |world, positions| {
             ends.copy_from_slice(positions);
             world.begin(end_time, dt, positions, &mut ends);
         });
+
         let Reduction { rows, held, .. } = &mut *self.reduction;
         held.fill(false);
-        let all = || rows.iter().zip(self.world.held()).zip(ends.chunks_exact(3));
-        let fixed = || all().filter(|((_, held), _)| **held).map(|((row, _), end)| (row, end));
-        // The ends of a tied particle move as far as it does, unless they are held themselves.
-        for (row, end) in fixed().filter(|(row, _)| row.is_tied()) {
-            let mut here = [0.0; 3];
-            row.interpolate(start, &mut here);
-            for own in row.weights() {
-                held[own.particle] = true;
+        let world_held = self.world.held();
+
+        // The ends of a held tied particle move as far as the particle. Ends that are held
+        // themselves overwrite this displacement below.
+        for (row, end) in held_rows(rows, world_held, &ends).filter(|(row, _)| row.is_tied()) {
+            let mut tied_start = [0.0; 3];
+            row.interpolate(start, &mut tied_start);
+            for Weight { particle, .. } in row.weights() {
+                held[particle] = true;
                 for axis in 0..3 {
-                    let k = 3 * own.particle + axis;
-                    target[k] = start[k] + end[axis] - here[axis];
+                    let k = 3 * particle + axis;
+                    target[k] = start[k] + end[axis] - tied_start[axis];
                 }
             }
         }
-        for (row, end) in fixed().filter(|(row, _)| !row.is_tied()) {
+        for (row, end) in held_rows(rows, world_held, &ends).filter(|(row, _)| !row.is_tied()) {
             held[row.particle()] = true;
             target[3 * row.particle()..][..3].copy_from_slice(end);
         }
@@ -70,19 +77,19 @@ impl System for ReducedSystem<'_> {
 
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         let mut all = std::mem::take(&mut self.reduction.values);
-        self.at(positions, |world, positions| world.forces(positions, &mut all));
+        self.with_all_positions(positions, |world, positions| world.forces(positions, &mut all));
         forces.fill(0.0);
-        for (row, own) in self.reduction.rows.iter().zip(all.chunks_exact(3)) {
+        for (row, share) in self.reduction.rows.iter().zip(all.chunks_exact(3)) {
             for end in row.weights() {
                 let force = &mut forces[3 * end.particle..][..3];
-                force.iter_mut().zip(own).for_each(|(force, own)| *force += end.weight * own);
+                force.iter_mut().zip(share).for_each(|(force, share)| *force += end.weight * share);
             }
         }
         self.reduction.values = all;
     }
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
-        self.at(positions, World::potential)
+        self.with_all_positions(positions, World::potential)
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
@@ -91,6 +98,7 @@ impl System for ReducedSystem<'_> {
         let Reduction { matrix: whole, targets, rows, .. } = &mut *self.reduction;
         whole.clear();
         self.world.stiffness(&all, kind, whole);
+
         for target in &*targets {
             let slot = target.slot as usize;
             let block = whole.blocks()[target.block as usize].map(|entry| target.weight * entry);
@@ -101,6 +109,8 @@ impl System for ReducedSystem<'_> {
                 matrix.add_block(slot, &block);
             }
         }
+
+        // Couplings have no blocks in the sparsity, so they are mapped one by one.
         for Coupling { row, column, block } in whole.couplings() {
             let [row, column] = [row, column].map(|particle| &rows[*particle as usize]);
             for pair in coupled_pairs(row, column) {
@@ -111,8 +121,9 @@ impl System for ReducedSystem<'_> {
                 }
             }
         }
+
         if whole.outside_sparsity().is_some() {
-            // No particle has such a number: the step ends with an error.
+            // An index out of range reports the missing block, and the step ends with an error.
             matrix.add(usize::MAX, usize::MAX, &[0.0; 9]);
         }
         self.reduction.positions = all;
@@ -124,13 +135,13 @@ impl System for ReducedSystem<'_> {
 
     fn material_points(&self) -> Vec<MaterialPoint> {
         let all = self.world.material_points();
-        let mut own = vec![None; self.reduction.masses.len()];
+        let mut points = vec![None; self.reduction.masses.len()];
         for (row, point) in self.reduction.rows.iter().zip(all) {
             if !row.is_tied() {
-                own[row.particle()].get_or_insert(point);
+                points[row.particle()].get_or_insert(point);
             }
         }
-        own.into_iter().flatten().collect()
+        points.into_iter().flatten().collect()
     }
 
     fn is_cancelled(&self) -> bool {
@@ -140,7 +151,7 @@ impl System for ReducedSystem<'_> {
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
         let mut all = std::mem::take(&mut self.reduction.values);
         self.reduction.prolong(velocities, &mut all);
-        self.at(positions, |world, positions| world.accept(positions, &all, dt));
+        self.with_all_positions(positions, |world, positions| world.accept(positions, &all, dt));
         self.reduction.values = all;
     }
 }
@@ -153,11 +164,11 @@ impl StepFilter for ReducedSystem<'_> {
     fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         let mut all = std::mem::take(&mut self.reduction.values);
         self.reduction.prolong(step.displacements, &mut all);
-        let limit = self.at(step.start, |world, positions| {
+        let limit = self.with_all_positions(step.start, |world, positions| {
             world.limit_step(TrialStep { start: positions, displacements: &mut all, ..step })
         });
-        // Contact keeps a common fraction of what merged and tied particles do together, to rounding
-        // of its own, for which it leaves room.
+        // Contact shortens the displacements of merged and tied particles by a common fraction, up
+        // to rounding errors, for which it leaves a margin.
         if !limit.is_whole() {
             self.reduction.shorten(&all, step.displacements);
         }
@@ -170,12 +181,23 @@ impl StepFilter for ReducedSystem<'_> {
     }
 
     fn obstacle_work(&mut self, positions: &[f64]) -> f64 {
-        self.at(positions, World::obstacle_work)
+        self.with_all_positions(positions, World::obstacle_work)
     }
 
     fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
-        self.at(positions, World::is_intersection_free)
+        self.with_all_positions(positions, World::is_intersection_free)
     }
+}
+
+/// Returns the rows of the particles that are held, each with the three coordinates of the particle
+/// in `ends`. `held` says whether each particle is held.
+fn held_rows<'a>(
+    rows: &'a [Row],
+    held: &'a [bool],
+    ends: &'a [f64],
+) -> impl Iterator<Item = (&'a Row, &'a [f64])> {
+    let particles = rows.iter().zip(held).zip(ends.chunks_exact(3));
+    particles.filter(|((_, held), _)| **held).map(|((row, _), end)| (row, end))
 }
 
 fn transpose(block: &[f64; 9]) -> [f64; 9] {

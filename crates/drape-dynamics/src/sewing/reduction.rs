@@ -4,26 +4,26 @@ use drape_implicit::{BlockMatrix, Error, IntegratorState, PreviousState, Sparsit
 use drape_scene::SeamPairs;
 
 use crate::sewing::node_map::{
-    CoupledPair, Row, coupled_pairs, coupled_pairs_of_one, reduced_masses, rows, tied_groups,
+    CoupledPair, Row, coupled_diagonal_pairs, coupled_pairs, reduced_masses, rows, tied_groups,
 };
 use crate::world::World;
 
 /// Reduction of the particles of a sewn cloth to independent ones.
 ///
-/// The cloth, its contact and its frames know all particles of the panels. Particles that are sewn
-/// to each other have one position and one velocity, and a tied particle has those of a place
-/// between two others. Tied particles have no mass of their own.
+/// The cloth, its contact and its frames have all particles of the panels. Particles that are sewn
+/// to each other share one position and one velocity. A tied particle has the interpolated position
+/// and velocity of its two ends, and its mass is distributed to the ends.
 #[derive(Debug)]
 pub(crate) struct Reduction {
-    /// Rows of the map from independent particles to all.
+    /// Rows of the map from independent particles to all particles.
     pub(super) rows: Vec<Row>,
     pub(super) masses: Vec<f64>,
     pub(super) held: Vec<bool>,
     /// Groups of independent particles that ties join.
     tied_groups: Vec<Vec<u32>>,
-    /// Stiffness of all particles.
+    /// Stiffness matrix of all particles.
     pub(super) matrix: BlockMatrix,
-    /// Places of its blocks in the reduced matrix.
+    /// Targets of the blocks of `matrix` in the reduced matrix.
     pub(super) targets: Vec<BlockTarget>,
     pub(super) sparsity: Sparsity,
     /// Buffers for positions and for displacements, velocities or forces of all particles.
@@ -33,23 +33,38 @@ pub(crate) struct Reduction {
     fractions: Vec<f64>,
 }
 
-/// Place of a block of the matrix of all particles in the reduced matrix.
+/// Target of a block of the matrix of all particles in the reduced matrix.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BlockTarget {
-    /// Number of the block.
+    /// Index of the block.
     pub(super) block: u32,
-    /// Number of the block that it is added to.
+    /// Index of the block of the reduced matrix to which the block is added.
     pub(super) slot: u32,
-    /// Whether it is transposed.
+    /// Whether the block is transposed.
     pub(super) transposed: bool,
-    /// Whether it couples two particles that are one, and so is added both ways.
+    /// Whether the block couples two particles that are merged. The block and its transpose are
+    /// added.
     pub(super) twice: bool,
-    /// Factor.
+    /// Factor by which the block is multiplied.
     pub(super) weight: f64,
 }
 
+impl BlockTarget {
+    /// Returns the pair of independent particles of `pair`, and the target of `block`, whose slot
+    /// is not known yet. If `twice`, the transposed block is added too.
+    fn new(block: usize, pair: CoupledPair, twice: bool) -> ([usize; 2], Self) {
+        let CoupledPair { row, column, weight } = pair;
+        let (block, transposed) = (block as u32, row > column);
+        ([row, column], Self { block, slot: 0, transposed, twice, weight })
+    }
+}
+
 impl Reduction {
-    /// Reduces a world by pairs and ties of its particles.
+    /// Reduces `world` by the pairs and ties `pairs` of its particles.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if a particle of `pairs` does not exist.
     ///
     /// # Errors
     /// Particles that are not there.
@@ -59,26 +74,24 @@ impl Reduction {
         let count = masses.len();
         let whole = world.sparsity();
         let mut targets = Vec::with_capacity(whole.blocks());
-        let mut add = |slot: usize, twice: bool, pair: CoupledPair| {
-            let CoupledPair { row, column, weight } = pair;
-            let (block, transposed) = (slot as u32, row > column);
-            let target = BlockTarget { block, slot: 0, transposed, twice, weight };
-            targets.push(([row, column], target));
-        };
         for row in 0..whole.particles() {
-            // The first block of a row is that of a particle with itself.
+            // The first block of a row is the diagonal block.
             let start = whole.row(row).start;
-            for slot in whole.row(row) {
-                if slot == start {
-                    coupled_pairs_of_one(&rows[row]).for_each(|pair| add(slot, false, pair));
+            for block in whole.row(row) {
+                if block == start {
+                    let pairs = coupled_diagonal_pairs(&rows[row]);
+                    targets.extend(pairs.map(|pair| BlockTarget::new(block, pair, false)));
                     continue;
                 }
-                let column = whole.columns()[slot] as usize;
-                for pair in coupled_pairs(&rows[row], &rows[column]) {
-                    add(slot, pair.row == pair.column, pair);
-                }
+                let column = whole.columns()[block] as usize;
+                let pairs = coupled_pairs(&rows[row], &rows[column]);
+                targets.extend(
+                    pairs.map(|pair| BlockTarget::new(block, pair, pair.row == pair.column)),
+                );
             }
         }
+
+        // The slots are known once all pairs are.
         let sparsity = Sparsity::from_pairs(count, targets.iter().map(|&(pair, _)| pair))?;
         let targets = targets.into_iter().map(|([a, b], target)| {
             let slot = sparsity.slot(a, b).unwrap_or_default() as u32;
@@ -99,87 +112,103 @@ impl Reduction {
         })
     }
 
-    /// Number of independent particles.
-    pub(crate) fn particles(&self) -> usize {
+    /// Returns the number of independent particles, which is the length of `masses`.
+    pub(crate) fn particle_count(&self) -> usize {
         self.masses.len()
     }
 
-    /// Values of the independent particles from those of all.
+    /// Returns the values of the independent particles from the `values` of all particles, three
+    /// numbers each.
     pub(crate) fn restrict(&self, values: &[f64]) -> Vec<f64> {
-        let mut own = vec![0.0; 3 * self.masses.len()];
-        let all = self.rows.iter().zip(values.chunks_exact(3));
-        for (row, value) in all.filter(|(row, _)| !row.is_tied()) {
-            own[3 * row.particle()..][..3].copy_from_slice(value);
+        let mut restricted = vec![0.0; 3 * self.masses.len()];
+        let particles = self.rows.iter().zip(values.chunks_exact(3));
+        for (row, value) in particles.filter(|(row, _)| !row.is_tied()) {
+            restricted[3 * row.particle()..][..3].copy_from_slice(value);
         }
-        own
+        restricted
     }
 
-    /// Writes the values of all particles from those of the independent ones.
+    /// Writes the values of all particles to `all`, from the `values` of the independent particles,
+    /// three numbers each.
     pub(crate) fn prolong(&self, values: &[f64], all: &mut [f64]) {
         for (row, value) in self.rows.iter().zip(all.chunks_exact_mut(3)) {
             row.interpolate(values, value);
         }
     }
 
-    /// Value of a particle of the panels, from those of the independent ones.
+    /// Returns the value of `particle` of the panels from the `values` of the independent
+    /// particles.
     pub(crate) fn value_of(&self, particle: usize, values: &[f64]) -> [f64; 3] {
         let mut value = [0.0; 3];
         self.rows[particle].interpolate(values, &mut value);
         value
     }
 
-    /// State of the integrator for all particles from that of the independent ones.
+    /// Returns the integrator state of all particles from the `state` of the independent particles.
     pub(crate) fn prolonged(&self, state: &IntegratorState) -> IntegratorState {
-        let prolong = |values: &[f64]| {
-            let mut all = vec![0.0; 3 * self.rows.len()];
-            self.prolong(values, &mut all);
-            all
-        };
         let previous = state.previous.as_ref().map(|previous| PreviousState {
             dt: previous.dt,
-            positions: prolong(&previous.positions),
-            velocities: prolong(&previous.velocities),
+            positions: self.prolonged_values(&previous.positions),
+            velocities: self.prolonged_values(&previous.velocities),
         });
         IntegratorState {
             time: state.time,
-            positions: prolong(&state.positions),
-            velocities: prolong(&state.velocities),
+            positions: self.prolonged_values(&state.positions),
+            velocities: self.prolonged_values(&state.velocities),
             previous,
         }
     }
 
-    /// Shortens the displacements of the independent particles to those that are left of the
-    /// displacements of all.
-    pub(super) fn shorten(&mut self, left: &[f64], displacements: &mut [f64]) {
-        let length = |of: &[f64]| of.iter().map(|x| x * x).sum::<f64>();
-        let all = || self.rows.iter().zip(left.chunks_exact(3));
-        // A tied particle goes a fraction of its displacement if both its ends go the same fraction
-        // of theirs.
+    /// Returns the values of all particles from the `values` of the independent particles.
+    fn prolonged_values(&self, values: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; 3 * self.rows.len()];
+        self.prolong(values, &mut all);
+        all
+    }
+
+    /// Shortens the `displacements` of the independent particles so that no particle moves farther
+    /// than its displacement in `allowed`, which has all particles.
+    pub(super) fn shorten(&mut self, allowed: &[f64], displacements: &mut [f64]) {
+        // A tied particle moves by a fraction of its displacement if both its ends move by this
+        // fraction of their displacements.
         if !self.tied_groups.is_empty() {
             self.fractions.fill(1.0);
-            for (row, left) in all() {
-                let mut whole = [0.0; 3];
-                row.interpolate(displacements, &mut whole);
-                let (left, whole) = (length(left), length(&whole));
-                let fraction = if left < whole { (left / whole).sqrt() } else { 1.0 };
+            for (row, allowed) in self.rows.iter().zip(allowed.chunks_exact(3)) {
+                let mut wanted = [0.0; 3];
+                row.interpolate(displacements, &mut wanted);
+                let (allowed_square, wanted_square) = (square(allowed), square(&wanted));
+                let fraction = if allowed_square < wanted_square {
+                    (allowed_square / wanted_square).sqrt()
+                } else {
+                    1.0
+                };
                 for end in row.weights() {
                     self.fractions[end.particle] = fraction.min(self.fractions[end.particle]);
                 }
             }
         }
+
+        // All particles that ties join move by a common fraction.
         for group in &self.tied_groups {
             let fractions = group.iter().map(|&particle| self.fractions[particle as usize]);
             let fraction = fractions.fold(1.0, f64::min);
             for &particle in group {
-                let own = &mut displacements[3 * particle as usize..][..3];
-                own.iter_mut().for_each(|x| *x *= fraction);
+                let displacement = &mut displacements[3 * particle as usize..][..3];
+                displacement.iter_mut().for_each(|x| *x *= fraction);
             }
         }
-        for (row, left) in all().filter(|(row, _)| !row.is_tied()) {
-            let own = &mut displacements[3 * row.particle()..][..3];
-            if length(left) < length(own) {
-                own.copy_from_slice(left);
+
+        let particles = self.rows.iter().zip(allowed.chunks_exact(3));
+        for (row, allowed) in particles.filter(|(row, _)| !row.is_tied()) {
+            let displacement = &mut displacements[3 * row.particle()..][..3];
+            if square(allowed) < square(displacement) {
+                displacement.copy_from_slice(allowed);
             }
         }
     }
+}
+
+/// Returns the squared length of `vector`.
+fn square(vector: &[f64]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>()
 }

@@ -1,10 +1,10 @@
-//! Untangling: particles of sewn cloth that intersects are displaced a little, until nothing does.
+//! Untangling: particles of sewn cloth are displaced a little until nothing intersects.
 //!
-//! Where seams are merged, or cloth comes from a coarser grid, a corner or an edge can lie on the wrong side
-//! of other cloth: at an underarm, for example, four edges meet. One particle of an intersection after
-//! the other is displaced by a point of a sequence that fills a cube evenly. A displacement is kept if it
-//! lets no more edges intersect triangles, or leaves more distance. In the end each particle goes back as
-//! far as that distance allows.
+//! Where seams are merged, or cloth comes from a coarser grid, a corner or an edge can lie on the
+//! wrong side of other cloth: at an underarm, for example, four edges meet. The particles of
+//! intersections are displaced one by one, each by a point of a sequence that fills a cube evenly.
+//! A displacement is kept if the number of intersections does not grow, or if distances grow. In
+//! the end the displacement of each particle is reduced as far as the distances allow.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,25 +16,25 @@ use super::node_map::merge;
 /// Number of displacements that are tried.
 const TRIES: usize = 320;
 
-/// Largest number of intersections that are untangled.
+/// Largest number of intersections that is untangled.
 const INTERSECTIONS_MAX: usize = 100;
 
-/// Largest coordinates of displacements, in turn, over the spacing.
+/// Largest coordinates of trial displacements over the spacing, used in turn.
 const REACHES: [f64; 3] = [0.05, 0.15, 0.3];
 
-/// Largest coordinate of the displacement that a particle may have in the end, over the spacing.
+/// Largest coordinate of the total displacement of a particle over the spacing.
 const FARTHEST: f64 = 0.6;
 
-/// Smallest ratio of a distance and its minimum separation that is enough. Minimum separations are reduced
-/// to fit it, and grow again; from much smaller ratios, steps had no solution.
+/// Smallest sufficient ratio of a distance to its minimum separation. Minimum separations are
+/// reduced to fit this ratio, and grow again. From much smaller ratios, steps had no solution.
 const ENOUGH: f64 = 0.3;
 
-/// Fractions of the displacement of a particle, in ascending order. The first that leaves enough distance
-/// replaces the whole displacement.
+/// Fractions of the displacement of a particle, in ascending order. The first fraction that leaves
+/// enough distance replaces the whole displacement.
 const FRACTIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// Fractions by which the points of the sequence follow one another: the powers of 1 over the root of
-/// `$x^4 = x + 1$`. \[Rob18\]
+/// Increments of the sequence of points: the first three powers of `$1/x$`, where `$x$` is the root
+/// of `$x^4 = x + 1$`. \[Rob18\]
 const INCREMENTS: [f64; 3] =
     [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_5];
 
@@ -46,14 +46,15 @@ pub(crate) struct Untangling {
     held: Vec<bool>,
     /// Smallest distance of particles before deformation, in m.
     spacing: f64,
-    /// First of the particles that are merged with each.
+    /// First of the particles with which each particle is merged.
     first: Vec<u32>,
-    /// All that are merged with one, by the first, where there are others.
+    /// Merged groups of two or more particles, keyed by their first particle.
     merged: BTreeMap<u32, Vec<u32>>,
 }
 
 impl Untangling {
-    /// Particles with seams, masses, those that are held, and their spacing, in m.
+    /// Returns the untangling of particles with the seams `pairs`. `held` says which particles are
+    /// held, and `spacing` is the smallest distance of particles before deformation, in m.
     pub(crate) fn new(pairs: SeamPairs, masses: Vec<f64>, held: Vec<bool>, spacing: f64) -> Self {
         let first = equivalence_classes(masses.len(), &pairs.pairs);
         let mut merged: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
@@ -63,9 +64,10 @@ impl Untangling {
         Self { pairs, masses, held, spacing, first, merged }
     }
 
-    /// Displaces particles from positions in m, at which seams are merged, until nothing intersects. Returns
-    /// the longest displacement, in m, or none if that does not succeed. Another start of the sequence
-    /// tries other displacements.
+    /// Displaces particles from `positions`, in m, at which seams are merged, until `placement`
+    /// finds no intersection. Returns the longest displacement, in m, or `None` if this fails.
+    ///
+    /// Each `start` begins at another point of the sequence of displacements.
     pub(crate) fn untangle(
         &self,
         positions: &mut Vec<f64>,
@@ -73,41 +75,47 @@ impl Untangling {
         mut placement: impl FnMut(&[f64]) -> Result<SewnPlacement, Error>,
     ) -> Option<f64> {
         let from = positions.clone();
-        let mut own = placement(positions).ok()?;
+        let mut current = placement(positions).ok()?;
         let mut moved = BTreeSet::new();
         for number in 0..TRIES {
-            let movable = match &own {
+            let movable = match &current {
                 SewnPlacement::Free(ratio) if *ratio >= ENOUGH => break,
                 SewnPlacement::Free(_) => moved.clone(),
-                SewnPlacement::Intersecting(found) if found.len() > INTERSECTIONS_MAX => {
+                SewnPlacement::Intersecting(intersections)
+                    if intersections.len() > INTERSECTIONS_MAX =>
+                {
                     return None;
                 }
-                SewnPlacement::Intersecting(found) => self.movable(found),
+                SewnPlacement::Intersecting(intersections) => self.movable(intersections),
             };
+
             let particle = *movable.iter().nth(number % movable.len().max(1))?;
             let shift = self.shift(start * TRIES + number);
             let trial = self.displaced(positions, particle, shift);
             if !self.is_near(&trial, &from, particle) {
                 continue;
             }
-            let other = placement(&trial).ok()?;
-            if is_as_good(&other, &own) {
-                (*positions, own) = (trial, other);
+            let trial_placement = placement(&trial).ok()?;
+            if is_as_good(&trial_placement, &current) {
+                (*positions, current) = (trial, trial_placement);
                 moved.insert(particle);
             }
         }
-        let SewnPlacement::Free(ratio) = own else { return None };
-        self.return_some(positions, &from, &moved, |trial| {
-            matches!(placement(trial), Ok(SewnPlacement::Free(other)) if other >= ratio.min(ENOUGH))
+
+        // Displacements that were needed only on the way are taken back.
+        let SewnPlacement::Free(ratio) = current else { return None };
+        self.shorten_displacements(positions, &from, &moved, |trial| {
+            matches!(placement(trial), Ok(SewnPlacement::Free(shortened)) if shortened >= ratio.min(ENOUGH))
         });
-        let ways = moved.iter().map(|&particle| {
+        let lengths = moved.iter().map(|&particle| {
             difference(&from, positions, particle).map(|x| x * x).iter().sum::<f64>().sqrt()
         });
-        Some(ways.fold(0.0, f64::max))
+        Some(lengths.fold(0.0, f64::max))
     }
 
-    /// Takes particles back towards where they come from, one after the other, as far as a placement is good.
-    fn return_some(
+    /// Moves each particle of `moved` back towards its position in `from`, one after the other, as
+    /// far as `is_good` accepts the positions.
+    fn shorten_displacements(
         &self,
         positions: &mut Vec<f64>,
         from: &[f64],
@@ -115,9 +123,9 @@ impl Untangling {
         mut is_good: impl FnMut(&[f64]) -> bool,
     ) {
         for &particle in moved {
-            let way = difference(positions, from, particle);
+            let way_back = difference(positions, from, particle);
             let nearer = FRACTIONS.into_iter().find_map(|fraction| {
-                let shift = way.map(|x| (1.0 - fraction) * x);
+                let shift = way_back.map(|x| (1.0 - fraction) * x);
                 let trial = self.displaced(positions, particle, shift);
                 is_good(&trial).then_some(trial)
             });
@@ -127,57 +135,64 @@ impl Untangling {
         }
     }
 
-    /// First particles of all at intersections that are merged with none that is held.
-    fn movable(&self, found: &[[u32; 5]]) -> BTreeSet<u32> {
-        let first = found.iter().flatten().filter_map(|&vertex| self.first.get(vertex as usize));
-        let is_free = |first: &&u32| {
-            let merged = self.merged.get(first).into_iter().flatten().chain([*first]);
-            !merged.into_iter().any(|&particle| self.held[particle as usize])
-        };
-        first.filter(is_free).copied().collect()
+    /// Returns the first particle of each merged group that takes part in `intersections`, an edge
+    /// and a triangle each, and is not held.
+    fn movable(&self, intersections: &[[u32; 5]]) -> BTreeSet<u32> {
+        let vertices = intersections.iter().flatten();
+        let particles = vertices.filter_map(|&vertex| self.first.get(vertex as usize));
+        particles.filter(|&&particle| self.is_free(particle)).copied().collect()
     }
 
-    /// Displacement with a number, in m.
+    /// Returns whether no pin holds a particle of the merged group whose first particle is `first`.
+    fn is_free(&self, first: u32) -> bool {
+        let mut group = self.merged.get(&first).into_iter().flatten().chain([&first]);
+        !group.any(|&particle| self.held[particle as usize])
+    }
+
+    /// Returns the displacement `number` of the sequence, in m.
     fn shift(&self, number: usize) -> [f64; 3] {
         let reach = REACHES[number % REACHES.len()] * self.spacing;
-        INCREMENTS.map(|own| reach * (2.0 * ((number + 1) as f64 * own).fract() - 1.0))
+        INCREMENTS.map(|step| reach * (2.0 * ((number + 1) as f64 * step).fract() - 1.0))
     }
 
-    /// Positions with a particle, and all that are merged with it, displaced.
+    /// Returns `positions` with `particle`, and all particles that are merged with it, displaced by
+    /// `shift`, in m.
     fn displaced(&self, positions: &[f64], particle: u32, shift: [f64; 3]) -> Vec<f64> {
         let mut displaced = positions.to_vec();
         let alone = [particle];
         let all = self.merged.get(&particle).map_or(&alone[..], Vec::as_slice);
-        for &own in all {
-            let place = &mut displaced[3 * own as usize..][..3];
-            place.iter_mut().zip(shift).for_each(|(x, shift)| *x += shift);
+        for &merged in all {
+            let position = &mut displaced[3 * merged as usize..][..3];
+            position.iter_mut().zip(shift).for_each(|(x, shift)| *x += shift);
         }
         // Tied particles follow.
         merge(&self.pairs, &self.masses, &mut displaced);
         displaced
     }
 
-    /// Whether a particle is near enough to where it comes from.
+    /// Returns whether `particle` in `positions` is near enough to its position in `from`.
     fn is_near(&self, positions: &[f64], from: &[f64], particle: u32) -> bool {
-        let way = difference(from, positions, particle);
-        way.into_iter().all(|x| x.abs() <= FARTHEST * self.spacing)
+        difference(from, positions, particle)
+            .into_iter()
+            .all(|x| x.abs() <= FARTHEST * self.spacing)
     }
 }
 
-/// Difference of the places of a particle, in m.
+/// Returns the displacement of `particle` between the positions `from` and `to`, in m.
 fn difference(from: &[f64], to: &[f64], particle: u32) -> [f64; 3] {
-    let own = 3 * particle as usize;
-    [0, 1, 2].map(|axis| to[own + axis] - from[own + axis])
+    let start = 3 * particle as usize;
+    [0, 1, 2].map(|axis| to[start + axis] - from[start + axis])
 }
 
-/// Whether a placement is as good as another.
-fn is_as_good(one: &SewnPlacement, other: &SewnPlacement) -> bool {
-    match (one, other) {
-        (SewnPlacement::Free(one), SewnPlacement::Free(other)) => one > other,
+/// Returns whether the placement `trial` may replace `current`: it has at most as many
+/// intersections or, without intersections, larger distances.
+fn is_as_good(trial: &SewnPlacement, current: &SewnPlacement) -> bool {
+    match (trial, current) {
+        (SewnPlacement::Free(trial), SewnPlacement::Free(current)) => trial > current,
         (SewnPlacement::Free(_), SewnPlacement::Intersecting(_)) => true,
         (SewnPlacement::Intersecting(_), SewnPlacement::Free(_)) => false,
-        (SewnPlacement::Intersecting(one), SewnPlacement::Intersecting(other)) => {
-            one.len() <= other.len()
+        (SewnPlacement::Intersecting(trial), SewnPlacement::Intersecting(current)) => {
+            trial.len() <= current.len()
         }
     }
 }
@@ -203,8 +218,8 @@ mod tests {
         start
     }
 
-    /// Placement with a floor 0.5 mm high below particle 1, from which as much again is to be kept. It
-    /// is of a body of the vertices 5 to 7.
+    /// Placement with a floor 0.5 mm high below particle 1, from which as much again is to be kept.
+    /// It is of a body of the vertices 5 to 7.
     fn above_a_floor(positions: &[f64]) -> Result<SewnPlacement, Error> {
         let height = positions[4] - 5e-4;
         Ok(match height > 0.0 {

@@ -1,9 +1,10 @@
-//! Coarser grids: the cloth is sewn and comes to rest on them first, and is carried from each to the
-//! next finer one.
+//! Coarser grids: the cloth is sewn and relaxed on each coarser grid first, and is carried to the
+//! next finer grid.
 //!
-//! A coarser grid is a simulation of its own. At rest its positions are interpolated to the particles
-//! of the next, which begins there at rest, with closed seams. Where the interpolated cloth intersects
-//! something the next grid begins from its own start, as if there were no coarser one.
+//! Each coarser grid has its simulation. At rest the positions are interpolated to the particles of
+//! the next grid, which begins there at rest, with merged seams. If the interpolated cloth
+//! intersects something, the next grid begins from the start of its scene, as if there were no
+//! coarser grid.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -21,36 +22,50 @@ use crate::sewing::node_map::merge;
 use crate::stepping::Scheme;
 use crate::world::PlacedSurfaces;
 
-/// Number of first steps over which distances grow again that became too short where cloth was placed.
+/// Number of first steps over which distances grow again that were shortened to place cloth.
 pub(super) const GROWTH_STEPS: f64 = 20.0;
 
-/// Number of first steps in which the interpolated cloth becomes smooth, which is bent at the lines of the
-/// coarser grid alone; the memories of friction begin behind them.
+/// Number of first steps in which the interpolated cloth becomes smooth. Its bends are concentrated
+/// at the lines of the coarser grid, so the memories of friction are reset after each of these
+/// steps.
 const SMOOTHING_STEPS: usize = 3;
 
-/// Cloth at rest on a coarser grid, at the places of the next one's particles.
+/// Cloth at rest on a coarser grid, interpolated to the particles of the next grid.
 struct CarriedCloth {
     ticks: usize,
     positions: Vec<f64>,
     bodies: Option<Vec<f64>>,
 }
 
+/// How a grid begins after the next coarser grid.
+#[derive(Debug)]
+enum GridStart {
+    /// The cloth of the coarser grid was carried.
+    Carried,
+    /// The cloth was carried, with particles displaced by up to this distance, in m, so that
+    /// nothing intersects.
+    Untangled(f64),
+    /// The cloth could not be carried, for this reason.
+    NotCarried(String),
+}
+
 impl CoarserGrid {
-    /// Takes the coarser grids out of a scene, each with its relation to the next.
-    pub(super) fn of_scene(scene: &mut Scene, scheme: &Scheme) -> Result<VecDeque<Self>, Error> {
+    /// Takes the coarser grids out of `scene`, each with its interpolation to the next grid.
+    pub(super) fn take_from(scene: &mut Scene, scheme: &Scheme) -> Result<VecDeque<Self>, Error> {
         let coarser = std::mem::take(&mut scene.coarser);
-        let mut panels: Vec<Vec<Panel>> = coarser.iter().map(|own| own.panels.clone()).collect();
+        let mut panels: Vec<Vec<Panel>> = coarser.iter().map(|grid| grid.panels.clone()).collect();
         panels.push(scene.panels.clone());
         let end = scene.schedule.clock.end;
         let grids = coarser.into_iter().zip(panels.windows(2)).map(|(mut scene, pair)| {
             scene.schedule.clock.end = end;
+
             let panels = pair[0]
                 .iter()
                 .zip(&pair[1])
                 .map(|(from, to)| (3 * from.first, Interpolation::new(&from.lattice, &to.lattice)));
             let panels = panels.collect();
             let mut simulation = Box::new(Simulation::with_scheme(scene, scheme.clone())?);
-            // What moves after rest does so on the last grid.
+            // Motions that wait for rest start on the last grid only.
             simulation.phases.motion_seconds = None;
             Ok(Self { simulation, panels })
         });
@@ -77,19 +92,21 @@ impl CoarserGrid {
         self.simulation.resume(saved)
     }
 
-    /// Returns the cloth at the places of the next grid's particles.
+    /// Returns the cloth, interpolated to the particles of the next grid.
     fn carried(&self) -> CarriedCloth {
         let positions = &self.simulation.world.state.positions;
         let surfaces = self.simulation.world.contact.surfaces();
         let panels = self.panels.iter();
         CarriedCloth {
             ticks: self.ticks(),
-            positions: panels.flat_map(|(first, own)| own.apply(&positions[*first..])).collect(),
-            bodies: surfaces.map(|own| own.contact.body_positions().to_vec()),
+            positions: panels
+                .flat_map(|(first, panel)| panel.apply(&positions[*first..]))
+                .collect(),
+            bodies: surfaces.map(|surfaces| surfaces.contact.body_positions().to_vec()),
         }
     }
 
-    /// Returns what came of it.
+    /// Returns the [`GridRecord`] of this grid.
     fn record(&self) -> GridRecord {
         let simulation = &self.simulation;
         GridRecord {
@@ -104,9 +121,9 @@ impl CoarserGrid {
 }
 
 impl Simulation {
-    /// Advances by one step on a coarser grid; at its end the next one begins.
+    /// Advances by one [`Step`] on a coarser grid. At the end of this grid the next grid begins.
     pub(super) fn step_on_coarser_grid(&mut self) -> Result<Step, drape_implicit::Error> {
-        let told = self.outcome.events.len();
+        let earlier_events = self.outcome.events.len();
         let grid = &mut self.coarser[0];
         let spacing = Some(grid.simulation.spacing);
         let step = match grid.simulation.step() {
@@ -124,37 +141,40 @@ impl Simulation {
                 None
             }
         };
+
         self.leave_coarser_grid()?;
-        let mut events = self.outcome.events[told..].to_vec();
-        // A grid on which a step failed is left at once.
+        let mut events = self.outcome.events[earlier_events..].to_vec();
+        // Where a step failed, the first step of the next grid is made at once.
         let mut step = step.map_or_else(|| self.step(), Ok)?;
         events.append(&mut step.events);
         Ok(Step { events, finished: self.is_over(), ..step })
     }
 
-    /// Goes on to the next grid, with the cloth of this one if it is at rest.
+    /// Goes on to the next grid, with the cloth of this grid if it is at rest. Records a
+    /// [`GridRecord`] and a warning.
     fn leave_coarser_grid(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(grid) = self.coarser.pop_front() else { return Ok(()) };
         let Outcome { status, reason, .. } = &grid.simulation.outcome;
-        let begun =
-            match (*status == Status::Ok && grid.simulation.is_at_rest(), self.coarser.front_mut())
-            {
-                (true, Some(next)) => next.simulation.begin_with(grid.carried())?,
-                (true, None) => self.begin_with(grid.carried())?,
-                (false, _) => {
-                    Err(reason.clone().unwrap_or_else(|| "it did not come to rest".into()))
-                }
-            };
-        let record = GridRecord { carried: begun.is_ok(), ..grid.record() };
+        let start = if *status != Status::Ok || !grid.simulation.is_at_rest() {
+            let reason = reason.clone();
+            GridStart::NotCarried(reason.unwrap_or_else(|| "it did not come to rest".into()))
+        } else if let Some(next) = self.coarser.front_mut() {
+            next.simulation.begin_with(grid.carried())?
+        } else {
+            self.begin_with(grid.carried())?
+        };
+
+        let is_carried = !matches!(start, GridStart::NotCarried(_));
+        let record = GridRecord { carried: is_carried, ..grid.record() };
         let spacing = 1e3 * record.spacing;
-        let event = match begun {
-            Ok(None) => None,
-            Ok(Some(way)) => Some(format!(
+        let event = match start {
+            GridStart::Carried => None,
+            GridStart::Untangled(displacement) => Some(format!(
                 "the cloth of the grid of {spacing:.1} mm intersects on the next; particles there are displaced by up to \
                  {:.2} mm, to where nothing does",
-                1e3 * way
+                1e3 * displacement
             )),
-            Err(reason) => Some(format!(
+            GridStart::NotCarried(reason) => Some(format!(
                 "the grid of {spacing:.1} mm is of no use: {reason}; the next one begins from its own start"
             )),
         };
@@ -163,35 +183,41 @@ impl Simulation {
         Ok(())
     }
 
-    /// Begins at rest with cloth that a coarser grid gives; returns how far particles were displaced where it
-    /// intersected, in m, or why it cannot, and changes nothing then.
-    fn begin_with(
-        &mut self,
-        carried: CarriedCloth,
-    ) -> Result<Result<Option<f64>, String>, drape_implicit::Error> {
+    /// Begins at rest with the cloth `carried` from a coarser grid. Changes nothing if the cloth
+    /// cannot be carried.
+    fn begin_with(&mut self, carried: CarriedCloth) -> Result<GridStart, drape_implicit::Error> {
         let CarriedCloth { ticks, mut positions, bodies } = carried;
         let is_sewn = !self.parts.seams.is_empty();
         if is_sewn {
             merge(&self.parts.seams, self.world.cloth.masses(), &mut positions);
         }
+
         let bodies = bodies.unwrap_or_default();
         let untangling = self.untangling();
-        let mut displaced = None;
+        let mut start = GridStart::Carried;
         if let Some(surfaces) = self.world.contact.surfaces_mut() {
             let contact = &mut surfaces.contact;
             match contact.sewn_placement(&positions, &bodies) {
                 Ok(SewnPlacement::Free(_)) => {}
-                Ok(SewnPlacement::Intersecting(found)) => {
-                    let count = found.len();
-                    let placement = |trial: &[f64]| contact.sewn_placement(trial, &bodies);
-                    let Some(way) = untangling.untangle(&mut positions, ticks, placement) else {
-                        return Ok(Err(format!("its cloth has {count} intersections on the next")));
+                Ok(SewnPlacement::Intersecting(intersections)) => {
+                    let displacement = untangling.untangle(&mut positions, ticks, |trial| {
+                        contact.sewn_placement(trial, &bodies)
+                    });
+                    let Some(displacement) = displacement else {
+                        let count = intersections.len();
+                        let noun = if count == 1 { "intersection" } else { "intersections" };
+                        let reason = format!("its cloth has {count} {noun} on the next");
+                        return Ok(GridStart::NotCarried(reason));
                     };
-                    displaced = Some(way);
+                    start = GridStart::Untangled(displacement);
                 }
-                Err(_) => return Ok(Err("it has other bodies than the next".into())),
+                Err(_) => {
+                    let reason = "it has other bodies than the next".into();
+                    return Ok(GridStart::NotCarried(reason));
+                }
             }
         }
+
         let placed = PlacedSurfaces {
             positions: &positions,
             bodies: &bodies,
@@ -201,17 +227,19 @@ impl Simulation {
         let time = self.stepping.time();
         self.parts.garments.iter_mut().for_each(|garment| garment.hang(&positions));
         if self.world.begin_at(time, &placed).is_err() {
-            return Ok(Err("its cloth cannot be placed on the next".into()));
+            return Ok(GridStart::NotCarried("its cloth cannot be placed on the next".into()));
         }
+
+        // The rest criteria are those of the scene, from the first step on this grid.
         let relaxation = self.rest.criteria;
-        self.world.set_relaxing(relaxation.is_some_and(|own| !own.inertia));
+        self.world.set_relaxing(relaxation.is_some_and(|relaxation| !relaxation.inertia));
         if is_sewn {
             self.stepping.reduce(&self.world, &self.parts.seams)?;
         }
         self.steps_to_forget = SMOOTHING_STEPS;
         self.phases.begun = vec![Phase { name: PhaseName::Relax, start: time, frame: 0 }];
         self.restart(relaxation)?;
-        Ok(Ok(displaced))
+        Ok(start)
     }
 }
 
@@ -244,7 +272,8 @@ mod tests {
         positions[..half / 2].iter_mut().skip(1).step_by(3).for_each(|y| *y += 0.05);
         let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
         let begun = own.begin_with(carried).expect("a solver");
-        assert!(begun.expect_err("it intersects").contains("intersections"), "a reason");
+        let GridStart::NotCarried(reason) = begun else { panic!("it intersects: {begun:?}") };
+        assert!(reason.contains("intersections"), "{reason}");
         for _ in 0..3 {
             own.step().expect("a step");
             other.step().expect("a step");
@@ -280,7 +309,8 @@ mod tests {
         let middle = 3 * (positions.len() / 12) + 1;
         positions[middle] += 0.015;
         let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
-        own.begin_with(carried).expect("a solver").expect("it is untangled");
+        let begun = own.begin_with(carried).expect("a solver");
+        assert!(matches!(begun, GridStart::Untangled(_)), "{begun:?}");
         let now = own.positions().to_vec();
         let found = own.world.sewn_placement(&now).expect("finite positions");
         assert!(matches!(found, SewnPlacement::Free(_)), "{found:?}");
@@ -294,7 +324,8 @@ mod tests {
         let half = positions.len() / 2;
         positions[half..].iter_mut().skip(1).step_by(3).for_each(|y| *y -= 0.01 - 5e-5);
         let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
-        own.begin_with(carried).expect("a solver").expect("no intersection");
+        let begun = own.begin_with(carried).expect("a solver");
+        assert!(matches!(begun, GridStart::Carried), "{begun:?}");
         let surfaces = |own: &Simulation| {
             own.world.contact.surfaces().expect("surfaces").contact.growth_fraction()
         };

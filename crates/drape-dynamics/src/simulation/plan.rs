@@ -1,9 +1,9 @@
-//! Plan: the phases that a run is still to have, on coarser grids and on the scene's.
+//! Plan: the remaining phases of a run, on coarser grids and on the grid of the scene.
 
 use super::Simulation;
 use crate::record::summary::PhaseName;
 
-/// Phase that a run is to have.
+/// Phase that remains to be run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlannedPhase {
     /// Name of the phase.
@@ -12,14 +12,14 @@ pub struct PlannedPhase {
     pub coarser_grid: Option<f64>,
     /// Number of particles.
     pub particles: usize,
-    /// Time that it takes, in s: of sewing, until the seams are to be closed; of motion, until its end.
-    /// `None` on the way to rest, which takes as long as it takes.
+    /// Duration, in s: of sewing, until the seams are to be closed, and of motion, until its end.
+    /// `None` for the way to rest, whose duration is not known.
     pub seconds: Option<f64>,
 }
 
 impl Simulation {
-    /// Returns the phases from now on, the current one first. A garment is sewn on the first grid alone, if
-    /// its cloth can be carried to the next.
+    /// Returns the remaining phases as [`PlannedPhase`]s, the current one first. A garment is sewn
+    /// only on the first grid if its cloth can be carried to the next grid.
     #[must_use]
     pub fn planned_phases(&self) -> Vec<PlannedPhase> {
         let mut planned = Vec::new();
@@ -31,19 +31,23 @@ impl Simulation {
         planned
     }
 
-    /// Returns the phases of this grid alone, without the sewing if it is not the first.
+    /// Returns the phases of this grid only. `coarser_grid` is its spacing, in m, or `None` for the
+    /// grid of the scene. The sewing is left out unless `is_first`.
     fn phases_of_grid(&self, coarser_grid: Option<f64>, is_first: bool) -> Vec<PlannedPhase> {
+        let springs = self.world.closing_springs().filter(|_| is_first);
+        let sewing = springs.map(|springs| (PhaseName::Sew, Some(springs.seconds())));
+        let rest = self.settles().then_some((PhaseName::Relax, None));
+
+        // Without rest the motion takes the remaining time of the clock.
+        let remaining = self.stepping.clock().end - self.stepping.time();
+        let seconds = if self.settles() { self.phases.motion_seconds } else { Some(remaining) };
+        let motion = seconds.map(|seconds| (PhaseName::Simulate, Some(seconds)));
+
         let particles = self.world.cloth.particles();
-        let phase = |name, seconds| PlannedPhase { name, coarser_grid, particles, seconds };
-        let sewing = self.world.closing_springs().filter(|_| is_first);
-        let sewing = sewing.map(|springs| phase(PhaseName::Sew, Some(springs.seconds())));
-        let rest = self.settles().then(|| phase(PhaseName::Relax, None));
-        // Without rest the time of the clock is left.
-        let clock = self.stepping.clock();
-        let left = clock.end - self.stepping.time();
-        let motion = if self.settles() { self.phases.motion_seconds } else { Some(left) };
-        let motion = motion.map(|seconds| phase(PhaseName::Simulate, Some(seconds)));
-        [sewing, rest, motion].into_iter().flatten().collect()
+        let phases = [sewing, rest, motion].into_iter().flatten();
+        phases
+            .map(|(name, seconds)| PlannedPhase { name, coarser_grid, particles, seconds })
+            .collect()
     }
 }
 

@@ -1,8 +1,8 @@
-//! Prescription between steps: what a program does to a simulation that it steps itself.
+//! Prescriptions between steps, by a program that steps the simulation.
 //!
-//! Forces act on the particles during the steps that follow, and bodies are led to where they are to
-//! be. Contact, limits of steps and the balance of the energy treat both as what the scene itself
-//! prescribes.
+//! A program sets forces on the particles for the following steps, and moves bodies to prescribed
+//! positions. Contact, limits of steps and the energy balance treat both like prescriptions of the
+//! scene.
 
 use drape_collide::{Shape, Triangulation};
 use drape_input::figure_above;
@@ -12,10 +12,10 @@ use super::Simulation;
 use crate::error::Error;
 use crate::world::Contact;
 
-/// Place to which a body is led, from where it is.
+/// Target to which a body moves from its current position.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BodyTarget {
-    /// Positions of its vertices, in m, to which they move straight.
+    /// Positions of the vertices of the body, in m. Each vertex moves along a straight line.
     Vertices(Vec<[f64; 3]>),
     /// Rigid displacement.
     Rigid {
@@ -23,15 +23,19 @@ pub enum BodyTarget {
         shift: [f64; 3],
         /// Angles about x, then y, then z, in degrees.
         turn: [f64; 3],
-        /// Centre of the rotation, in m; the middle of the extent of its vertices if missing.
+        /// Centre of the rotation, in m. By default the middle of the extent of the vertices.
         center: Option<[f64; 3]>,
     },
 }
 
 impl Simulation {
-    /// Sets forces on the particles for the steps that follow, in place of earlier ones: three numbers
-    /// for each particle, in N; an empty list removes them. They are constant during a step, and
-    /// their work is part of [`Energy::work_in`](crate::Energy::work_in).
+    /// Sets the forces on the particles for the following steps, in place of earlier ones: three
+    /// numbers for each particle, in N. Empty `forces` remove them. The forces are constant during
+    /// a step, and their work is part of [`Energy::work_in`](crate::Energy::work_in).
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::Unsuited`] if the number of `forces` is wrong or a force is not finite.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for another number of forces, or numbers that are not finite.
@@ -54,21 +58,28 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns the length of the next step, in s, unless its error makes it shorter.
+    /// Returns the length of the next step, in s. The estimate of its error may still shorten this
+    /// step.
     #[must_use]
     pub fn next_step(&self) -> f64 {
         self.stepping.next_step()
     }
 
-    /// Returns the bodies at the present time: names and triangles.
+    /// Returns the name and the current [`Triangulation`] of each body.
     #[must_use]
     pub fn bodies(&self) -> Vec<(String, Triangulation)> {
         let names = self.world.contact.bodies().iter().map(|body| body.name.clone());
         names.zip(self.world.contact.triangulations()).collect()
     }
 
-    /// Leads a body to a place within some seconds, at a steady rate from now on; there it stays. It
-    /// takes the place of the body's motion.
+    /// Moves the body `name` to `target` within `seconds`, at a steady rate from now on. The body
+    /// stays there. This motion replaces the earlier motion of the body.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::Unsuited`] for an unknown body, a wrong number of vertices, a time that is
+    /// not positive, a speed that contact cannot stop, vertices in a scene without contact of
+    /// surfaces, and while bodies grow to their size or wait for the cloth to rest.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for an unknown body, another number of vertices, a time that is not
@@ -91,6 +102,7 @@ impl Simulation {
                 "a body moves within {seconds} s; give a time above 0, up to 1e5 s"
             )));
         }
+
         let is_floor = matches!(bodies[index].shape, Shape::Plane);
         let now = self.time();
         let Some(start) = self.world.motion_time(now) else {
@@ -98,6 +110,7 @@ impl Simulation {
                            for; step until the phase is \"simulate\"";
             return Err(unsuited(message.into()));
         };
+
         let times = [start, start + seconds];
         let from = self.world.contact.outline(index, start);
         let motion = match target {
@@ -114,8 +127,8 @@ impl Simulation {
                          in the order of the simulation"
                     )));
                 }
-                let places = [from.vertices.concat(), to.concat()];
-                let motion = ShapeMotion::between(times, places, &from.triangles);
+                let positions = [from.vertices.concat(), to.concat()];
+                let motion = ShapeMotion::between(times, positions, &from.triangles);
                 BodyMotion::Shapes(motion.map_err(|fault| {
                     unsuited(format!("the body \"{name}\": {fault}; give a sound surface"))
                 })?)
@@ -131,16 +144,22 @@ impl Simulation {
                     let message = format!("{number} is no shift, turn or center; give up to 1e6");
                     return Err(unsuited(message));
                 }
-                let key = |time: f64, shift, turn| MotionKey { time, shift, turn };
-                let keys = vec![key(times[0], [0.0; 3], [0.0; 3]), key(times[1], *shift, *turn)];
-                let motion = RigidMotion::new(center, keys);
+                let motion = RigidMotion::new(
+                    center,
+                    vec![
+                        MotionKey { time: times[0], shift: [0.0; 3], turn: [0.0; 3] },
+                        MotionKey { time: times[1], shift: *shift, turn: *turn },
+                    ],
+                );
                 BodyMotion::Rigid(motion.expect("a motion with keys"))
             }
         };
-        // The corners of a floor are far out: its middle counts.
-        let speed = match is_floor {
-            true => motion.max_speed(&[bodies[index].pose.position]),
-            false => motion.max_speed(&from.vertices),
+
+        // The corners of a floor are far away, so the speed of its middle counts.
+        let speed = if is_floor {
+            motion.max_speed(&[bodies[index].pose.position])
+        } else {
+            motion.max_speed(&from.vertices)
         };
         if let Some(surfaces) = self.world.contact.surfaces() {
             if let Some(end) = surfaces.end_of_inflation(now) {
@@ -148,17 +167,18 @@ impl Simulation {
                     "bodies grow to their size until {end} s; move them after that"
                 )));
             }
-            let most = surfaces.speed_max();
-            if !(speed <= most) {
-                let needed = figure_above(seconds * speed / most);
+            let speed_max = surfaces.speed_max();
+            if !(speed <= speed_max) {
+                let needed = figure_above(seconds * speed / speed_max);
                 let stiffness = figure_above(surfaces.stiffness_of_speed(speed));
                 return Err(unsuited(format!(
                     "the body \"{name}\" moves at {speed:.3} m/s; contact keeps these fabrics apart up \
-                     to {most:.3} m/s: give it {needed} s or more, or the scene \
+                     to {speed_max:.3} m/s: give it {needed} s or more, or the scene \
                      contact.stiffness = {stiffness}"
                 )));
             }
         }
+
         match (&mut self.world.contact, motion) {
             (Contact::Surfaces(surfaces), motion) => surfaces.lead(index, &from, motion),
             (Contact::Particles(bodies), BodyMotion::Rigid(motion)) => {
@@ -174,10 +194,10 @@ fn unsuited(reason: String) -> Error {
     Error::Unsuited { reason }
 }
 
-/// Middle of the extent of some points.
+/// Returns the middle of the extent of `points`.
 fn middle(points: &[[f64; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|axis| {
-        let values = || points.iter().map(|point| point[axis]);
-        0.5 * (values().fold(f64::MAX, f64::min) + values().fold(f64::MIN, f64::max))
+        let values = points.iter().map(|point| point[axis]);
+        0.5 * (values.clone().fold(f64::MAX, f64::min) + values.fold(f64::MIN, f64::max))
     })
 }

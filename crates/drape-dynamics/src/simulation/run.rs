@@ -9,16 +9,24 @@ use crate::measure::{at_particles, measures, warnings};
 use crate::record::frame::Frame;
 use crate::record::summary::{Status, Summary};
 
-/// Duration of a step above which the state is copied before the next one, so that this can be
+/// Duration of a step above which the state is copied before the next step, which can then be
 /// rolled back when it is cancelled. The copy takes less than a hundredth of the step.
 const LONG_STEP: Duration = Duration::from_millis(200);
 
 /// Watcher of a running simulation. `()` watches nothing.
 pub trait Progress {
-    /// Is called after a step, with the time in ticks of the clock.
+    /// Called after each [`Step`], with the time in ticks of the clock.
     fn step(&mut self, _step: &Step, _ticks: usize) {}
 
-    /// Is called when a frame is due.
+    /// Called when a [`Frame`] is due.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the frame cannot be stored. The run then ends with this error.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the frame cannot be stored. The run then ends with this error.
     ///
     /// # Errors
     /// Whatever keeps the frame from being stored; the run then ends with it.
@@ -26,14 +34,22 @@ pub trait Progress {
         Ok(())
     }
 
-    /// Returns whether a checkpoint is wanted after this step. One is made at the end of each phase
-    /// and when the run is interrupted, but none at its end: from there on only a longer run goes on,
-    /// for which [`Simulation::saved`] is kept after its summary.
+    /// Returns whether a checkpoint is wanted after this step. A checkpoint is also made at the end
+    /// of each phase and when the run is interrupted, but not at the end of the run. Only a longer
+    /// run resumes from there, and needs the state [`Simulation::saved`] after the summary.
     fn is_checkpoint_due(&self) -> bool {
         false
     }
 
-    /// Is called with what the run can go on from.
+    /// Called with the [`SavedSimulation`] from which the run can resume.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the state cannot be stored. The run then ends with this error.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the state cannot be stored. The run then ends with this error.
     ///
     /// # Errors
     /// Whatever keeps it from being stored; the run then ends with it.
@@ -41,7 +57,7 @@ pub trait Progress {
         Ok(())
     }
 
-    /// Returns whether the run is to end after this step, as if it were asked to by a person.
+    /// Returns whether the run is to end after this step, as if a person had interrupted it.
     fn is_interrupted(&self) -> bool {
         false
     }
@@ -49,30 +65,37 @@ pub trait Progress {
 
 impl Progress for () {}
 
-/// Counts before a step, by which the end of a phase or of a frame interval is noticed.
+/// Counts before a step. Their changes show the end of a phase or of a frame interval.
 #[derive(Debug, Clone, Copy)]
-struct Before {
-    /// Intervals of frames that are over.
+struct CountsBefore {
+    /// Frame intervals that are over.
     intervals: usize,
+    /// Phases that have begun.
     phases: usize,
-    /// Coarser grids that are still to come.
+    /// Coarser grids that remain.
     grids: usize,
 }
 
 impl Simulation {
-    /// Runs to the end, to rest, or to a step that cannot be solved; the summary says how it ended.
+    /// Runs to the end, to rest, or to a step that cannot be solved, and reports to `progress`. The
+    /// [`Summary`] says how the run ended.
     ///
     /// # Errors
-    /// Only those of the watcher.
+    ///
+    /// Returns the errors of `progress`, and no others.
+    ///
+    /// # Errors
+    /// Returns the errors of `progress`, and no others.
     pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, Error> {
         if self.frame_times.is_empty() && self.coarser.is_empty() {
             self.emit_frame(progress)?;
         }
         let mut is_long = false;
-        // A checkpoint of the end leaves no step to do.
+        // A simulation resumed at the end of its run has no further step.
         let mut is_over = self.is_over();
+
         while !is_over {
-            let before = Before {
+            let before = CountsBefore {
                 intervals: self.frame_intervals(),
                 phases: self.phases.begun.len(),
                 grids: self.coarser.len(),
@@ -94,6 +117,7 @@ impl Simulation {
             progress.step(&step, self.ticks());
             is_over = self.end_step(&step, before, progress)?;
         }
+
         if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
             self.outcome.status = Status::DidNotSettle;
             self.outcome.reason = self.parts.first_slide();
@@ -101,6 +125,7 @@ impl Simulation {
         if self.frame_times.is_empty() {
             self.emit_frame(progress)?;
         }
+
         self.outcome.measures = measures(&self.parts, &mut self.world);
         self.outcome.warnings = self.outcome.events.clone();
         self.outcome.warnings.extend(warnings(&self.parts, &self.world));
@@ -108,11 +133,12 @@ impl Simulation {
         Ok(self.summary())
     }
 
-    /// Hands frames and checkpoints of a step to the watcher; returns whether it was the last one.
+    /// Hands the frames and checkpoints of `step` to `progress`. Returns whether `step` was the
+    /// last one.
     fn end_step(
         &mut self,
         step: &Step,
-        before: Before,
+        before: CountsBefore,
         progress: &mut dyn Progress,
     ) -> Result<bool, Error> {
         let is_interrupted = !step.finished && progress.is_interrupted();
@@ -122,12 +148,14 @@ impl Simulation {
         if step.finished || is_due || phase_ended {
             self.emit_frame(progress)?;
         }
+
         let is_wanted = is_interrupted || phase_ended || progress.is_checkpoint_due();
         if is_wanted && !step.finished {
             progress.checkpoint(&self.saved())?;
         }
+
         if is_interrupted {
-            // A run that goes on from the checkpoint does not have this frame.
+            // A run that resumes from the checkpoint does not have this frame.
             if !(is_due || phase_ended) {
                 self.emit_frame(progress)?;
             }
@@ -137,8 +165,8 @@ impl Simulation {
         Ok(step.finished)
     }
 
-    /// Ends the run in a step that was given up: takes it back to its start, if there is a copy of
-    /// that. Without one the last checkpoint stands.
+    /// Ends the run in a cancelled step. Restores the state `start` at its start, if there is one.
+    /// Otherwise the last checkpoint remains.
     fn give_up(
         &mut self,
         start: Option<SavedSimulation>,
@@ -153,7 +181,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Warning about a run that ended before surfaces kept their whole distances.
+    /// Returns a warning if the run ended before surfaces kept their full distances.
     fn unfinished_growth(&self) -> Option<String> {
         let fraction = self.world.contact.growth_fraction();
         (fraction < 1.0 && self.outcome.status == Status::Ok).then(|| {
@@ -164,13 +192,13 @@ impl Simulation {
         })
     }
 
-    /// Intervals of frames that are over.
+    /// Returns the number of frame intervals that are over.
     fn frame_intervals(&self) -> usize {
         self.ticks() / self.stepping.clock().ticks_per_frame
     }
 
-    /// Hands the next frame to the watcher. There is none on coarser grids, whose particles are others,
-    /// but that of the start where the run ends on one.
+    /// Hands the next frame to `progress`. Coarser grids have no frames, because their particles
+    /// differ, except for the frame of the start if the run ends on a coarser grid.
     fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
         if !self.coarser.is_empty() && self.outcome.status == Status::Ok {
             return Ok(());

@@ -1,8 +1,8 @@
-//! Saved simulation: all that a run needs to go on, between two steps.
+//! Saved state of a simulation between two steps, from which a run resumes.
 //!
-//! A simulation is made again from its scene and then returns to what was saved. From there on
-//! every number is, to the last bit, what it would have been: that is why the pairs of contact and
-//! the copies of the integrator are saved too, which could be found again.
+//! A simulation is built from its scene again, and then its saved state is restored. From there on
+//! every number is identical, to the last bit, with the uninterrupted run. Therefore the pairs of
+//! contact and the copies of the integrator are saved too, although they could be computed again.
 
 use drape_checkpoint::Checkpoint;
 use drape_scene::Relaxation;
@@ -27,7 +27,7 @@ pub struct SavedSimulation {
     world: SavedWorld,
     stepping: SavedStepping,
     run: SavedRun,
-    /// The coarser grid that world and stepping are of, if they are not those of the finest.
+    /// Coarser grid of `world` and `stepping`. `None` on the finest grid.
     grid: Option<SavedGrid>,
 }
 
@@ -36,7 +36,7 @@ pub struct SavedSimulation {
 struct SavedGrid {
     /// Number of coarser grids from this one on.
     remaining: usize,
-    /// State of its simulation apart from world and stepping.
+    /// State of the grid's run apart from world and stepping.
     run: SavedRun,
 }
 
@@ -56,7 +56,8 @@ struct SavedRun {
     steps_to_forget: usize,
 }
 
-/// State of a garment: its vertical extent when it began to hang, and the time at which it slid, in s.
+/// State of a garment: its vertical extent when it began to hang, and the time at which it slid, in
+/// s.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct SavedGarment {
     hung: VerticalExtent,
@@ -64,13 +65,18 @@ struct SavedGarment {
 }
 
 impl SavedSimulation {
-    /// Number of frames so far.
+    /// Returns the number of frames until now, with which [`SavedRecorder`](crate::SavedRecorder)
+    /// agrees.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn frame_count(&self) -> usize {
         self.run.frame_times.len()
     }
 
-    /// Puts the sections into a checkpoint.
+    /// Writes the state to the checkpoint `to`.
+    ///
+    /// # Errors
+    ///
+    /// Returns no known error: every value can be written.
     ///
     /// # Errors
     /// None that is known: every value can be written.
@@ -82,7 +88,11 @@ impl SavedSimulation {
         Ok(to.put(grid, &self.grid)?)
     }
 
-    /// Takes the sections from a checkpoint.
+    /// Reads the state from the checkpoint `from`.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if sections are missing or have other values.
     ///
     /// # Errors
     /// Sections that are missing or have other values.
@@ -98,7 +108,7 @@ impl SavedSimulation {
 }
 
 impl Simulation {
-    /// Returns all that the run needs to go on.
+    /// Returns the state from which the run resumes, as a [`SavedSimulation`].
     #[must_use]
     pub fn saved(&self) -> SavedSimulation {
         if let Some(grid) = self.coarser.front() {
@@ -120,7 +130,9 @@ impl Simulation {
             criteria: self.rest.criteria,
             quiet_ticks: self.rest.quiet_ticks(),
             phases: self.phases.clone(),
-            garments: garments.map(|own| SavedGarment { hung: own.hung, slid: own.slid }).collect(),
+            garments: garments
+                .map(|garment| SavedGarment { hung: garment.hung, slid: garment.slid })
+                .collect(),
             statistics: self.statistics.clone(),
             last: self.last,
             events: self.outcome.events.clone(),
@@ -131,24 +143,30 @@ impl Simulation {
         }
     }
 
-    /// Returns to what was saved. The simulation is one of the same scene, just made, or the one
-    /// that was saved.
+    /// Restores the state `saved`. This simulation was just built from the same scene, or is the
+    /// one that was saved.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::Unfit`] if `saved` does not fit the scene, and errors of the solver. The
+    /// simulation cannot be used then.
     ///
     /// # Errors
     /// [`Error::Unfit`], and errors of the solver for the scene; the simulation is then of no use.
     pub fn resume(&mut self, saved: SavedSimulation) -> Result<(), Error> {
         let SavedSimulation { world, stepping, run, grid } = saved;
-        let unfit = |reason: &str| Error::Unfit { reason: reason.into() };
         if run.garments.len() != self.parts.garments.len() {
-            return Err(unfit("the garments are others"));
+            return Err(unfit("the garments are others".into()));
         }
         if run.phases.begun.is_empty() {
-            return Err(unfit("it has no phase"));
+            return Err(unfit("it has no phase".into()));
         }
+
+        // World and stepping belong to the current grid.
         match grid {
             Some(SavedGrid { remaining, run }) => {
                 if !(1..=self.coarser.len()).contains(&remaining) {
-                    return Err(unfit("the coarser grids are others"));
+                    return Err(unfit("the coarser grids are others".into()));
                 }
                 self.coarser.drain(..self.coarser.len() - remaining);
                 self.coarser[0].resume(SavedSimulation { world, stepping, run, grid: None })?;
@@ -158,6 +176,7 @@ impl Simulation {
                 self.resume_world(world, stepping)?;
             }
         }
+
         for (garment, SavedGarment { hung, slid }) in
             self.parts.garments.iter_mut().zip(run.garments)
         {
@@ -172,8 +191,8 @@ impl Simulation {
         Ok(())
     }
 
+    /// Restores `world` and `stepping`.
     fn resume_world(&mut self, world: SavedWorld, stepping: SavedStepping) -> Result<(), Error> {
-        let unfit = |reason: String| Error::Unfit { reason };
         let is_sewn = !world.is_sewing && !self.parts.seams.is_empty();
         self.world.resume(world).map_err(unfit)?;
         if is_sewn {
@@ -182,8 +201,8 @@ impl Simulation {
         self.stepping.resume(&mut self.world, stepping).map_err(unfit)
     }
 
-    /// Lets the run go on for so many seconds beyond its end. Returns false, and changes nothing,
-    /// if the cloth is at rest, by which the run is over.
+    /// Extends the run by `seconds` beyond its end. Returns `false`, and changes nothing, if the
+    /// cloth is at rest, so that the run is over.
     pub fn extend(&mut self, seconds: f64) -> bool {
         let goes_on = !self.is_at_rest();
         if goes_on {
@@ -191,4 +210,9 @@ impl Simulation {
         }
         goes_on
     }
+}
+
+/// Returns an [`Error::Unfit`] with `reason`.
+fn unfit(reason: String) -> Error {
+    Error::Unfit { reason }
 }

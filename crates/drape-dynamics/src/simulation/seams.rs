@@ -1,5 +1,4 @@
-//! End of the sewing: seams that are closed are merged, seams that stay open are pulled harder or end the
-//! run.
+//! End of the sewing: closed seams are merged. Open seams are pulled harder, or end the run.
 
 use drape_collide::SewnPlacement;
 
@@ -11,15 +10,14 @@ use crate::sewing::node_map::merge;
 use crate::sewing::untangling::Untangling;
 use crate::world::closing_springs::{SeamState, WidestGap};
 
-/// Widest gap of a seam that stays open, at which its sides are merged at their mean if nothing
-/// intersects there, in m: about the thickness of cloth. A T-shirt of 25 506 particles was sewn with
-/// 0.33 mm left.
+/// Widest gap of an open seam whose sides are merged at their mean if nothing intersects there, in
+/// m: about the thickness of cloth. A T-shirt of 25 506 particles was sewn with 0.33 mm left.
 const NEARLY_CLOSED: f64 = 5e-4;
 
 impl Simulation {
-    /// Ends the sewing when the seams are closed, or when they do not close. Where a seam stays open by little
-    /// because other cloth is between its sides, the cloth is untangled. Another seam is pulled harder
-    /// first, so that merging its sides moves no cloth into a body.
+    /// Ends the sewing when the seams are closed, or when they do not close. If a seam has a narrow
+    /// gap because other cloth is between its sides, the cloth is untangled. Any other open seam is
+    /// pulled harder first, so that merging its sides moves no cloth into a body.
     pub(super) fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let narrow = NEARLY_CLOSED.max(STRETCHED_MAX * self.spacing);
@@ -32,8 +30,8 @@ impl Simulation {
         }
     }
 
-    /// Pulls a seam with a narrow gap harder, once. Then its sides are merged if nothing intersects, or the
-    /// run ends.
+    /// Pulls a seam with the narrow gap `gap` harder, once. Then its sides are merged if nothing
+    /// intersects, or the run ends.
     fn sew_stretched(&mut self, gap: WidestGap) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let positions = &self.world.state.positions;
@@ -43,14 +41,19 @@ impl Simulation {
             let warning = seam.warn(self.spacing, springs.largest_force(positions));
             let merged = self.merged();
             let placement = self.world.sewn_placement(&merged);
+
             if self.world.stiffen_springs(self.stepping.time(), gap.width) {
                 let is_blocked = match &placement {
-                    Ok(SewnPlacement::Intersecting(found)) => self.is_of_cloth(found),
+                    Ok(SewnPlacement::Intersecting(intersections)) => {
+                        self.is_only_cloth(intersections)
+                    }
                     _ => false,
                 };
                 self.outcome.events.extend((!is_blocked).then_some(warning));
                 return Ok(());
             }
+
+            // The springs were stiffened before, so the seam is merged as it is.
             if matches!(placement, Ok(SewnPlacement::Free(_))) {
                 return self.place_sewn(&merged);
             }
@@ -61,12 +64,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts the phase after the sewing, with the seams merged at positions in m.
+    /// Starts the phase after the sewing, with the seams merged at `positions`, in m.
     fn finish_sewing(&mut self, positions: &[f64]) -> Result<(), drape_implicit::Error> {
         self.parts.garments.iter_mut().for_each(|garment| garment.hang(positions));
         self.world.finish_sewing(self.stepping.time(), positions);
         let relaxation = self.rest.criteria;
-        self.world.set_relaxing(relaxation.is_some_and(|own| !own.inertia));
+        self.world.set_relaxing(relaxation.is_some_and(|relaxation| !relaxation.inertia));
         self.stepping.reduce(&self.world, &self.parts.seams)?;
         self.begin_phase(match relaxation {
             Some(_) => PhaseName::Relax,
@@ -75,43 +78,45 @@ impl Simulation {
         self.restart(relaxation)
     }
 
-    /// Merges the two sides of every seam where that lets nothing intersect, if the widest gap is narrow
-    /// enough, or once cloth that is between them is untangled.
+    /// Merges the two sides of every seam if the gap `gap`, the widest, is narrow and nothing
+    /// intersects then. Cloth between the sides is untangled first.
     fn merge_nearly_closed(&mut self, gap: WidestGap) -> Result<(), drape_implicit::Error> {
         let mut positions = self.merged();
         let mut warning = None;
+
         match self.world.sewn_placement(&positions) {
             Ok(SewnPlacement::Free(_)) if gap.width > NEARLY_CLOSED => return Ok(()),
             Ok(SewnPlacement::Free(_)) => {}
-            // Round a body the cloth may be too short: it is pulled harder first.
-            Ok(SewnPlacement::Intersecting(found))
-                if !self.is_of_cloth(&found) && !self.world.springs_are_stiffened() =>
+            // The cloth may be too short to go round a body, so the seam is pulled harder first.
+            Ok(SewnPlacement::Intersecting(intersections))
+                if !self.is_only_cloth(&intersections) && !self.world.springs_are_stiffened() =>
             {
                 return Ok(());
             }
             Ok(SewnPlacement::Intersecting(_)) => {
                 let seam = OpenSeam::new(&self.parts, gap, &self.world.state.positions);
-                let untangling = self.untangling();
-                let placement = |trial: &[f64]| self.world.sewn_placement(trial);
                 let ticks = self.stepping.ticks();
-                let Some(way) = untangling.untangle(&mut positions, ticks, placement) else {
-                    return Ok(());
-                };
-                warning = Some(seam.warn_untangled(way));
+                let displacement = self
+                    .untangling()
+                    .untangle(&mut positions, ticks, |trial| self.world.sewn_placement(trial));
+                let Some(displacement) = displacement else { return Ok(()) };
+                warning = Some(seam.warn_untangled(displacement));
             }
             Err(_) => return Ok(()),
         }
+
         self.outcome.events.extend(warning);
         self.place_sewn(&positions)
     }
 
-    /// Whether vertices of intersections are all of cloth.
-    fn is_of_cloth(&self, found: &[[u32; 5]]) -> bool {
-        found.iter().flatten().all(|&vertex| (vertex as usize) < self.world.cloth.particles())
+    /// Returns whether all vertices of `intersections` are particles of the cloth.
+    fn is_only_cloth(&self, intersections: &[[u32; 5]]) -> bool {
+        let particles = self.world.cloth.particles();
+        intersections.iter().flatten().all(|&vertex| (vertex as usize) < particles)
     }
 
-    /// Places a garment at some positions, in m, where its seams are merged and nothing intersects. Distances
-    /// that become too short grow again.
+    /// Places a garment at `positions`, in m, where its seams are merged and nothing intersects.
+    /// Shortened distances grow again.
     fn place_sewn(&mut self, positions: &[f64]) -> Result<(), drape_implicit::Error> {
         let growth_seconds = GROWTH_STEPS * self.stepping.clock().step;
         let placed = self.world.place_sewn(self.stepping.time(), positions, growth_seconds);
@@ -132,9 +137,9 @@ impl Simulation {
         positions
     }
 
-    /// Seam that is open the widest while a garment is sewn, and what to try, for the end of a
-    /// message.
-    pub(super) fn open_seam(&mut self) -> String {
+    /// Describes the seam with the widest gap while a garment is sewn, and what to try, for the end
+    /// of a message.
+    pub(super) fn describe_open_seam(&mut self) -> String {
         let positions = &self.world.state.positions;
         let Some(springs) = self.world.closing_springs() else { return String::new() };
         let seam = OpenSeam::new(&self.parts, springs.widest_gap(positions), positions);

@@ -7,30 +7,31 @@ use serde::{Deserialize, Serialize};
 use crate::stepping::scheme::{ENERGY_FORCING, Scheme};
 use crate::world::closing_springs;
 
-/// Fraction of the imbalance of a relaxing cloth to which its next step is solved: the forces that
-/// drive the cloth are then known to some per cent. Steps solved better cost more and lead to the
-/// same rest.
+/// Fraction of the imbalance of a relaxing cloth to which its next step is solved. The forces that
+/// drive the cloth are then accurate to some per cent. A higher accuracy costs more and leads to
+/// the same rest.
 const RELATIVE_TOLERANCE: f64 = 0.1;
 
-/// Loosest tolerance of a step of relaxation, over g. Looser ones saved no time on a cloth on a
-/// cube.
+/// Loosest tolerance of a step of relaxation, over g. Looser tolerances saved no time for a cloth
+/// on a cube.
 const TOLERANCE_MAX: f64 = 1e-2;
 
-/// Fraction of its kinetic energy that a step of relaxation may leave to be gained: its forces are
-/// stiff, and most of the imbalance after a few iterations hardly moves the cloth. From four starts
-/// a cloth on a cube took 1450 assemblies of the stiffness without it, 810 with it, and 800 with
-/// three times as much; a cloth on a sphere then stored 2 % more.
+/// Energy that a step of relaxation may leave unminimized, as a fraction of its kinetic energy. The
+/// forces are stiff, and after a few iterations most of the imbalance hardly moves the cloth. From
+/// four starts a cloth on a cube took 1450 assemblies of the stiffness without this limit, 810 with
+/// it, and 800 with three times as much. With three times as much a cloth on a sphere stored 2 %
+/// more energy.
 const ENERGY: f64 = 3e-3;
 
-/// Multiple of the imbalance at rest below which steps leave no energy to be gained.
+/// Multiple of the imbalance at rest below which steps minimize their energy fully.
 const NEAR_REST: f64 = 2.0;
 
 /// Accuracy of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Accuracy {
-    /// Root-mean-square error of the acceleration that it may leave, over g.
+    /// Root-mean-square error of the acceleration that a step may leave, over g.
     pub(crate) tolerance: f64,
-    /// Fraction of its kinetic energy that it may leave to be gained.
+    /// Energy that a step may leave unminimized, as a fraction of its kinetic energy.
     pub(crate) energy: f64,
 }
 
@@ -41,14 +42,15 @@ impl Accuracy {
     /// Accuracy of steps while a garment is sewn.
     pub(crate) const SEWING: Self = Self { tolerance: closing_springs::TOLERANCE, energy: 1e-2 };
 
-    /// Whether steps are solved so well that the cloth may count as at rest.
+    /// Returns whether steps of this accuracy are accurate enough for the cloth to count as at rest
+    /// by the criteria `rest`.
     pub(crate) fn suffices(self, settings: &Settings, rest: &Relaxation) -> bool {
         self.energy == 0.0
             && self.tolerance <= settings.tolerance.max(RELATIVE_TOLERANCE * rest.residual)
     }
 
-    /// Accuracy of the next step after one that left an imbalance, over g: the better the nearer
-    /// the cloth is to rest.
+    /// Returns the accuracy of the next step after a step that left `imbalance`, over g: higher the
+    /// nearer the cloth is to `rest`.
     pub(crate) fn refined(self, settings: &Settings, rest: &Relaxation, imbalance: f64) -> Self {
         let decade = 10.0_f64.powf((RELATIVE_TOLERANCE * imbalance).log10().floor());
         let tolerance = self.tolerance.min(decade.max(settings.tolerance));
@@ -57,7 +59,7 @@ impl Accuracy {
     }
 }
 
-/// Scheme of the steps that are made now, with their accuracy.
+/// Scheme of the current steps, with their accuracy.
 #[derive(Debug)]
 pub(crate) struct PhaseScheme {
     pub(crate) scheme: Scheme,
@@ -65,8 +67,8 @@ pub(crate) struct PhaseScheme {
 }
 
 impl PhaseScheme {
-    /// Scheme of the steps of a simulation, or of relaxation with the accuracy with which that
-    /// begins.
+    /// Returns `scheme`, or its variant for relaxation if the initial accuracy `relaxation` is
+    /// given.
     pub(crate) fn new(scheme: &Scheme, relaxation: Option<Accuracy>) -> Self {
         match (scheme, relaxation) {
             (Scheme::Implicit(settings), Some(Accuracy { tolerance, energy })) => {
@@ -85,10 +87,13 @@ impl PhaseScheme {
     }
 }
 
-/// Scheme of steps of relaxation, by the formula without a past. A stiffness kept for a second
-/// iteration is worth nothing in long steps. Begun at the prediction of the last step, a cloth on a
-/// cube took 23 300 iterations of conjugate gradients instead of 33 400, one on a sphere 75 200
-/// instead of 123 000, a gathered flounce 108 700 instead of 208 300, a T-shirt as many.
+/// Returns the scheme for steps of relaxation with `accuracy`: backward Euler, which needs no
+/// previous step.
+///
+/// A stiffness that is kept for a second iteration saves no time in long steps. With a start at the
+/// prediction of the last step, a cloth on a cube took 23 300 iterations of conjugate gradients
+/// instead of 33 400, a cloth on a sphere 75 200 instead of 123 000, a gathered flounce 108 700
+/// instead of 208 300, and a T-shirt equally many.
 pub(crate) fn relaxation_scheme(settings: &Settings, accuracy: Accuracy) -> Scheme {
     let method = match settings.method {
         Method::Broyden => Method::Newton,

@@ -1,11 +1,11 @@
-//! Steps of a phase: how their lengths are controlled, and how well they are solved.
+//! Steps of a phase: control of their lengths, and their initial accuracy.
 
 use drape_scene::Relaxation;
 
 use crate::stepping::accuracy::Accuracy;
 
-/// Largest displacement of a particle in one step while a garment is sewn, in spacings. Half of it
-/// took a T-shirt half as long again, twice of it as well.
+/// Largest displacement of a particle in one step while a garment is sewn, in spacings. With half
+/// of it, and also with twice, a T-shirt took half as long again.
 const SEWING_STRIDE: f64 = 1.0;
 
 /// Steps of a phase.
@@ -13,19 +13,20 @@ const SEWING_STRIDE: f64 = 1.0;
 pub(crate) struct PhaseSteps {
     /// Control of the lengths of steps by displacements, in relaxation and while a garment is sewn.
     pub(crate) relaxation: Option<Relaxation>,
-    /// Accuracy of the first steps, where they are quasi-static.
+    /// Accuracy of the first steps, if they are quasi-static.
     pub(crate) accuracy: Option<Accuracy>,
 }
 
 impl PhaseSteps {
-    /// Steps while a garment is sewn, of particles that are a spacing apart, in m.
+    /// Returns the steps for sewing a garment whose particles are `spacing` apart, in m.
     pub(crate) fn sewing(spacing: f64) -> Self {
         let stride = SEWING_STRIDE * spacing;
         let relaxation = Relaxation { speed: 0.0, residual: 0.0, stride, inertia: false };
         Self { relaxation: Some(relaxation), accuracy: Some(Accuracy::SEWING) }
     }
 
-    /// Steps to rest, if that is asked for, or in time; quasi-static or not.
+    /// Returns the steps to rest by the criteria `relaxation`, or the steps in time without
+    /// criteria.
     pub(crate) fn new(relaxation: Option<Relaxation>, quasi_static: bool) -> Self {
         Self { relaxation, accuracy: quasi_static.then_some(Accuracy::RELAXATION) }
     }

@@ -1,4 +1,4 @@
-//! Saved stepping: all of the integration in time that its next steps depend on.
+//! Saved state of the integration in time, on which its next steps depend.
 
 use drape_implicit::{IntegratorState, System};
 use serde::{Deserialize, Serialize};
@@ -7,24 +7,25 @@ use super::Stepping;
 use super::accuracy::{Accuracy, relaxation_scheme};
 use super::scheme::Scheme;
 use super::step_control::{SavedControl, StepControl};
+use crate::sewing::reduction::Reduction;
 use crate::world::World;
 
-/// All of the integration in time that its next steps depend on.
+/// State of the integration in time, on which its next steps depend.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct SavedStepping {
     integrator: IntegratorState,
     accuracy: Accuracy,
     control: SavedControl,
-    /// End of the run at the latest, in s.
+    /// Latest end of the run, in s.
     end: f64,
     /// Largest number of ticks of a step.
     ticks_max: usize,
-    /// Time so far, in ticks.
+    /// Current time, in ticks.
     ticks: usize,
 }
 
 impl Stepping {
-    /// Returns all that the next steps depend on.
+    /// Returns the state on which the next steps depend.
     pub(crate) fn saved(&self) -> SavedStepping {
         SavedStepping {
             integrator: self.state.clone(),
@@ -36,19 +37,25 @@ impl Stepping {
         }
     }
 
-    /// Returns to what was saved, for a world that has returned to it.
+    /// Restores the state `saved` for `world`, whose state has been restored.
+    ///
+    /// # Errors
+    ///
+    /// Returns a description of the part that does not fit.
     ///
     /// # Errors
     /// What does not fit, in words.
     pub(crate) fn resume(&mut self, world: &mut World, saved: SavedStepping) -> Result<(), String> {
         let SavedStepping { integrator, accuracy, control, end, ticks_max, ticks } = saved;
-        let particles = self.reduction.as_ref().map_or(world.particles(), |own| own.particles());
+        let particles =
+            self.reduction.as_ref().map_or(world.particles(), Reduction::particle_count);
         integrator.check(particles).map_err(|error| error.to_string())?;
         let mut clock = self.clock;
         (clock.end, clock.ticks_max) = (end, ticks_max);
         if !(end > 0.0 && end.is_finite()) || ticks_max == 0 || ticks > clock.ticks_to_do() {
             return Err("its clock is wrong".into());
         }
+
         let scheme = match &self.scheme {
             Scheme::Implicit(settings) if world.relaxes() => relaxation_scheme(settings, accuracy),
             scheme => scheme.clone(),
@@ -58,7 +65,7 @@ impl Stepping {
         self.set_up(world, &scheme).map_err(|error| error.to_string())
     }
 
-    /// Lets the run go on for so many seconds beyond its end.
+    /// Extends the run by `seconds` beyond its end.
     pub(crate) fn extend(&mut self, seconds: f64) {
         self.clock.end += seconds;
         let saved = self.control.saved();

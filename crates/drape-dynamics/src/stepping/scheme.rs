@@ -6,15 +6,15 @@ use drape_implicit::{
 };
 use drape_scene::SolverSettings;
 
-/// Sampling of the energy balance: the loss of the integration is computed in one of so many sub-steps.
-/// Computed in all of them, it took 2.6 times as long where surfaces touch, half as long again in a
-/// swing.
+/// Sampling of the energy balance: the dissipation of the integrator is computed in one of this
+/// number of sub-steps. Computed in all sub-steps, a run took 2.6 times as long where surfaces
+/// touch, and half as long again in a swing.
 const ENERGY_SAMPLING: u64 = 32;
 
 /// Energy that the last two iterations of conjugate gradients gain when they end, as a fraction of
-/// all, where energies decide on the end of a step. With residuals at 0.03 of the nonlinear ones a
-/// curtain of 40 000 particles took 14.1 instead of 10.8 s, a T-shirt 62 instead of 52 and a skirt
-/// 70 instead of 58.
+/// the whole gain, if energies decide on the end of a step. With residuals at 0.03 of the nonlinear
+/// residuals instead, a curtain of 40 000 particles took 14.1 s rather than 10.8 s, a T-shirt 62 s
+/// rather than 52 s, and a skirt 70 s rather than 58 s.
 pub(crate) const ENERGY_FORCING: f64 = 0.01;
 
 /// Scheme by which a scene is integrated in time.
@@ -22,12 +22,13 @@ pub(crate) const ENERGY_FORCING: f64 = 0.01;
 pub enum Scheme {
     /// Implicit steps, with the settings of their solver.
     Implicit(Settings),
-    /// Many small explicit steps in each: they check the implicit steps, and are too slow for more.
+    /// Many small explicit steps in each step. They check the implicit steps, and are too slow for
+    /// other uses.
     Explicit,
 }
 
 impl Scheme {
-    /// Returns the scheme that a scene asks for.
+    /// Returns the scheme that the settings `solver` of a scene ask for.
     #[must_use]
     pub fn new(solver: &SolverSettings) -> Self {
         let integrator = match solver.integrator {
@@ -47,7 +48,7 @@ impl Scheme {
             drape_scene::LinearSolver::ConjugateGradient => LinearSolver::ConjugateGradient,
             drape_scene::LinearSolver::Cholesky => LinearSolver::Cholesky,
         };
-        let exact = Settings::default();
+
         Self::Implicit(Settings {
             integrator,
             method,
@@ -57,11 +58,11 @@ impl Scheme {
             energy_forcing: if solver.error_fraction > 0.0 { ENERGY_FORCING } else { 0.0 },
             energy_balance: solver.energy_balance,
             energy_sampling: ENERGY_SAMPLING,
-            ..exact
+            ..Settings::default()
         })
     }
 
-    /// Order of accuracy of its formula.
+    /// Returns the order of accuracy of the integrator.
     pub(crate) fn order(&self) -> f64 {
         match self {
             Self::Implicit(settings) if settings.integrator == Integrator::Bdf2 => 2.0,
@@ -78,7 +79,7 @@ pub(crate) enum TimeStepper {
 }
 
 impl TimeStepper {
-    /// Sets up a scheme for a system.
+    /// Sets up `scheme` for `system`.
     pub(crate) fn new(scheme: &Scheme, system: &dyn System) -> Result<Self, Error> {
         Ok(match scheme {
             Scheme::Implicit(settings) => {
@@ -88,7 +89,7 @@ impl TimeStepper {
         })
     }
 
-    /// Advances a system by a step of a length, in s.
+    /// Advances `system` by a step of the length `dt`, in s.
     pub(crate) fn advance(
         &mut self,
         system: &mut dyn System,
@@ -101,7 +102,7 @@ impl TimeStepper {
         }
     }
 
-    /// Advances a system whose steps a filter limits by a step of a length, in s.
+    /// Advances a system by a step of the length `dt`, in s, which `filter` limits.
     pub(crate) fn advance_filtered(
         &mut self,
         filter: &mut dyn StepFilter,
@@ -114,7 +115,7 @@ impl TimeStepper {
         }
     }
 
-    /// Report of the parts of a step that failed.
+    /// Returns the report of the accepted parts of a failed step, if the scheme divides steps.
     pub(crate) fn unfinished(&self) -> Option<&Report> {
         match self {
             Self::Implicit(stepper) => Some(stepper.report()),

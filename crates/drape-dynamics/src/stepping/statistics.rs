@@ -11,14 +11,15 @@ use crate::world::{Contact, World};
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Statistics {
     solver: Solver,
-    /// Steps made.
+    /// Number of accepted steps.
     pub(crate) steps: usize,
     /// Iterations of all steps.
     iterations: usize,
-    /// Largest number of pairs that touched after a step.
+    /// Largest number of touching pairs after a step.
     pairs_max: usize,
-    /// Largest numbers of particles that were thinned, and that were released, after a step.
+    /// Largest number of particles with reduced distances after a step.
     thinned_max: usize,
+    /// Largest number of released particles after a step.
     released_max: usize,
     /// Largest number of exempt intersections after a step.
     exempt_max: usize,
@@ -46,7 +47,7 @@ impl Statistics {
         }
     }
 
-    /// Adds an accepted step that led to a world's state.
+    /// Adds the accepted step of `report`, which led to the state of `world`.
     pub(crate) fn add_step(&mut self, report: &Report, world: &mut World) {
         let touching = match &mut world.contact {
             Contact::Surfaces(surfaces) => {
@@ -64,6 +65,7 @@ impl Statistics {
                 bodies.contact.touching_particle_count(&world.state.positions)
             }
         };
+
         self.pairs_max = self.pairs_max.max(touching);
         self.steps += 1;
         if let Some(hashes) = &mut self.hashes {
@@ -72,13 +74,13 @@ impl Statistics {
         self.add_work(report);
     }
 
-    /// Adds a step that was taken back because its error was too large.
+    /// Adds the step of `report`, which was taken back because its error was too large.
     pub(crate) fn add_inexact(&mut self, report: &Report) {
         self.solver.inexact_steps += 1;
         self.add_work(report);
     }
 
-    /// Notes the estimated error of an accepted step, in m.
+    /// Records the estimated `error` of an accepted step, in m.
     pub(crate) fn note_error(&mut self, error: f64) {
         self.solver.error_max = Some(self.solver.error_max.unwrap_or(0.0).max(error));
     }
@@ -98,13 +100,13 @@ impl Statistics {
         self.iterations += report.iterations;
     }
 
-    /// Work of the solver.
+    /// Returns the work of the solver as a [`Solver`].
     pub(crate) fn solver(&self) -> Solver {
         let iterations_mean = self.iterations as f64 / self.steps.max(1) as f64;
         Solver { iterations_mean, ..self.solver }
     }
 
-    /// Contact over the run, and at the state of a world.
+    /// Returns the contact over the run, and at the state of `world`.
     pub(crate) fn contacts(&self, world: &World) -> Contacts {
         let positions = &world.state.positions;
         let contacts = Contacts {
@@ -117,13 +119,14 @@ impl Statistics {
             growth_fraction: world.contact.growth_fraction(),
             ..Contacts::default()
         };
-        let finite = |distance: f64| Some(distance).filter(|distance| distance.is_finite());
+
         match &world.contact {
             Contact::Surfaces(surfaces) => {
-                let found = surfaces.contact.intersections_with_released(positions);
+                let intersections = surfaces.contact.intersections_with_released(positions);
                 Contacts {
-                    min_distance: finite(self.min_distance),
-                    intersections: found.map_or(usize::MAX, |found| found.len()),
+                    min_distance: Some(self.min_distance).filter(|distance| distance.is_finite()),
+                    intersections: intersections
+                        .map_or(usize::MAX, |intersections| intersections.len()),
                     intersections_found: surfaces.intersections_found,
                     exempt: surfaces.exempt(positions).count,
                     start_growth_fraction: surfaces.start_growth_fraction,
@@ -133,7 +136,7 @@ impl Statistics {
             Contact::Particles(bodies) => {
                 let near = bodies.contact.summary(positions);
                 Contacts {
-                    min_distance: finite(near.min_distance),
+                    min_distance: Some(near.min_distance).filter(|distance| distance.is_finite()),
                     intersections: near.inside,
                     ..contacts
                 }

@@ -4,14 +4,15 @@
 use drape_scene::{Clock, Relaxation};
 use serde::{Deserialize, Serialize};
 
-/// Fraction of the length that the error estimate would allow which is taken: estimates lag by a
-/// step, and a step that fails is made twice.
+/// Fraction of the allowed step length that is used. The error estimate lags by a step, and a step
+/// that fails is made twice.
 const CAUTION: f64 = 0.9;
 
-/// Largest factor by which a rejected step is shortened at once: a large estimate is a poor one.
+/// Largest factor by which a rejected step is shortened at once. Large error estimates are
+/// inaccurate.
 const SHORTEST_CUT: usize = 8;
 
-/// Largest factor by which a step of relaxation is longer or shorter than the one before it.
+/// Largest ratio of the lengths of two consecutive steps of relaxation.
 const CHANGE: f64 = 2.0;
 
 /// Lengths of the steps, in ticks of the clock.
@@ -21,9 +22,9 @@ pub(crate) struct StepControl {
     relaxation: Option<Relaxation>,
     /// Order of accuracy of the integrator.
     order: f64,
-    /// Ticks of the next step, if neither a frame nor the end cuts it short.
+    /// Length of the next step, in ticks, unless a frame or the end shortens it.
     wanted: usize,
-    /// Ticks that the error of the last step would allow the next one.
+    /// Length of the next step, in ticks, that the error of the last step allows.
     exact: usize,
 }
 
@@ -36,57 +37,63 @@ pub(crate) struct SavedControl {
 }
 
 impl StepControl {
-    /// Returns what is remembered between two steps.
+    /// Returns the state of the control between two steps.
     pub(crate) fn saved(&self) -> SavedControl {
         let Self { relaxation, wanted, exact, .. } = *self;
         SavedControl { relaxation, wanted, exact }
     }
 
-    /// Control that goes on from what was remembered.
+    /// Returns a control by `clock` that continues from `saved`. `order` is the order of the
+    /// integrator.
     pub(crate) fn resumed(clock: Clock, order: f64, saved: SavedControl) -> Self {
         let SavedControl { relaxation, wanted, exact } = saved;
         let wanted = wanted.clamp(1, clock.ticks_max.max(1));
         Self { clock, relaxation, order, wanted, exact }
     }
 
-    /// Control that begins with the first step of the clock.
+    /// Returns a control that begins with the first step of `clock`. `order` is the order of the
+    /// integrator.
     pub(crate) fn new(clock: Clock, relaxation: Option<Relaxation>, order: f64) -> Self {
         Self { clock, relaxation, order, wanted: clock.ticks_per_step, exact: usize::MAX }
     }
 
-    /// Error that a step may make, in m, if steps have one: those of quasi-static relaxation do not
-    /// follow the motion in time.
+    /// Returns the largest error of a step, in m, if the scene limits it. Steps of quasi-static
+    /// relaxation have no error, because they do not follow the motion in time.
     pub(crate) fn error(&self) -> Option<f64> {
-        self.clock.error.filter(|_| self.relaxation.is_none_or(|own| own.inertia))
+        self.clock.error.filter(|_| self.relaxation.is_none_or(|relaxation| relaxation.inertia))
     }
 
-    /// Ticks of the next step, which does not go past a frame or the end.
+    /// Returns the length of the next step at the time `now`, both in ticks. The step does not go
+    /// past a frame or the end.
     ///
-    /// A step of quasi-static relaxation goes past frames: cutting it short would cost one more.
+    /// A step of quasi-static relaxation may go past frames, because shortening it would cost
+    /// another step.
     pub(crate) fn next(&self, now: usize) -> usize {
         let Clock { ticks_per_frame, .. } = self.clock;
-        let left = self.clock.ticks_to_do().saturating_sub(now).max(1);
-        let quasi_static = self.relaxation.is_some_and(|own| !own.inertia);
-        let to_frame = if quasi_static { left } else { ticks_per_frame - now % ticks_per_frame };
-        self.wanted.min(to_frame).min(left)
+        let remaining = self.clock.ticks_to_do().saturating_sub(now).max(1);
+        let is_quasi_static = self.relaxation.is_some_and(|relaxation| !relaxation.inertia);
+        let to_frame =
+            if is_quasi_static { remaining } else { ticks_per_frame - now % ticks_per_frame };
+        self.wanted.min(to_frame).min(remaining)
     }
 
-    /// Adapts to a step of so many ticks in which no particle moved farther than a distance, in m.
-    pub(crate) fn adapt_to_displacement(&mut self, ticks: usize, moved: f64) {
+    /// Adapts to a step of `ticks` in which no particle moved farther than `displacement`, in m.
+    pub(crate) fn adapt_to_displacement(&mut self, ticks: usize, displacement: f64) {
         let Some(relaxation) = self.relaxation else { return };
-        // At constant speed the displacement grows with the length of the step, from rest with its
-        // square.
-        let change = relaxation.stride / moved;
-        let change = if relaxation.inertia { change } else { change.sqrt() };
+        // The displacement is proportional to the length of the step at constant speed, and to
+        // the square of the length from rest.
+        let ratio = relaxation.stride / displacement;
+        let change = if relaxation.inertia { ratio } else { ratio.sqrt() };
         let wanted = ticks as f64 * change.clamp(1.0 / CHANGE, CHANGE);
         self.wanted = (wanted as usize).min(self.exact).clamp(1, self.clock.ticks_max);
     }
 
-    /// Adapts to the error of a step of so many ticks from a time, in m, and returns whether the
-    /// step may stand.
+    /// Adapts to the error `error`, in m, of a step of `ticks` from the time `now`. Returns whether
+    /// the step may be accepted.
     ///
-    /// Lengths are ticks times powers of two, each begun at a multiple of itself, so that they
-    /// rarely change: the formula of second order is at its best with even steps.
+    /// Lengths are ticks times powers of two, and each step begins at a multiple of its length.
+    /// Lengths therefore change rarely, and the formula of second order is most accurate with equal
+    /// steps.
     pub(crate) fn adapt_to_error(&mut self, now: usize, ticks: usize, error: f64) -> bool {
         let Some(limit) = self.error() else { return true };
         let fitting = CAUTION * (limit / error).powf(1.0 / (self.order + 1.0));
@@ -96,12 +103,15 @@ impl StepControl {
             self.wanted = power_of_two(wanted.clamp(floor, ticks - 1));
             return false;
         }
+
+        // The step is accepted. The next one may be twice as long if it fits the grid of its
+        // length.
         self.exact = (ticks as f64 * fitting) as usize;
         let next = now + ticks;
         let longer = 2 * self.wanted;
-        // A step that was cut short for a frame tells nothing of longer ones.
-        let whole = ticks == self.wanted;
-        let grows = whole && fitting >= 2.0 && longer <= self.clock.ticks_max;
+        // A step that a frame shortened gives no information on longer steps.
+        let is_whole = ticks == self.wanted;
+        let grows = is_whole && fitting >= 2.0 && longer <= self.clock.ticks_max;
         if grows && next.is_multiple_of(longer) {
             self.wanted = longer;
         }
@@ -109,7 +119,7 @@ impl StepControl {
     }
 }
 
-/// The largest power of two that is not above a positive number.
+/// Returns the largest power of two that is not above `number`, or 1.
 fn power_of_two(number: usize) -> usize {
     1 << number.max(1).ilog2()
 }

@@ -1,7 +1,7 @@
 //! Drag of the air on particles, along the normals of the cloth.
 //!
-//! The drag grows with the square of the speed. Within a step its coefficient is taken at the speed
-//! of the step's start, so that the force is linear in the displacement and has a potential.
+//! The drag grows with the square of the speed. Within a step its coefficient uses the speed at the
+//! start of the step, so that the force is linear in the displacement and has a potential.
 
 use drape_cloth::{Cloth, State};
 use drape_implicit::BlockMatrix;
@@ -11,7 +11,7 @@ use drape_implicit::BlockMatrix;
 pub(crate) struct AirDrag {
     /// Half the density times the drag coefficient, in kg/m³.
     half_density: f64,
-    /// Drag of each particle over the length of the step, in N/m along its normal.
+    /// Drag coefficient of each particle in this step, in N/m along its normal.
     coefficients: Vec<f64>,
 }
 
@@ -26,12 +26,13 @@ struct NormalDisplacement {
 }
 
 impl AirDrag {
-    /// Returns air with half its density times the drag coefficient, in kg/m³.
+    /// Returns the air drag on `particles` particles. `half_density` is half the density times the
+    /// drag coefficient, in kg/m³.
     pub(crate) fn new(half_density: f64, particles: usize) -> Self {
         Self { half_density, coefficients: vec![0.0; particles] }
     }
 
-    /// Opens a step of a length, in s.
+    /// Prepares a step of the length `dt`, in s, of `cloth` from `state`.
     pub(crate) fn begin(&mut self, cloth: &Cloth, state: &State, dt: f64) {
         let normals = state.normals().chunks_exact(3);
         let velocities = state.velocities.chunks_exact(3);
@@ -42,11 +43,12 @@ impl AirDrag {
         }
     }
 
-    /// Opens a step without drag.
+    /// Prepares a step without drag.
     pub(crate) fn begin_without(&mut self) {
         self.coefficients.fill(0.0);
     }
 
+    /// Adds the drag of a step from `state` to `positions` to `forces`, in N.
     pub(crate) fn add_forces(&self, state: &State, positions: &[f64], forces: &mut [f64]) {
         self.visit(state, positions, |moved| {
             let force = moved.coefficient * moved.distance;
@@ -56,6 +58,7 @@ impl AirDrag {
         });
     }
 
+    /// Returns the potential of the drag in a step from `state` to `positions`, in J.
     pub(crate) fn potential(&self, state: &State, positions: &[f64]) -> f64 {
         let mut sum = 0.0;
         self.visit(state, positions, |NormalDisplacement { coefficient, distance, .. }| {
@@ -64,7 +67,8 @@ impl AirDrag {
         sum
     }
 
-    /// Work against the drag with its force at the end of the step, in J.
+    /// Returns the work against the drag in a step from `state` to `positions`, with the drag at
+    /// the end of the step, in J.
     pub(crate) fn loss(&self, state: &State, positions: &[f64]) -> f64 {
         let mut sum = 0.0;
         self.visit(state, positions, |NormalDisplacement { coefficient, distance, .. }| {
@@ -73,6 +77,7 @@ impl AirDrag {
         sum
     }
 
+    /// Adds the stiffness of the drag in a step from `state` to `positions` to `matrix`.
     pub(crate) fn add_stiffness(&self, state: &State, positions: &[f64], matrix: &mut BlockMatrix) {
         self.visit(state, positions, |moved| {
             let NormalDisplacement { particle, coefficient, normal, .. } = moved;
@@ -82,7 +87,7 @@ impl AirDrag {
         });
     }
 
-    /// Calls with every particle that the air resists.
+    /// Calls `visit` with each particle that the air resists in a step from `state` to `positions`.
     fn visit(&self, state: &State, positions: &[f64], mut visit: impl FnMut(NormalDisplacement)) {
         let normals = state.normals().chunks_exact(3);
         let moved = positions.chunks_exact(3).zip(state.positions.chunks_exact(3));

@@ -4,94 +4,96 @@ use drape_implicit::BlockMatrix;
 use drape_scene::{SeamConstraint, SeamPairs};
 use serde::{Deserialize, Serialize};
 
-/// Stiffness of a closing spring, in N/m: about that of a yarn of a usual weave. The gaps that it
-/// leaves close when the particles are merged, or after the springs are stiffened. At 1e5 N/m springs
-/// pressed panels onto each other, and a step of a T-shirt of 25 506 particles had no solution. At 3e3
-/// N/m trousers closed only after stiffening.
+/// Stiffness of a closing spring, in N/m: about the stiffness of a yarn of a usual weave. The
+/// remaining gaps close when the particles are merged, or after the springs are stiffened. At 1e5
+/// N/m springs pressed panels onto each other, and a step of a T-shirt of 25 506 particles had no
+/// solution. At 3e3 N/m trousers closed only after stiffening.
 const STIFFNESS: f64 = 1e4;
 
-/// Widest gap at which the two sides of a seam are merged, in m. Where a narrower one is wanted,
-/// primitives that the seam joins are exempt from contact with each other, as they are once it is
-/// closed. Kept apart by as little as the gap they would stall: a T-shirt of 25 506 particles took
+/// Widest gap at which the two sides of a seam are merged, in m. Where the prescribed gap is
+/// narrower, primitives that the seam joins are exempt from contact with each other, as in a closed
+/// seam. Contact at so narrow a gap would stall the closing: a T-shirt of 25 506 particles took
 /// 1812 iterations for three steps.
 const CLOSED: f64 = 1e-4;
 
-/// Multiple of its length that the closing of the seams takes before they may be merged with a narrow gap.
+/// Multiple of the sewing time after which seams with a narrow gap may be merged.
 const NEARLY_CLOSED_AFTER: f64 = 1.1;
 
-/// Gap to which the springs close a seam, in m. The deviation of a spring from it is smaller.
+/// Gap to which the springs close a seam, in m. It is larger than the deviation of a spring.
 const CLOSING: f64 = 0.2 * CLOSED;
 
-/// Gap to which stiffened springs are to close a seam, in m. A wider one moves cloth by more than
-/// contact leaves to bodies when its sides are merged.
+/// Gap to which stiffened springs are to close a seam, in m. When the sides of a wider gap are
+/// merged, the cloth moves farther than the distance that contact keeps to bodies.
 const CLOSED_STRETCHED: f64 = 0.1 * CLOSED;
 
-/// Multiple of its length that the closing of the seams may take before the run fails.
+/// Multiple of the sewing time after which a seam that is still open ends the run.
 const PATIENCE: f64 = 2.0;
 
-/// Imbalance, over g, up to which steps are solved while a garment is sewn, and at which its seams
-/// may be merged: of the motion only the end matters, with seams that are closed, untangled and
-/// calm. With a third of it hems came to rest within 2 mm of where they do now.
+/// Imbalance, over g, up to which steps are solved while a garment is sewn, and below which its
+/// seams may be merged. Only the end of this motion matters: seams that are closed and untangled,
+/// and calm cloth. With a third of this tolerance hems came to rest within 2 mm of their places
+/// with this one.
 pub(crate) const TOLERANCE: f64 = 0.3;
 
 /// Springs between the two sides of the seams.
 ///
-/// Each keeps the gap between its ends, a vector, near the gap at the start times a fraction that
-/// falls evenly from 1 to nearly 0. So the ends are drawn together along straight lines, and the energy
-/// is quadratic.
+/// Each spring keeps the gap vector between its ends near the gap at the start times a fraction.
+/// The fraction falls linearly from 1 to nearly 0, so the ends move together along straight lines,
+/// and the energy is quadratic.
 #[derive(Debug, Clone)]
 pub(crate) struct ClosingSprings {
     seams: Vec<SeamConstraint>,
-    /// Gap of each at the start, in m.
+    /// Gap of each seam constraint at the start, in m.
     start_gaps: Vec<StartGap>,
-    /// Time until the gaps are to be closed, in s.
+    /// Sewing time: the time until the gaps are to be closed, in s.
     seconds: f64,
-    /// Fraction of the time for it that remains at the end of this step.
+    /// Fraction of the sewing time that remains at the end of this step.
     remaining: f64,
-    /// Gap that contact is to leave at each particle at the end of this step, in m: that which is wanted,
-    /// 0 where it counts as closed, and infinite without a seam.
+    /// Gap that contact must allow at each particle at the end of this step, in m: the prescribed
+    /// gap, 0 where the seam counts as closed, and infinite without a seam.
     gaps: Vec<f64>,
-    /// Stiffness of each in this step, in N/m.
+    /// Stiffness of each spring in this step, in N/m.
     stiffness: f64,
-    /// Increase of their stiffness, for a seam that they did not close.
+    /// Increase of the stiffness, if the springs left a seam open.
     stiffening: Option<Stiffening>,
 }
 
-/// Gap of a closing spring at the start.
+/// Gap of a seam constraint at the start.
 #[derive(Debug, Clone, Copy)]
 struct StartGap {
-    /// Gap, in m.
+    /// Gap vector, in m.
     gap: [f64; 3],
-    /// Its width, in m.
+    /// Length of `gap`, in m.
     width: f64,
 }
 
 impl StartGap {
-    /// Fraction of the gap that is wanted when some of the time remains.
+    /// Returns the prescribed fraction of the gap when the fraction `remaining` of the sewing time
+    /// remains.
     fn fraction(&self, remaining: f64) -> f64 {
         if self.width > CLOSING { remaining.max(CLOSING / self.width) } else { 1.0 }
     }
 }
 
-/// Increase of the stiffness of closing springs, evenly within the time of the sewing.
+/// Increase of the stiffness of closing springs, linear over the sewing time.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct Stiffening {
-    /// Time at which it begins, in s.
+    /// Time at which the increase begins, in s.
     start: f64,
-    /// Stiffness at its end over the usual one.
+    /// Ratio of the stiffness at the end of the increase to the usual stiffness.
     factor: f64,
 }
 
 /// State of the seams while they are closed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum SeamState {
-    /// The time for it is not over, or the cloth is not calm yet.
+    /// The sewing time is not over, or the cloth is not calm yet.
     Open,
     /// All gaps are closed, and the cloth is calm.
     Closed,
-    /// A narrow gap stays open, and the cloth is calm.
+    /// A narrow gap remains open, and the cloth is calm.
     NearlyClosed(WidestGap),
-    /// A gap stays open.
+    /// A gap remains open although the springs had time enough.
     Failed(WidestGap),
 }
 
@@ -100,21 +102,20 @@ pub(crate) enum SeamState {
 pub(crate) struct WidestGap {
     /// Width, in m.
     pub(crate) width: f64,
-    /// Two particles that it is between.
+    /// Particles on both sides of the gap.
     pub(crate) ends: [u32; 2],
 }
 
 impl ClosingSprings {
-    /// Springs between particles at their positions at the start, in m, that close the gaps within
-    /// a time, in s.
+    /// Returns the springs of `pairs` between particles that start at `positions`, in m. The
+    /// springs close the gaps within `seconds`.
     pub(crate) fn new(pairs: &SeamPairs, positions: &[f64], seconds: f64) -> Self {
         let seams: Vec<SeamConstraint> = pairs.constraints().collect();
-        let start_gap = |seam: &SeamConstraint| StartGap {
-            gap: seam.gap(positions),
-            width: seam.width(positions),
-        };
+        let start_gaps = seams
+            .iter()
+            .map(|seam| StartGap { gap: seam.gap(positions), width: seam.width(positions) });
         Self {
-            start_gaps: seams.iter().map(start_gap).collect(),
+            start_gaps: start_gaps.collect(),
             gaps: pairs.gaps_at_particles(positions),
             seams,
             seconds,
@@ -124,7 +125,7 @@ impl ClosingSprings {
         }
     }
 
-    /// Pairs of particles that the springs couple.
+    /// Returns the pairs of particles that the springs couple.
     pub(crate) fn coupled_pairs(&self) -> Vec<[u32; 2]> {
         let pairs = self.seams.iter().flat_map(|seam| {
             let particles = seam.weights.iter().map(|end| end.particle).enumerate();
@@ -134,29 +135,29 @@ impl ClosingSprings {
         pairs.collect()
     }
 
-    /// Opens a step that ends at a time, in s.
+    /// Prepares a step that ends at `end_time`, in s.
     pub(crate) fn begin(&mut self, end_time: f64) {
         self.remaining = (1.0 - end_time / self.seconds).max(0.0);
         self.gaps.fill(f64::INFINITY);
         for (seam, start) in self.seams.iter().zip(&self.start_gaps) {
             let gap = start.fraction(self.remaining) * start.width;
-            let gap = if gap <= CLOSED { 0.0 } else { gap };
-            seam.narrow(gap, &mut self.gaps);
+            seam.narrow(if gap <= CLOSED { 0.0 } else { gap }, &mut self.gaps);
         }
+
         if let Some(Stiffening { start, factor }) = self.stiffening {
             let part = ((end_time - start) / self.seconds).clamp(0.0, 1.0);
             self.stiffness = STIFFNESS * (1.0 + part * (factor - 1.0));
         }
     }
 
-    /// Gap that contact is to leave at each particle at the end of this step, in m: that which is wanted,
-    /// 0 where it counts as closed, and infinite without a seam.
+    /// Returns the gap that contact must allow at each particle at the end of this step, in m: the
+    /// prescribed gap, 0 where the seam counts as closed, and infinite without a seam.
     pub(crate) fn gaps(&self) -> &[f64] {
         &self.gaps
     }
 
-    /// Stiffens the springs from a time on, in s, so far that a gap closes which they left open;
-    /// returns whether they were as usual before.
+    /// Stiffens the springs from `time` on, in s, so that a remaining gap `gap`, in m, closes.
+    /// Returns whether the springs had their usual stiffness before.
     pub(crate) fn stiffen(&mut self, time: f64, gap: f64) -> bool {
         let is_usual = self.stiffening.is_none();
         if is_usual {
@@ -181,8 +182,9 @@ impl ClosingSprings {
         self.seconds
     }
 
-    /// State of the seams at some positions and a time, in s, after a step that left an imbalance,
-    /// over g, with the width of a gap that counts as narrow, in m.
+    /// Returns the state of the seams with the particles at `positions`, in m, at `time`, in s.
+    /// `imbalance` is the imbalance of the last step over g, and `narrow` the widest gap that
+    /// counts as narrow, in m.
     pub(crate) fn state(
         &self,
         positions: &[f64],
@@ -190,23 +192,27 @@ impl ClosingSprings {
         imbalance: f64,
         narrow: f64,
     ) -> SeamState {
-        let time = time - self.stiffening.map_or(0.0, |stiffening| stiffening.start);
-        if time < self.seconds {
+        let elapsed = time - self.stiffening.map_or(0.0, |stiffening| stiffening.start);
+        if elapsed < self.seconds {
             return SeamState::Open;
         }
+
         let gap = self.widest_gap(positions);
-        let late = time >= PATIENCE * self.seconds;
+        let is_late = elapsed >= PATIENCE * self.seconds;
         let is_calm = imbalance <= TOLERANCE;
-        let is_nearly_closed = gap.width <= narrow && time >= NEARLY_CLOSED_AFTER * self.seconds;
-        match gap.width <= CLOSED && (late || is_calm) {
-            true => SeamState::Closed,
-            false if late => SeamState::Failed(gap),
-            false if is_calm && is_nearly_closed => SeamState::NearlyClosed(gap),
-            false => SeamState::Open,
+        let is_nearly_closed = gap.width <= narrow && elapsed >= NEARLY_CLOSED_AFTER * self.seconds;
+        if gap.width <= CLOSED && (is_late || is_calm) {
+            SeamState::Closed
+        } else if is_late {
+            SeamState::Failed(gap)
+        } else if is_calm && is_nearly_closed {
+            SeamState::NearlyClosed(gap)
+        } else {
+            SeamState::Open
         }
     }
 
-    /// Widest gap at some positions.
+    /// Returns the widest gap of all seams with the particles at `positions`, in m.
     pub(crate) fn widest_gap(&self, positions: &[f64]) -> WidestGap {
         let start = WidestGap { width: 0.0, ends: [0; 2] };
         let gaps = self.seams.iter().map(|seam| WidestGap {
@@ -216,12 +222,13 @@ impl ClosingSprings {
         gaps.fold(start, |widest, gap| if gap.width > widest.width { gap } else { widest })
     }
 
-    /// Largest force of a spring at some positions, in N.
+    /// Returns the largest force of a spring with the particles at `positions`, in N.
     pub(crate) fn largest_force(&self, positions: &[f64]) -> f64 {
         let squares = self.excess(positions).map(|e| e.iter().map(|x| x * x).sum::<f64>());
         self.stiffness * squares.fold(0.0, f64::max).sqrt()
     }
 
+    /// Adds the forces of the springs at `positions` to `forces`, in N.
     pub(crate) fn add_forces(&self, positions: &[f64], forces: &mut [f64]) {
         for (seam, excess) in self.seams.iter().zip(self.excess(positions)) {
             for end in &seam.weights {
@@ -233,26 +240,27 @@ impl ClosingSprings {
         }
     }
 
+    /// Returns the potential of the springs at `positions`, in J.
     pub(crate) fn potential(&self, positions: &[f64]) -> f64 {
         let squares = self.excess(positions).map(|e| e.iter().map(|x| x * x).sum::<f64>());
         0.5 * self.stiffness * squares.sum::<f64>()
     }
 
+    /// Adds the stiffness of the springs to `matrix`.
     pub(crate) fn add_stiffness(&self, matrix: &mut BlockMatrix) {
-        let block = |size: f64| -> [f64; 9] {
-            std::array::from_fn(|k| if k % 4 == 0 { size } else { 0.0 })
-        };
         for seam in &self.seams {
             for (k, a) in seam.weights.iter().enumerate() {
                 for b in &seam.weights[k..] {
-                    let block = block(a.weight * b.weight * self.stiffness);
+                    let size = a.weight * b.weight * self.stiffness;
+                    let block = std::array::from_fn(|k| if k % 4 == 0 { size } else { 0.0 });
                     matrix.add(a.particle as usize, b.particle as usize, &block);
                 }
             }
         }
     }
 
-    /// Differences between the gaps and those that are wanted.
+    /// Returns the difference between the gap at `positions` and the prescribed gap of each seam
+    /// constraint, in m.
     fn excess(&self, positions: &[f64]) -> impl Iterator<Item = [f64; 3]> {
         self.seams.iter().zip(&self.start_gaps).map(move |(seam, start)| {
             let now = seam.gap(positions);

@@ -33,15 +33,20 @@ pub(crate) enum Contact {
 }
 
 impl Contact {
-    /// Contact of a scene that has been checked.
+    /// Returns the contact of the checked `scene`.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if `scene` was changed so that its contact cannot be set up.
     pub(crate) fn new(scene: &Scene) -> Result<Self, Error> {
-        Ok(match scene.contact.surfaces {
-            true => Self::Surfaces(Box::new(Surfaces::new(scene)?)),
-            false => Self::Particles(Box::new(ParticleBodies::new(scene)?)),
-        })
+        if scene.contact.surfaces {
+            Ok(Self::Surfaces(Box::new(Surfaces::new(scene)?)))
+        } else {
+            Ok(Self::Particles(Box::new(ParticleBodies::new(scene)?)))
+        }
     }
 
-    /// Surfaces, where they are kept apart.
+    /// Returns the [`Surfaces`], if surfaces are kept apart.
     pub(crate) fn surfaces(&self) -> Option<&Surfaces> {
         match self {
             Self::Surfaces(surfaces) => Some(surfaces),
@@ -49,7 +54,7 @@ impl Contact {
         }
     }
 
-    /// The same, to be changed.
+    /// Returns the [`Surfaces`] mutably, if surfaces are kept apart.
     pub(crate) fn surfaces_mut(&mut self) -> Option<&mut Surfaces> {
         match self {
             Self::Surfaces(surfaces) => Some(surfaces),
@@ -57,12 +62,12 @@ impl Contact {
         }
     }
 
-    /// Fraction of the distances of surfaces that they keep now, 0 to 1.
+    /// Returns the fraction of their distances that surfaces keep now, 0 to 1.
     pub(crate) fn growth_fraction(&self) -> f64 {
         self.surfaces().map_or(1.0, |surfaces| surfaces.contact.growth_fraction())
     }
 
-    /// Bodies, in the order of the scene.
+    /// Returns the bodies at the start, in the order of the scene.
     pub(crate) fn bodies(&self) -> &[Body] {
         match self {
             Self::Particles(bodies) => bodies.contact.bodies(),
@@ -70,7 +75,7 @@ impl Contact {
         }
     }
 
-    /// Triangles of a body at a time on the clock of motions, in s, in its own size.
+    /// Returns the triangles of `body` at `time` on the motion clock, in s, in its full size.
     pub(crate) fn outline(&self, body: usize, time: f64) -> Triangulation {
         match self {
             Self::Particles(bodies) => bodies.outline(body, time),
@@ -78,20 +83,23 @@ impl Contact {
         }
     }
 
-    /// Triangles of the bodies, where they are now.
+    /// Returns the triangles of the bodies at their current positions.
     pub(crate) fn triangulations(&self) -> Vec<Triangulation> {
         let bodies = self.bodies().iter();
         let outlines = bodies.map(|body| body.triangulate().expect("contact has checked it"));
         let mut outlines: Vec<Triangulation> = outlines.collect();
+
+        // Surfaces may have been inflated or deformed, so their vertices are read from contact.
         if let Self::Surfaces(surfaces) = self {
-            let mut places = surfaces.contact.body_positions().as_chunks::<3>().0.iter();
+            let positions = surfaces.contact.body_positions().as_chunks::<3>().0;
             let vertices = outlines.iter_mut().flat_map(|outline| &mut outline.vertices);
-            vertices.zip(&mut places).for_each(|(vertex, place)| *vertex = *place);
+            vertices.zip(positions).for_each(|(vertex, position)| *vertex = *position);
         }
         outlines
     }
 
-    /// Opens a step and returns the energy of contact at its start if that is asked for.
+    /// Prepares contact for `step`. Returns the energy of contact at its start, if `step` asks for
+    /// it.
     pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
         match self {
             Self::Particles(bodies) => bodies.begin(step),
@@ -99,6 +107,7 @@ impl Contact {
         }
     }
 
+    /// Adds the contact forces at `positions` to `forces`, in N.
     pub(crate) fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         match self {
             Self::Particles(bodies) => bodies.contact.add_forces(positions, forces),
@@ -106,6 +115,7 @@ impl Contact {
         }
     }
 
+    /// Returns the potential of contact and friction at `positions`, in J.
     pub(crate) fn potential(&mut self, positions: &[f64]) -> f64 {
         match self {
             Self::Particles(bodies) => bodies.contact.potential(positions),
@@ -113,8 +123,8 @@ impl Contact {
         }
     }
 
-    /// Adds the stiffness; that of particles may be asked to be positive semi-definite, that of
-    /// surfaces always is.
+    /// Adds the stiffness at `positions` to `matrix`. The stiffness of particles is positive
+    /// semi-definite if `definite`; the stiffness of surfaces always is.
     pub(crate) fn add_stiffness(
         &mut self,
         positions: &[f64],
@@ -135,7 +145,7 @@ impl Contact {
         }
     }
 
-    /// Closes a step: friction remembers what slid.
+    /// Accepts a step that ends at `positions`: updates the memory of friction.
     pub(crate) fn commit(&mut self, positions: &[f64]) {
         if let Self::Surfaces(surfaces) = self {
             surfaces.contact.commit(positions);

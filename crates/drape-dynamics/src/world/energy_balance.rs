@@ -1,56 +1,57 @@
-//! Balance of the energy of a cloth, summed over the accepted steps.
+//! Energy balance of a cloth, summed over the accepted steps.
 //!
-//! Energy that internal forces store and lose comes from their memories, that of contact, friction
-//! with bodies and air from their forces. In one of some thirty sub-steps the loss of the integrator
-//! is found by itself too, from differences of velocities and from the work of all forces along the
-//! sub-step, by quadrature; in the others it is what the other entries leave. The residual of the
-//! balance, [`Energy::residual`], therefore tells whether forces, potentials and works agree. The
-//! cost of rotation is what the memories miss of the internal forces' potential.
+//! The stored and dissipated energies of internal forces come from their memories. The energies of
+//! contact, of friction with bodies and of air come from their forces. In about one of thirty
+//! sub-steps the dissipation of the integrator is computed independently: from differences of
+//! velocities, and from the work of all forces along the sub-step, by quadrature. In the other
+//! sub-steps it is the difference of the other entries. The residual of the balance,
+//! [`Energy::residual`], therefore shows whether forces, potentials and works agree. The rotation
+//! entry is the difference between the potential of the internal forces and their memories.
 
 use drape_implicit::Report;
 use serde::{Deserialize, Serialize};
 
 use super::contact::ContactEnergy;
 
-/// Balance of the energy since the start, in J: the energy put in is stored, or lost to friction in
-/// the fabric, to friction with bodies and of cloth on cloth, to the air, to the integrator, or to the rotation of the
-/// cloth.
+/// Energy balance since the start, in J. The energy put in is stored, or dissipated by friction in
+/// the fabric, by friction with bodies, by friction of cloth on cloth, by the air, by the
+/// integrator, or by the rotation of the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy.
     pub kinetic: f64,
     /// Energy stored in the fabric since the start.
     pub elastic: f64,
-    /// Work done against the weight; the fall makes it negative.
+    /// Work done against the weight. Negative when the cloth falls.
     pub gravity: f64,
     /// Energy stored in the contact with bodies since the start.
     pub contact: f64,
-    /// Energy lost in the fabric's friction.
+    /// Energy dissipated by friction in the fabric.
     pub friction_dissipated: f64,
-    /// Energy lost in the friction with bodies.
+    /// Energy dissipated by friction with bodies.
     pub body_dissipated: f64,
-    /// Energy lost in the friction of cloth on cloth.
+    /// Energy dissipated by friction of cloth on cloth.
     pub cloth_dissipated: f64,
-    /// Energy lost to the air.
+    /// Energy dissipated by the air.
     pub air_dissipated: f64,
-    /// Energy lost by the formula of the integrator, and by the residual that the solver leaves.
+    /// Energy dissipated by the formula of the integrator and by the residual of the solver.
     pub numerical_dissipated: f64,
-    /// Cost of the rotation of the cloth: a step measures curvatures along the normals at its
-    /// start, the memory of the bending friction along those at its end. Of either sign, some
-    /// thousandths of the friction at usual steps, less at shorter ones, and nothing where bending
-    /// has no friction.
+    /// Cost of the rotation of the cloth. A step measures curvatures along the normals at its
+    /// start, and the memory of the bending friction measures curvatures along the normals at its
+    /// end. The entry has either sign. It is some thousandths of the friction at usual steps,
+    /// smaller at shorter steps, and 0 if bending has no friction.
     #[serde(rename = "turning_dissipated")]
     pub rotation_dissipated: f64,
-    /// Work done on the cloth by bodies that move, by pins and by forces that a program applies; where
-    /// a pin holds in some directions alone, the work of its springs counts.
+    /// Work done on the cloth by moving bodies, by pins and by forces that a program sets. For a
+    /// pin that holds in some directions only, the work of its springs counts.
     pub work_in: f64,
-    /// Residual of the balance: what its entries leave open in the sub-steps, one of some thirty, in
-    /// which each is found by itself. It is the error of a quadrature, some millionths of what these
-    /// exchange, unless forces and potentials contradict each other.
+    /// Residual of the balance in the sub-steps in which every entry is computed independently
+    /// (about one of thirty). It is the error of a quadrature, some millionths of the energy
+    /// exchanged, unless forces and potentials contradict each other.
     #[serde(rename = "remainder")]
     pub residual: f64,
-    /// Energy exchanged in steps whose straight path leads through a body or through other cloth:
-    /// their loss to the integrator is taken for what the other entries leave.
+    /// Energy exchanged in steps whose straight path leads through a body or through other cloth.
+    /// The dissipation of the integrator in these steps is the difference of the other entries.
     pub unproved: f64,
 }
 
@@ -62,15 +63,16 @@ pub(crate) struct EnergyBalance {
     /// Energy of contact at the start of the step.
     #[serde(skip)]
     contact: ContactEnergy,
-    /// Potential of the internal forces when it was first and last asked for in this step, in J.
-    /// With the balance on, the integrator does so at the start and at the end.
+    /// Potential of the internal forces when it was first and last evaluated in this step, in J.
+    /// With an energy balance the integrator evaluates it at the start and at the end.
     #[serde(skip)]
     internal: Option<FirstAndLast>,
-    /// Kinetic energy at the start, in J.
+    /// Kinetic energy at the start of the balance, in J.
     kinetic_at_start: f64,
     sums: Energy,
 }
 
+/// First and last potential of the internal forces in a step, in J.
 #[derive(Debug, Clone, Copy, Default)]
 struct FirstAndLast {
     first: f64,
@@ -82,62 +84,65 @@ struct FirstAndLast {
 pub(crate) struct StepEnergy {
     /// Work against the weight.
     pub(crate) gravity: f64,
-    /// Work of the forces that a program applies.
+    /// Work of the forces that a program sets.
     pub(crate) external_work: f64,
-    /// Growth of the energy of contact.
+    /// Increase of the energy of contact.
     pub(crate) contact: f64,
     /// Work of the springs of pins, with their forces at the end of the step.
     pub(crate) spring_work: f64,
-    /// Fall of the potential of these springs, which jumps with their prescribed positions at the
-    /// start of the step.
+    /// Decrease of the potential of these springs. The potential jumps with the prescribed
+    /// positions at the start of the step.
     pub(crate) spring_potential_fall: f64,
-    /// Work of bodies that move, or of the growth of distances of surfaces, against contact.
+    /// Work of moving bodies, or of growing distances of surfaces, against contact.
     pub(crate) body_work: f64,
-    /// Work of the friction of bodies that move.
+    /// Work of the friction on moving bodies.
     pub(crate) body_friction_work: f64,
-    /// Work against the friction of surfaces, with its force at the end of the step.
+    /// Work against the friction of surfaces, with the friction at the end of the step.
     pub(crate) body_friction_loss: f64,
-    /// Part of this loss that is of cloth on cloth.
+    /// Part of `body_friction_loss` that is friction of cloth on cloth.
     pub(crate) cloth_friction_loss: f64,
-    /// Growth of the potential of that friction, of which the solution of the step is the minimum.
+    /// Increase of the potential of this friction. The solution of the step minimizes this
+    /// potential.
     pub(crate) body_friction_potential: f64,
-    /// Work against the air, with its force at the end of the step; its potential is half of that.
+    /// Work against the air with the drag at the end of the step. The potential of the drag is half
+    /// of it.
     pub(crate) air: f64,
     /// Work against the forces that remove momentum.
     pub(crate) momentum_removal: f64,
-    /// Loss in the friction of the internal forces.
+    /// Energy dissipated by the friction of the internal forces.
     pub(crate) internal_friction: f64,
-    /// Energy stored by the internal forces at the end.
+    /// Energy stored by the internal forces at the end of the step.
     pub(crate) stored: f64,
 }
 
 impl EnergyBalance {
-    /// Begins a balance with the energy that the internal forces store, and the kinetic energy, in
-    /// J.
+    /// Returns a balance that begins with the energy `stored` by the internal forces and the energy
+    /// `kinetic`, in J.
     pub(crate) fn new(stored: f64, kinetic: f64) -> Self {
         Self { stored, kinetic_at_start: kinetic, ..Self::default() }
     }
 
-    /// Opens a step with the energy of contact at its start.
+    /// Prepares a step with the energy `contact` at its start.
     pub(crate) fn begin(&mut self, contact: ContactEnergy) {
         self.contact = contact;
         self.internal = None;
     }
 
-    /// Energy of contact at the start of the step.
+    /// Returns the energy of contact at the start of the step.
     pub(crate) fn contact_at_start(&self) -> ContactEnergy {
         self.contact
     }
 
-    /// Notes a potential of the internal forces that was evaluated in the step, in J.
+    /// Records `potential`, a value of the potential of the internal forces in this step, in J.
     pub(crate) fn note_internal_potential(&mut self, potential: f64) {
         let first = self.internal.map_or(potential, |noted| noted.first);
         self.internal = Some(FirstAndLast { first, last: potential });
     }
 
-    /// Adds an accepted step.
+    /// Adds the energies of the accepted `step`.
     pub(crate) fn add(&mut self, step: &StepEnergy) {
         let FirstAndLast { first, last } = self.internal.unwrap_or_default();
+
         let sums = &mut self.sums;
         sums.rotation_dissipated +=
             last - first - (step.stored - self.stored) - step.internal_friction;
@@ -150,8 +155,10 @@ impl EnergyBalance {
         sums.body_dissipated += step.body_friction_loss - step.cloth_friction_loss;
         sums.cloth_dissipated += step.cloth_friction_loss;
         sums.air_dissipated += step.air;
-        // The integrator takes potentials for the work of all forces. For forces that grow along
-        // the step, as friction and drag with the speed, that falls short of the work at its end.
+
+        // The integrator replaces the work of all forces by differences of potentials. Friction and
+        // drag grow with the speed along the step, so their potentials are smaller than the work
+        // with the forces at the end.
         sums.numerical_dissipated +=
             step.body_friction_potential - step.body_friction_loss - 0.5 * step.air;
         sums.numerical_dissipated += step.spring_work - step.spring_potential_fall;
@@ -160,7 +167,7 @@ impl EnergyBalance {
         self.stored = step.stored;
     }
 
-    /// Adds the loss and the work that the integrator reports.
+    /// Adds the dissipation and the work that the integrator reports in `report`.
     pub(crate) fn add_report(&mut self, report: &Report) {
         if let Some(energy) = &report.energy {
             self.sums.numerical_dissipated += energy.numerical_dissipation;
@@ -169,16 +176,16 @@ impl EnergyBalance {
         }
     }
 
-    /// Balance so far, with the kinetic energy now, in J.
+    /// Returns the balance since the start, in J, with the current kinetic energy `kinetic`.
     pub(crate) fn energy(&self, kinetic: f64) -> Energy {
         let Energy { elastic, gravity, contact, .. } = self.sums;
         let Energy { friction_dissipated, air_dissipated, .. } = self.sums;
         let Energy { body_dissipated, cloth_dissipated, .. } = self.sums;
-        let held = kinetic - self.kinetic_at_start + elastic + gravity + contact;
+        let stored = kinetic - self.kinetic_at_start + elastic + gravity + contact;
         let rotation = self.sums.rotation_dissipated;
         let surfaces = body_dissipated + cloth_dissipated;
         let lost = friction_dissipated + surfaces + air_dissipated + rotation;
-        let residual = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
+        let residual = self.sums.work_in - stored - lost - self.sums.numerical_dissipated;
         Energy { kinetic, residual, ..self.sums }
     }
 }

@@ -12,18 +12,18 @@ use serde::{Deserialize, Serialize};
 /// Internal forces of a cloth.
 #[derive(Debug)]
 pub(crate) struct InternalForces {
-    /// Connectors of the cloth. In Breen's model they keep the account of strains alone.
+    /// Connectors of the cloth. In Breen's model they only account for strains.
     workspace: Workspace,
     breen: Option<Breen>,
     /// Bending across the seams, once they are closed.
     seams: Option<BentSeams>,
-    /// Pairs of Breen's particles that the sparsity has.
+    /// Pairs of Breen's particles that have blocks in `sparsity`.
     close: Vec<[u32; 2]>,
     /// Pairs of particles that act on each other.
     sparsity: Sparsity,
-    /// Number of times that these pairs have changed.
+    /// Number of times that `sparsity` has changed.
     version: u64,
-    /// Matrix of the connectors alone, where the sparsity has more pairs.
+    /// Matrix of the connectors alone, if `sparsity` has further pairs.
     scatter: Option<Scatter>,
 }
 
@@ -34,12 +34,13 @@ pub(crate) struct SavedForces {
     breen: Option<SavedPairs>,
 }
 
-/// Pairs of Breen's particles that are at hand. The order of the solver's sums depends on them.
+/// Pairs of Breen's particles that were near each other. The order of the solver's sums depends on
+/// the pairs.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct SavedPairs {
-    /// Positions at which they were listed, in m.
+    /// Positions at which the pairs were listed, in m.
     listed: Vec<f64>,
-    /// Those that the sparsity has.
+    /// Pairs that have blocks in the sparsity.
     close: Vec<[u32; 2]>,
 }
 
@@ -50,7 +51,7 @@ struct BentSeams {
     state: SeamBendingState,
 }
 
-/// Matrix of the connectors, and the place of each of its blocks in the whole matrix.
+/// Matrix of the connectors, and the slot of each of its blocks in the matrix of the solver.
 #[derive(Debug)]
 struct Scatter {
     values: Vec<f64>,
@@ -64,7 +65,7 @@ impl Scatter {
     }
 }
 
-/// Row and column of each block of a cloth's connectors.
+/// Returns the row and the column of each block of `connectors`.
 fn blocks(connectors: &drape_cloth::Sparsity) -> impl Iterator<Item = [usize; 2]> {
     (0..connectors.offsets.len() - 1).flat_map(|row| {
         let columns = &connectors.columns[connectors.offsets[row]..connectors.offsets[row + 1]];
@@ -72,17 +73,17 @@ fn blocks(connectors: &drape_cloth::Sparsity) -> impl Iterator<Item = [usize; 2]
     })
 }
 
-/// Sparsity of a cloth's connectors and of some more pairs.
-fn sparsity(connectors: &drape_cloth::Sparsity, more: &[[u32; 2]]) -> Sparsity {
-    let more = more.iter().map(|pair| pair.map(|particle| particle as usize));
+/// Returns the sparsity of `connectors` and of the further pairs `added`.
+fn sparsity(connectors: &drape_cloth::Sparsity, added: &[[u32; 2]]) -> Sparsity {
+    let added = added.iter().map(|pair| pair.map(|particle| particle as usize));
     let particles = connectors.offsets.len() - 1;
-    let pairs = blocks(connectors).chain(more);
+    let pairs = blocks(connectors).chain(added);
     Sparsity::from_pairs(particles, pairs).expect("pairs are of the cloth's particles")
 }
 
 impl InternalForces {
-    /// Internal forces of a cloth, in Breen's model if there is one, with room for springs between
-    /// more pairs.
+    /// Returns the internal forces of `cloth` at `positions`, in Breen's model if `breen` is given.
+    /// The sparsity has room for springs between the pairs `springs`.
     pub(crate) fn new(
         cloth: &Cloth,
         breen: Option<Breen>,
@@ -103,16 +104,18 @@ impl InternalForces {
         forces
     }
 
+    /// Returns the pairs of particles that act on each other.
     pub(crate) fn sparsity(&self) -> &Sparsity {
         &self.sparsity
     }
 
+    /// Returns the number of times that the sparsity has changed.
     pub(crate) fn sparsity_version(&self) -> u64 {
         self.version
     }
 
-    /// Begins to bend the seams of a cloth that has been sewn; closing springs need no room any
-    /// more.
+    /// Adds bending across the seams of `cloth`, which has been sewn at `positions`, in m. The
+    /// closing springs need no blocks from now on.
     pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
         self.workspace = cloth.workspace();
         let pairs: Vec<[u32; 2]> = bending.pairs().collect();
@@ -123,50 +126,54 @@ impl InternalForces {
         self.seams = Some(BentSeams { bending, state });
     }
 
-    /// Lets the memory of the seams begin anew at positions, in m.
+    /// Resets the memory of the seams to `positions`, in m.
     pub(crate) fn forget(&mut self, positions: &[f64]) {
         if let Some(BentSeams { bending, state }) = &mut self.seams {
             *state = bending.state(positions).expect("a place for every particle");
         }
     }
 
-    /// Memory of the seams.
+    /// Returns the memory of the seams.
     pub(crate) fn seam_state(&self) -> Option<&SeamBendingState> {
         self.seams.as_ref().map(|seams| &seams.state)
     }
 
-    /// Restores a memory of the seams.
+    /// Restores the memory of the seams to `state`.
     pub(crate) fn restore_seams(&mut self, state: Option<SeamBendingState>) {
         if let (Some(seams), Some(state)) = (&mut self.seams, state) {
             seams.state = state;
         }
     }
 
-    /// Returns what is remembered between two steps.
+    /// Returns the memory of the forces between two steps.
     pub(crate) fn saved(&self) -> SavedForces {
-        let pairs = |breen: &Breen| SavedPairs {
+        let breen = self.breen.as_ref().map(|breen| SavedPairs {
             listed: breen.listed_positions().to_vec(),
             close: self.close.clone(),
-        };
-        SavedForces { seams: self.seam_state().cloned(), breen: self.breen.as_ref().map(pairs) }
+        });
+        SavedForces { seams: self.seam_state().cloned(), breen }
     }
 
-    /// Returns to what was remembered; false if it is that of other forces.
+    /// Restores the memory `saved` for the connectors of `cloth`. Returns `false` if it was saved
+    /// from other forces.
     pub(crate) fn resume(&mut self, cloth: &Cloth, saved: SavedForces) -> bool {
         match (&mut self.seams, saved.seams) {
             (None, None) => {}
-            (Some(own), Some(state)) if state.may_follow(&own.state) => own.state = state,
+            (Some(seams), Some(state)) if state.may_follow(&seams.state) => seams.state = state,
             _ => return false,
         }
+
         match (&mut self.breen, saved.breen) {
             (None, None) => true,
             (Some(breen), Some(SavedPairs { listed, close })) => {
                 let particles = cloth.particles();
-                let known = |pair: &[u32; 2]| pair.iter().all(|&p| (p as usize) < particles);
-                let finite = listed.iter().all(|x| x.is_finite());
-                if listed.len() != 3 * particles || !finite || !close.iter().all(known) {
+                let is_finite = listed.iter().all(|x| x.is_finite());
+                let is_known = close.as_flattened().iter().all(|&p| (p as usize) < particles);
+                if listed.len() != 3 * particles || !is_finite || !is_known {
                     return false;
                 }
+
+                // The sums of the solver follow the order of the saved pairs.
                 breen.list_pairs(&listed);
                 self.sparsity = sparsity(cloth.sparsity(), &close);
                 self.close = close;
@@ -177,19 +184,19 @@ impl InternalForces {
         }
     }
 
-    /// Takes the pairs of Breen's particles that have come near each other into the sparsity. Those
-    /// that have left stay until then.
+    /// Adds the pairs of Breen's particles that are near each other at `positions` to the sparsity.
+    /// Pairs that have parted stay until pairs are added.
     fn update_sparsity(&mut self, cloth: &Cloth, positions: &[f64]) {
         let Some(breen) = &mut self.breen else { return };
         let near = breen.close_pairs(positions);
-        let known = |&[a, b]: &[u32; 2]| self.sparsity.slot(a as usize, b as usize).is_some();
-        if !near.iter().all(known) {
+        if near.iter().any(|&[a, b]| self.sparsity.slot(a as usize, b as usize).is_none()) {
             self.close = near.to_vec();
             self.sparsity = sparsity(cloth.sparsity(), near);
             self.version += 1;
         }
     }
 
+    /// Adds the internal forces at `trial` to `forces`, in N.
     pub(crate) fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
         match &mut self.breen {
             Some(breen) => breen.add_forces(trial.positions, forces),
@@ -200,19 +207,23 @@ impl InternalForces {
         }
     }
 
+    /// Returns the potential of the internal forces at `trial`, in J.
     pub(crate) fn potential(&mut self, trial: Trial<'_>) -> f64 {
         let seams = self.seams.as_ref();
-        let seams = seams.map_or(0.0, |own| own.bending.potential(&own.state, trial.positions));
-        seams
+        let seam_energy =
+            seams.map_or(0.0, |seams| seams.bending.potential(&seams.state, trial.positions));
+        seam_energy
             + match &mut self.breen {
                 Some(breen) => breen.energy(trial.positions),
                 None => self.workspace.potential(trial),
             }
     }
 
-    /// Adds the stiffness. A pair of Breen's particles that has come near since the matrix was laid
-    /// out has no block in it; each of its particles then bears twice the pair's block by itself,
-    /// which is more than the two bear together.
+    /// Adds the stiffness at `trial` to `matrix`, positive semi-definite if `definite`.
+    ///
+    /// A pair of Breen's particles that came near each other after `matrix` was laid out has no
+    /// block in it. Twice the block of the pair is then added to the diagonal block of each
+    /// particle, negated, which is at least as stiff as the block of the pair.
     pub(crate) fn add_stiffness(
         &mut self,
         trial: Trial<'_>,
@@ -220,10 +231,12 @@ impl InternalForces {
         matrix: &mut BlockMatrix,
     ) {
         let Some(breen) = &mut self.breen else {
+            // Without further pairs the connectors have the layout of `matrix`.
             let Some(Scatter { values, slots }) = &mut self.scatter else {
                 self.workspace.add_stiffness(trial, definite, matrix.values_mut());
                 return;
             };
+
             values.fill(0.0);
             self.workspace.add_stiffness(trial, definite, values);
             for (block, &slot) in values.as_chunks::<9>().0.iter().zip(&*slots) {
@@ -236,6 +249,7 @@ impl InternalForces {
             }
             return;
         };
+
         breen.add_stiffness(trial.positions, definite, &mut |[a, b], block| {
             let (row, column) = (a as usize, b as usize);
             match matrix.sparsity().slot(row, column) {
@@ -249,8 +263,8 @@ impl InternalForces {
         });
     }
 
-    /// Moves state and memory to accepted positions, in m, and velocities, in m/s; returns the
-    /// energy dissipated, in J.
+    /// Accepts a step of `cloth` that ends at `positions`, in m, with `velocities`, in m/s: updates
+    /// `state` and the memory. Returns the energy dissipated, in J.
     pub(crate) fn commit(
         &mut self,
         cloth: &Cloth,
@@ -266,11 +280,12 @@ impl InternalForces {
         if self.breen.is_some() { 0.0 } else { dissipated }
     }
 
-    /// Recoverable energy of a state, in J.
+    /// Returns the recoverable energy of `state`, in J.
     pub(crate) fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
         let seams = self.seams.as_ref();
-        let seams = seams.map_or(0.0, |own| own.bending.stored(&own.state, &state.positions));
-        seams
+        let seam_energy =
+            seams.map_or(0.0, |seams| seams.bending.stored(&seams.state, &state.positions));
+        seam_energy
             + match &mut self.breen {
                 Some(breen) => breen.energy(&state.positions),
                 None => self.workspace.stored(cloth, state),

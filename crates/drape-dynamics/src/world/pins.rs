@@ -23,42 +23,45 @@ pub(crate) struct Pins {
 }
 
 impl Pins {
-    /// Pins of a cloth, with the particles that they hold in all directions at the start.
+    /// Returns the pins `pins`. `held` says for each particle whether a pin holds it in all
+    /// directions at the start.
     pub(crate) fn new(pins: Vec<Pin>, held: Vec<bool>) -> Self {
         Self { pins, held, springs: PinSprings::default() }
     }
 
-    /// Opens a step that ends at a time, in s, and at one on the clock of motions: writes the
-    /// positions of the held particles at its end.
+    /// Prepares the pins for a step that ends at `end_time` of the simulation and `motion_end` on
+    /// the motion clock, in s. Writes the final positions of the held particles to `target`.
     pub(crate) fn begin(&mut self, end_time: f64, motion_end: f64, target: &mut [f64]) {
         self.update_held(end_time);
         self.springs.clear();
         for pin in self.pins.iter().filter(|pin| pin.holds(end_time)) {
-            match pin.holds_all_axes() {
-                true => pin.write_positions(motion_end, target),
-                false => self.springs.add(pin, motion_end),
+            if pin.holds_all_axes() {
+                pin.write_positions(motion_end, target);
+            } else {
+                self.springs.add(pin, motion_end);
             }
         }
     }
 
-    /// Whether a step between two times on the clock of motions, in s, resolves the motions of all
-    /// pins.
+    /// Returns whether a step between the two `times` on the motion clock, in s, resolves the
+    /// motions of all pins to `resolution`.
     pub(crate) fn are_resolved(&self, times: [f64; 2], resolution: MotionResolution) -> bool {
         let motions = self.pins.iter().filter_map(|pin| Some((pin, pin.motion.as_ref()?)));
         motions.into_iter().all(|(pin, motion)| motion.is_resolved(times, &pin.start, resolution))
     }
 
-    /// Releases the pins that hold until an event, at its time, in s.
+    /// Releases the pins that hold until `event`, at `time`, in s.
     pub(crate) fn release(&mut self, event: HoldUntil, time: f64) {
         self.pins.iter_mut().for_each(|pin| pin.release_at(event, time));
     }
 
-    /// Times of the releases of the pins, in s.
+    /// Returns the release time of each pin, in s.
     pub(crate) fn releases(&self) -> Vec<f64> {
         self.pins.iter().map(|pin| pin.release).collect()
     }
 
-    /// Returns to times of releases, in s, and to held particles; false if they are not as many.
+    /// Restores the release times `releases`, in s, and the held particles `held`. Returns `false`
+    /// if their numbers do not fit.
     pub(crate) fn restore(&mut self, releases: &[f64], held: &[bool]) -> bool {
         if releases.len() != self.pins.len() || held.len() != self.held.len() {
             return false;
@@ -68,32 +71,34 @@ impl Pins {
         true
     }
 
-    /// Time of the last release after a time, in s, or that time if none is.
+    /// Returns the time of the last release after `time`, in s, or `time` if there is none.
     pub(crate) fn last_release(&self, time: f64) -> f64 {
         let releases = self.pins.iter().map(|pin| pin.release);
         releases.filter(|release| release.is_finite()).fold(time, f64::max)
     }
 
-    /// Loads of the pins at a time, in s, and at one on the clock of motions, from the forces on
-    /// all particles.
+    /// Returns the loads of the pins at `times`, with the particles at `positions`, in m, under
+    /// `forces`, in N.
     pub(crate) fn loads(
         &self,
         times: LoadTimes,
         positions: &[f64],
         forces: &[f64],
     ) -> Vec<PinLoad> {
-        let load = |pin: &Pin| match (pin.holds(times.now), pin.holds_all_axes()) {
-            (true, true) => PinLoad::new(pin, positions, forces),
-            (true, false) => {
-                let springs = PinSprings::of(pin, times.motion);
+        let loads = self.pins.iter().map(|pin| {
+            if !pin.holds(times.now) {
+                PinLoad::default()
+            } else if pin.holds_all_axes() {
+                PinLoad::new(pin, positions, forces)
+            } else {
+                let springs = PinSprings::new(pin, times.motion);
                 PinLoad::new(pin, positions, &springs.reactions(positions))
             }
-            (false, _) => PinLoad::default(),
-        };
-        self.pins.iter().map(load).collect()
+        });
+        loads.collect()
     }
 
-    /// Updates the held particles for a step that ends at a time, in s.
+    /// Updates the held particles for a step that ends at `end_time`, in s.
     fn update_held(&mut self, end_time: f64) {
         if self.pins.iter().all(|pin| pin.release == f64::INFINITY) {
             return;

@@ -1,7 +1,7 @@
-//! Saved world: all of a world that its next steps depend on, between two steps.
+//! Saved state of a world between two steps, on which its next steps depend.
 //!
-//! A world is made again from its scene and then returns to what was saved. What a step opens anew
-//! is not saved: gravity, air and springs at its end, and the poses of bodies.
+//! A world is built from its scene again, and then its saved state is restored. Data that each step
+//! prepares is not saved: gravity, air and springs at its end, and the poses of bodies.
 
 use drape_cloth::State;
 use drape_collide::SavedContact;
@@ -13,7 +13,7 @@ use super::energy_balance::EnergyBalance;
 use super::internal_forces::SavedForces;
 use crate::world::closing_springs::{ClosingSprings, Stiffening};
 
-/// All of a world that its next steps depend on.
+/// State of a world between two steps, on which its next steps depend.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct SavedWorld {
     pub(crate) cloth: State,
@@ -26,7 +26,7 @@ pub(crate) struct SavedWorld {
     relaxes: bool,
     /// Time at which gravity begins to grow, in s.
     ramp_start: f64,
-    /// Time at which bodies and pins begin to move, in s.
+    /// Time at which bodies and pins start to move, in s.
     motion_start: f64,
     /// Times of the releases of the pins, in s.
     releases: Vec<f64>,
@@ -43,17 +43,17 @@ struct SavedSurfaces {
 }
 
 impl World {
-    /// Returns all that the next steps depend on.
+    /// Returns the state on which the next steps depend.
     pub(crate) fn saved(&self) -> SavedWorld {
         let springs = self.closing_springs();
         let surfaces = self.contact.surfaces();
         SavedWorld {
             cloth: self.state.clone(),
             forces: self.internal.saved(),
-            contact: surfaces.map(|own| SavedSurfaces {
-                contact: own.contact.saved(),
-                intersections_found: own.intersections_found,
-                growth: own.saved_growth(),
+            contact: surfaces.map(|surfaces| SavedSurfaces {
+                contact: surfaces.contact.saved(),
+                intersections_found: surfaces.intersections_found,
+                growth: surfaces.saved_growth(),
             }),
             is_sewing: springs.is_some(),
             stiffening: springs.and_then(ClosingSprings::stiffening),
@@ -66,7 +66,11 @@ impl World {
         }
     }
 
-    /// Returns to what was saved; the world is as it was made from its scene.
+    /// Restores the state `saved`. This world was just built from its scene.
+    ///
+    /// # Errors
+    ///
+    /// Returns a description of the part that does not fit the scene.
     ///
     /// # Errors
     /// What does not fit, in words.
@@ -74,11 +78,16 @@ impl World {
         if saved.cloth.positions.len() != self.state.positions.len() {
             return Err("the cloth has another number of particles".into());
         }
-        match (saved.is_sewing, self.closing_springs().is_some()) {
-            (true, false) => return Err("there is nothing to sew".into()),
-            (false, true) => self.finish_sewing(0.0, &saved.cloth.positions),
-            _ => {}
+
+        // The sewn cloth has other connectors, so the sewing is finished before they are compared.
+        let is_sewing = self.closing_springs().is_some();
+        if saved.is_sewing && !is_sewing {
+            return Err("there is nothing to sew".into());
         }
+        if !saved.is_sewing && is_sewing {
+            self.finish_sewing(0.0, &saved.cloth.positions);
+        }
+
         if !saved.cloth.may_follow(&self.state) {
             return Err("the cloth has other connectors, or numbers that are not finite".into());
         }
@@ -89,15 +98,17 @@ impl World {
             return Err("the pins are others".into());
         }
         match (&mut self.contact, saved.contact) {
-            (Contact::Surfaces(own), Some(surfaces)) => {
-                let resumed = own.contact.resume(&saved.cloth.positions, &surfaces.contact);
+            (Contact::Surfaces(surfaces), Some(saved_surfaces)) => {
+                let contact = &mut surfaces.contact;
+                let resumed = contact.resume(&saved.cloth.positions, &saved_surfaces.contact);
                 resumed.map_err(|error| error.to_string())?;
-                own.intersections_found = surfaces.intersections_found;
-                own.restore_growth(surfaces.growth);
+                surfaces.intersections_found = saved_surfaces.intersections_found;
+                surfaces.restore_growth(saved_surfaces.growth);
             }
             (Contact::Particles(_), None) => {}
             _ => return Err("the contact is of another kind".into()),
         }
+
         if let Some(springs) = &mut self.seams.springs {
             springs.restore(saved.stiffening);
         }

@@ -28,6 +28,8 @@ impl System for World {
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
         let motion_end = self.clock.time(end_time);
         self.pins.begin(end_time, motion_end, target);
+
+        // While a garment is sewn there is no gravity.
         match &mut self.seams.springs {
             Some(springs) => {
                 springs.begin(end_time);
@@ -35,6 +37,7 @@ impl System for World {
             }
             None => self.gravity.begin(end_time),
         }
+
         let energy = self.contact.begin(&ContactStep {
             positions: start,
             end_time,
@@ -48,10 +51,12 @@ impl System for World {
         if let (Some(balance), Some(energy)) = (&mut self.balance, energy) {
             balance.begin(energy);
         }
+
         self.momentum.begin(self.cloth.masses(), &self.state.velocities, dt);
-        match self.momentum.is_active() {
-            true => self.air.begin_without(),
-            false => self.air.begin(&self.cloth, &self.state, dt),
+        if self.momentum.is_active() {
+            self.air.begin_without();
+        } else {
+            self.air.begin(&self.cloth, &self.state, dt);
         }
     }
 
@@ -76,7 +81,8 @@ impl System for World {
             balance.note_internal_potential(internal);
         }
         let contact = self.contact.potential(positions);
-        let closing = self.seams.springs.as_ref().map_or(0.0, |own| own.potential(positions));
+        let closing =
+            self.seams.springs.as_ref().map_or(0.0, |springs| springs.potential(positions));
         let pins = self.pins.springs.potential(positions);
         let weight = self.gravity.potential(self.cloth.masses(), positions);
         let external = self.external.potential(positions);
@@ -106,11 +112,10 @@ impl System for World {
     fn material_points(&self) -> Vec<MaterialPoint> {
         let starts = self.cloth.panel_starts();
         let points = self.cloth.coordinates().iter().zip(self.cloth.spacings());
-        let panel = |particle: usize| starts.partition_point(|&start| start <= particle) as u32;
         points
             .enumerate()
             .map(|(particle, (&coordinates, &spacing))| MaterialPoint {
-                sheet: panel(particle),
+                sheet: starts.partition_point(|&start| start <= particle) as u32,
                 coordinates,
                 spacing,
             })
@@ -167,14 +172,16 @@ impl StepFilter for World {
 }
 
 impl World {
-    /// Energies of a step of a length, in s, to accepted positions, but for those of the internal
-    /// forces. Opens the next step for the contact of particles.
+    /// Returns the energies of a step of the length `dt`, in s, to the accepted `positions`,
+    /// without the entries of the internal forces. Prepares the contact of particles for the next
+    /// step.
     fn step_energy(&mut self, positions: &[f64], dt: f64) -> StepEnergy {
         let start = &self.state.positions;
         let masses = self.cloth.masses();
         let springs = self.pins.springs.work(start, positions);
-        let before =
-            self.balance.as_ref().map_or_else(Default::default, |own| own.contact_at_start());
+        let balance = self.balance.as_ref();
+        let before = balance.map_or_else(Default::default, |balance| balance.contact_at_start());
+
         let energy = StepEnergy {
             gravity: self.gravity.potential(masses, positions)
                 - self.gravity.potential(masses, start),
@@ -186,17 +193,18 @@ impl World {
             momentum_removal: -self.momentum.forces.work(start, positions),
             ..StepEnergy::default()
         };
+
         match &mut self.contact {
             Contact::Surfaces(surfaces) => {
                 let contact = &mut surfaces.contact;
                 let potential = contact.potential(positions);
                 let friction = contact.friction_energy();
-                let lost = friction.dissipated;
+                let dissipated = friction.dissipated;
                 StepEnergy {
-                    contact: potential - lost - before.contact + before.body_work,
-                    body_friction_loss: lost,
+                    contact: potential - dissipated - before.contact + before.body_work,
+                    body_friction_loss: dissipated,
                     cloth_friction_loss: friction.dissipated_on_cloth,
-                    body_friction_potential: lost,
+                    body_friction_potential: dissipated,
                     ..energy
                 }
             }

@@ -67,7 +67,7 @@ impl ResumableRun {
             }
         };
         let output = match &resumption {
-            Some(_) => Output::of_run(&folder),
+            Some(_) => Output::resumed(&folder),
             None => prepare_folder(&folder, true)?,
         };
         request.write(&folder)?;

@@ -19,41 +19,46 @@ const SLIP_TIME_MAX: f64 = 0.01;
 pub(crate) struct ParticleBodies {
     pub(crate) contact: ParticleContact,
     moving: Vec<MovingBody>,
-    /// Forces of contact at the end of a step, with the friction of the step and without it, in N.
+    /// Contact forces at the end of a step, with and without the friction of the step, in N.
     forces: ForcePair,
 }
 
-/// A body that moves as a rigid one.
+/// Body that moves rigidly.
 #[derive(Debug)]
 struct MovingBody {
-    /// Its number.
+    /// Number of the body.
     body: usize,
-    /// Its pose at the start.
+    /// Pose of the body at the start of its motion.
     start: Pose,
     motion: RigidMotion,
 }
 
+/// Contact forces on all particles, in N.
 #[derive(Debug)]
 struct ForcePair {
     with_friction: Vec<f64>,
     without_friction: Vec<f64>,
 }
 
-/// Energy that a step exchanged with bodies by friction, in J.
+/// Energy that friction exchanges with bodies in a step, in J.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FrictionWork {
     /// Potential of contact and friction at the end of the step.
     pub(crate) potential: f64,
     /// Potential of contact alone.
     pub(crate) contact_potential: f64,
-    /// Work of the friction of bodies that move.
+    /// Work of the friction on moving bodies.
     pub(crate) body_work: f64,
-    /// Work against the friction with its force at the end of the step.
+    /// Work against friction with the friction force at the end of the step.
     pub(crate) loss: f64,
 }
 
 impl ParticleBodies {
-    /// Bodies of a scene that has been checked.
+    /// Returns the contact of particles for the checked `scene`.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the contact settings of `scene` are invalid.
     pub(crate) fn new(scene: &Scene) -> Result<Self, Error> {
         let moving = scene.bodies.iter().enumerate().filter_map(|(index, moving)| {
             let Some(BodyMotion::Rigid(motion)) = &moving.motion else { return None };
@@ -68,54 +73,55 @@ impl ParticleBodies {
         })
     }
 
-    /// Triangles of a body at a time on the clock of motions, in s.
+    /// Returns the triangles of `body` at `time` on the motion clock, in s.
     pub(crate) fn outline(&self, body: usize, time: f64) -> Triangulation {
-        let mut own = self.contact.bodies()[body].clone();
-        own.pose = self.pose_at(body, time);
-        own.triangulate().expect("contact has checked it")
+        let mut posed = self.contact.bodies()[body].clone();
+        posed.pose = self.pose_at(body, time);
+        posed.triangulate().expect("contact has checked it")
     }
 
-    /// Leads a body along a motion from where it is at a time on the clock of motions, in s.
+    /// Replaces the motion of `body` by `motion`, from its pose at `time` on the motion clock, in
+    /// s.
     pub(crate) fn lead(&mut self, body: usize, time: f64, motion: RigidMotion) {
         let start = self.pose_at(body, time);
         self.moving.retain(|moving| moving.body != body);
         self.moving.push(MovingBody { body, start, motion });
     }
 
-    /// Pose of a body at a time on the clock of motions, in s.
+    /// Returns the pose of `body` at `time` on the motion clock, in s.
     fn pose_at(&self, body: usize, time: f64) -> Pose {
         let moving = self.moving.iter().find(|moving| moving.body == body);
-        moving.map_or(self.contact.bodies()[body].pose, |own| own.motion.pose_at(time, own.start))
+        let pose = self.contact.bodies()[body].pose;
+        moving.map_or(pose, |moving| moving.motion.pose_at(time, moving.start))
     }
 
-    /// Opens a step and returns the energy of contact at its start if that is asked for.
+    /// Prepares contact for `step`. Returns the energy of contact at its start, if `step` asks for
+    /// it.
     pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
-        // A step that is tried again begins where the bodies were at its start.
+        // A repeated step begins with the bodies where they were at its start.
         self.move_bodies(step.motion_start);
         self.contact
             .begin(step.positions, if step.relaxes { step.dt.min(SLIP_TIME_MAX) } else { step.dt });
-        let at_rest = step.with_energy.then(|| self.contact.potential(step.positions));
+        let potential_before = step.with_energy.then(|| self.contact.potential(step.positions));
         self.move_bodies(step.motion_end);
-        let at_rest = at_rest?;
+        let potential_before = potential_before?;
+
         let friction = self.contact.friction_potential(step.positions);
         let contact = self.contact.potential(step.positions) - friction;
-        Some(ContactEnergy { contact, friction, body_work: contact - at_rest })
+        Some(ContactEnergy { contact, friction, body_work: contact - potential_before })
     }
 
-    /// Energy exchanged by friction in a step of a length, in s, that ends at some positions. Opens
-    /// the next step.
+    /// Returns the energy exchanged by friction in a step of the length `dt`, in s, from the
+    /// positions `start` to `end`. Prepares contact for the next step.
     pub(crate) fn friction_work(&mut self, start: &[f64], end: &[f64], dt: f64) -> FrictionWork {
         let Self { contact, forces: ForcePair { with_friction, without_friction }, .. } = self;
-        let evaluate = |contact: &mut ParticleContact, forces: &mut [f64]| {
-            forces.fill(0.0);
-            contact.add_forces(end, forces);
-            contact.potential(end)
-        };
-        let potential = evaluate(contact, with_friction);
+        let potential = evaluate(contact, end, with_friction);
         let body_work = contact.body_friction_work(end);
-        // A step just opened has no slip and so no friction.
+
+        // A step that has just begun has no slip, and therefore no friction.
         contact.begin(end, dt);
-        let contact_potential = evaluate(contact, without_friction);
+        let contact_potential = evaluate(contact, end, without_friction);
+
         let moved = end.iter().zip(start).map(|(end, start)| end - start);
         let frictions =
             without_friction.iter().zip(&*with_friction).map(|(without, with)| without - with);
@@ -123,11 +129,19 @@ impl ParticleBodies {
         FrictionWork { potential, contact_potential, body_work, loss: slip + body_work }
     }
 
-    /// Moves the bodies to their poses at a time on the clock of motions, in s.
+    /// Moves the bodies to their poses at `time` on the motion clock, in s.
     fn move_bodies(&mut self, time: f64) {
         for MovingBody { body, start, motion } in &self.moving {
             let pose = motion.pose_at(time, *start);
             self.contact.move_body(*body, pose).expect("a rigid motion turns a pose into a pose");
         }
     }
+}
+
+/// Overwrites `forces` with the forces of `contact` at `positions`, in N. Returns the potential, in
+/// J.
+fn evaluate(contact: &mut ParticleContact, positions: &[f64], forces: &mut [f64]) -> f64 {
+    forces.fill(0.0);
+    contact.add_forces(positions, forces);
+    contact.potential(positions)
 }

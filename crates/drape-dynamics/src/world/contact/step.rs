@@ -1,20 +1,21 @@
 //! Opening of a step for contact: its times, and the energy with which it begins.
 
-/// Step that is opened for contact.
+/// Step for which contact is prepared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactStep<'a> {
-    /// Positions of the particles at its start, in m.
+    /// Positions of the particles at the start of the step, in m.
     pub(crate) positions: &'a [f64],
-    /// Time of its end, in s.
+    /// Time at the end of the step, in s.
     pub(crate) end_time: f64,
-    /// Length, in s.
+    /// Length of the step, in s.
     pub(crate) dt: f64,
-    /// Its start and its end on the clock of motions, in s.
+    /// Start of the step on the motion clock, in s.
     pub(crate) motion_start: f64,
+    /// End of the step on the motion clock, in s.
     pub(crate) motion_end: f64,
-    /// Whether it is a step of quasi-static relaxation.
+    /// Whether this is a step of quasi-static relaxation.
     pub(crate) relaxes: bool,
-    /// Whether energies are asked for.
+    /// Whether the energy of contact is asked for.
     pub(crate) with_energy: bool,
     /// Gap of the open seams at each particle, in m, while a garment is sewn.
     pub(crate) seam_gaps: Option<&'a [f64]>,
@@ -25,9 +26,9 @@ pub(crate) struct ContactStep<'a> {
 pub(crate) struct ContactEnergy {
     /// Potential of contact without friction.
     pub(crate) contact: f64,
-    /// Potential of the friction with bodies, which have moved on since the last step.
+    /// Potential of the friction with bodies, which have moved since the last step.
     pub(crate) friction: f64,
-    /// Work that the motion of bodies in this step does on contact; of surfaces, that of the growth
-    /// of their distances.
+    /// Work on contact by the motion of bodies in this step. For surfaces, the work of growing
+    /// distances instead.
     pub(crate) body_work: f64,
 }
