@@ -194,7 +194,9 @@ fn cut(
     for (index, panel) in cut.panels.iter().enumerate() {
         let piece = Piece { key, entry, pattern, cut: &cut, index, first: next, grading };
         let placed = placed_panel(checker, &piece, layer, &mut noise);
-        next += placed.as_ref().map_or(panel.positions.len(), |placed| placed.panel.positions.len() / 3);
+        next += placed
+            .as_ref()
+            .map_or(panel.positions.len(), |placed| placed.panel.positions.len() / 3);
         pieces.extend(placed);
     }
     if pieces.len() < known.len() {

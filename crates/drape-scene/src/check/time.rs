@@ -61,7 +61,8 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
     if let Some(error) = error {
         let help = "an error of positions; 0.1 mm is usual";
         checker.within("time.error", error, 1e-9..=0.1, help);
-        let quasi_static = file.settle.as_ref().is_some_and(|settle| !settle.inertia.unwrap_or(false));
+        let quasi_static =
+            file.settle.as_ref().is_some_and(|settle| !settle.inertia.unwrap_or(false));
         if quasi_static && file.motion.is_none() {
             let message = "steps on the way to rest have no error in time";
             let help =

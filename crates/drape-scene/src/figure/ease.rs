@@ -154,7 +154,8 @@ impl MeasuredGarment {
     ) -> Result<GarmentGirth, NoGirth> {
         let steps = (ARMHOLE / ARMHOLE_STEP).round() as usize;
         let mut heights = (1..=steps).map(|k| height - k as f64 * ARMHOLE_STEP);
-        let girth = heights.find_map(|height| self.girth(cloth, &Trunk::at(bodies, height)?, height)?.ok());
+        let girth =
+            heights.find_map(|height| self.girth(cloth, &Trunk::at(bodies, height)?, height)?.ok());
         girth.ok_or(NoGirth::Arms)
     }
 

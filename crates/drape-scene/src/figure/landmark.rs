@@ -271,7 +271,8 @@ impl<'a> Profile<'a> {
         let [bust, hip] = [up, down].map(|way| {
             let top = self.first_swelling(&way)?;
             let swollen = &self.slices[top];
-            let away = (swollen.fraction - waist_slice.fraction).abs() * self.stature / waist_slice.girth;
+            let away =
+                (swollen.fraction - waist_slice.fraction).abs() * self.stature / waist_slice.girth;
             let is_right = SWELLING_HEIGHTS.contains(&away)
                 && SWELLING_GIRTHS.contains(&(swollen.girth / waist_slice.girth));
             is_right.then_some(top)

@@ -139,8 +139,10 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
     let &Piece { key, pattern, cut, index, grading, .. } = piece;
     let panel = piece.panel();
     let numbers = node_numbers(&cut.panels[index]);
-    let allowances: Vec<_> =
-        allowances(pattern, cut, index).iter().map(|allowance| allowance.numbered(&numbers)).collect();
+    let allowances: Vec<_> = allowances(pattern, cut, index)
+        .iter()
+        .map(|allowance| allowance.numbered(&numbers))
+        .collect();
     let grain = Grain::from_degrees(panel.grain().to_degrees());
     let lattice = cut_lattice(&cut.panels[index], &numbers, grain);
     let lattice =

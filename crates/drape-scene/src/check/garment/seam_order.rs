@@ -197,7 +197,8 @@ impl<'a> PlacedSeam<'a> {
     /// Returns the changes that give a seam an order.
     fn edits(&self, home: &SeamHome<'_>, order: &Order) -> Vec<Edit> {
         let key = home.seam(&self.seam.name);
-        let set = |field: &str, new: Option<&str>| home.document.edit(&format!("{key}.{field}"), new);
+        let set =
+            |field: &str, new: Option<&str>| home.document.edit(&format!("{key}.{field}"), new);
         let mut edits = Vec::new();
         if order.edges != self.listed().edges || !home.document.has(&key) {
             edits.push(set("sides", Some(&self.sides(order))));
