@@ -67,7 +67,7 @@ pub(crate) fn check(
     let materials = fabrics::materials(checker, documents.fabrics, model);
     let grading = panel::graded::grading(checker);
     let mut placed = panel::panels(checker, &materials, grading.as_ref());
-    let count = placed.iter().map(|own| own.positions.len() / 3).sum();
+    let count = placed.iter().map(|placed| placed.positions.len() / 3).sum();
     let plain = placed.len();
     let (mut seams, mut notes, mut garments) = (Vec::new(), Vec::new(), Vec::new());
     for garment in garment::garments(checker, &materials, count, grading.as_ref()) {
@@ -83,7 +83,7 @@ pub(crate) fn check(
     }
     check_names(checker, &placed);
     let clock = time::clock(checker);
-    let spacings = placed.iter().flat_map(|own| own.panel.lattice.spacing);
+    let spacings = placed.iter().flat_map(|placed| placed.panel.lattice.spacing);
     let spacing = spacings.fold(f64::INFINITY, f64::min);
     let relaxation = time::relaxation(checker, spacing.min(1.0));
     time::refinement(checker);
@@ -132,9 +132,9 @@ pub(crate) fn check(
     };
     let cloth = cloth.with_ties(sewing.iter().flat_map(|sewing| &sewing.pairs.ties));
     let materials: Vec<Material> = materials.into_iter().flatten().collect();
-    let positions: Vec<f64> = placed.iter().flat_map(|own| &own.positions).copied().collect();
-    let velocities = placed.iter().flat_map(|own| &own.velocities).copied().collect();
-    let panels: Vec<Panel> = placed.into_iter().map(|own| own.panel).collect();
+    let positions: Vec<f64> = placed.iter().flat_map(|placed| &placed.positions).copied().collect();
+    let velocities = placed.iter().flat_map(|placed| &placed.velocities).copied().collect();
+    let panels: Vec<Panel> = placed.into_iter().map(|placed| placed.panel).collect();
     let bodies = with_friction(bodies, &materials);
     let content = Content {
         document,

@@ -33,18 +33,18 @@ impl Grading {
         let triangles = &run.topology().cloth;
         let mut largest = vec![0.0; triangles.len()];
         for number in 0..run.frame_count() {
-            let own = curvatures(&run.frame(number)?.cloth, triangles);
-            for (most, own) in largest.iter_mut().zip(own) {
-                *most = f64::max(*most, own);
+            let curvatures = curvatures(&run.frame(number)?.cloth, triangles);
+            for (most, curvature) in largest.iter_mut().zip(curvatures) {
+                *most = f64::max(*most, curvature);
             }
         }
         let mut first = 0;
         let panels = run.manifest().panels.iter().map(|panel| {
-            let own = first..first + panel.triangles;
-            first = own.end;
+            let range = first..first + panel.triangles;
+            first = range.end;
             let map = CurvatureMap::of(
                 &run.topology().material,
-                (&triangles[own.clone()], &largest[own]),
+                (&triangles[range.clone()], &largest[range]),
             );
             (panel.name.clone(), map)
         });

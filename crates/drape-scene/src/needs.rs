@@ -58,13 +58,13 @@ impl Scene {
         let particles = self.cloth.particles() as u64;
         let (mut vertices, mut moving) = (0u64, 0u64);
         for body in &self.bodies {
-            let own = match (&body.motion, &body.body.shape) {
+            let count = match (&body.motion, &body.body.shape) {
                 (Some(BodyMotion::Shapes(_)), Shape::Mesh(mesh)) => mesh.source_vertices().len(),
                 _ => body.body.triangulate().map_or(0, |outline| outline.vertices.len()),
             };
-            vertices = vertices.saturating_add(own as u64);
+            vertices = vertices.saturating_add(count as u64);
             if body.motion.is_some() {
-                moving = moving.saturating_add(own as u64);
+                moving = moving.saturating_add(count as u64);
             }
         }
         let sum = |[of_particle, of_vertex]: [u64; 2], vertices: u64| {

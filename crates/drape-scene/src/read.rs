@@ -86,21 +86,21 @@ impl Scene {
 /// What keeps it from being simulated there.
 fn coarser_scenes(documents: &Documents<'_>, file: &SceneFile) -> Result<Vec<Scene>, Error> {
     let Some(refine) = &file.refine else { return Ok(Vec::new()) };
-    let own = spacings(documents.scene)?;
+    let spacings = spacings(documents.scene)?;
     let grids = refine.spacings.iter().enumerate();
     grids
-        .map(|(index, spacing)| on_grid(documents, &own, (index, *spacing * file.unit())))
+        .map(|(index, spacing)| on_grid(documents, &spacings, (index, *spacing * file.unit())))
         .collect()
 }
 
 /// Returns the scene on the grid of a number and a spacing, in m.
 fn on_grid(
     documents: &Documents<'_>,
-    own: &[Spacing],
+    spacings: &[Spacing],
     (index, spacing): (usize, f64),
 ) -> Result<Scene, Error> {
     let settings: Vec<Setting> =
-        own.iter().map(|part| part.scaled(spacing / own[0].value)).collect();
+        spacings.iter().map(|part| part.scaled(spacing / spacings[0].value)).collect();
     let scene = documents.scene.clone().with_settings(&settings)?;
     let (mut file, faults) = scene.decode_with_faults::<SceneFile>()?;
     file.refine = None;

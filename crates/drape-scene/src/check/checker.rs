@@ -200,7 +200,7 @@ impl<'a> Checker<'a> {
                 self.mistakes
                     .get_mut(index)
                     .into_iter()
-                    .for_each(|own| own.edits.clone_from(&edits));
+                    .for_each(|mistake| mistake.edits.clone_from(&edits));
             }
             None => self.remedy(index, key, Some(&toml_string(near))),
         }

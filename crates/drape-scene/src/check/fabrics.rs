@@ -92,7 +92,7 @@ fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabr
 /// Returns the number of the fabric of a name.
 pub(crate) fn material_index(checker: &mut Checker<'_>, key: &str, name: &str) -> Option<usize> {
     let known: Vec<&str> = checker.file.fabric.keys().map(String::as_str).collect();
-    let material = known.iter().position(|own| *own == name);
+    let material = known.iter().position(|known| *known == name);
     if material.is_none() {
         let message = format!("there is no fabric \"{}\"", excerpt(name));
         let unknown = UnknownName { name, known: &known, kind: "fabrics of this scene" };

@@ -75,7 +75,7 @@ pub(crate) fn garments(
                 check_thickness(checker, &key, &placed.panel.lattice, material);
             }
         }
-        first += garment.panels.iter().map(|own| own.positions.len() / 3).sum::<usize>();
+        first += garment.panels.iter().map(|placed| placed.positions.len() / 3).sum::<usize>();
         if first > checker.particles_max {
             let message = format!(
                 "the scene has {first} particles with it, and there is memory for {}",
@@ -131,7 +131,7 @@ fn changed(
     let mut pattern = pattern;
     for number in 0..pattern.panels().len() {
         let name = pattern.panels()[number].name().to_owned();
-        let Some(grain) = entry.panel.get(&name).and_then(|own| own.grain) else { continue };
+        let Some(grain) = entry.panel.get(&name).and_then(|panel| panel.grain) else { continue };
         let key = format!("{key}.panel.{}.grain", toml_key(&name));
         let help = "degrees from the panel's y axis to its warp, anticlockwise";
         let grain = grain.value();
@@ -191,10 +191,12 @@ fn cut(
     let layer = layer(checker, &format!("{key}.layer"), entry.layer).unwrap_or(0);
     let mut noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
     let (mut pieces, mut next) = (Vec::new(), first);
-    for (index, own) in cut.panels.iter().enumerate() {
+    for (index, panel) in cut.panels.iter().enumerate() {
         let piece = Piece { key, entry, pattern, cut: &cut, index, first: next, grading };
         let placed = placed_panel(checker, &piece, layer, &mut noise);
-        next += placed.as_ref().map_or(own.positions.len(), |own| own.panel.positions.len() / 3);
+        next += placed
+            .as_ref()
+            .map_or(panel.positions.len(), |placed| placed.panel.positions.len() / 3);
         pieces.extend(placed);
     }
     if pieces.len() < known.len() {
@@ -286,7 +288,7 @@ fn pieces(
         Err(Error::Pattern(mistakes)) => {
             for mistake in mistakes {
                 let index = checker.fail(&key, mistake.to_string(), &mistake.help());
-                mistake.subject().into_iter().for_each(|own| checker.about(index, own));
+                mistake.subject().into_iter().for_each(|subject| checker.about(index, subject));
                 if let Some(spacing) = mistake.most_spacing() {
                     let spacing = format!("\"{} mm\"", figure_below(1e3 * spacing));
                     checker.remedy(index, spacing_key, Some(&spacing));

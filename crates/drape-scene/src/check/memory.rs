@@ -36,11 +36,11 @@ fn available() -> Option<u64> {
         limit.saturating_sub(taken.saturating_sub(cached))
     });
     // The address space that threads reserve for what they will allocate is not taken yet.
-    let own = address_space(&read("/proc/self/limits")).map(|limit| {
+    let of_process = address_space(&read("/proc/self/limits")).map(|limit| {
         let taken = kilobytes(&read("/proc/self/status"), "VmRSS:").unwrap_or_default();
         limit.saturating_sub(taken)
     });
-    [of_machine, of_group, own].into_iter().flatten().min()
+    [of_machine, of_group, of_process].into_iter().flatten().min()
 }
 
 /// Returns the page cache of a control group, in bytes: memory that the system frees on demand.

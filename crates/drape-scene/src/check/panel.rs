@@ -76,8 +76,8 @@ pub(crate) fn panels(
         let lattice = lattice.and_then(|lattice| fold(checker, &key, entry, lattice));
         let lattice = match grading {
             Some(grading) => lattice
-                .and_then(|own| graded(checker, &entry.name, &own, grading))
-                .map(|own| own.lattice),
+                .and_then(|lattice| graded(checker, &entry.name, &lattice, grading))
+                .map(|graded| graded.lattice),
             None => lattice,
         };
         let noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
@@ -195,8 +195,8 @@ fn lattice(
     before: usize,
 ) -> Option<Lattice> {
     let unit = checker.unit;
-    let own = entry.spacing.is_some();
-    let spacing_key = if own { format!("{key}.spacing") } else { "spacing".into() };
+    let has_spacing = entry.spacing.is_some();
+    let spacing_key = if has_spacing { format!("{key}.spacing") } else { "spacing".into() };
     let sound = check_spacing(checker, &format!("{key}.spacing"), entry.spacing);
     if !sound || !checker.is_sound("spacing") {
         return None;
@@ -295,9 +295,10 @@ fn has_rim(checker: &Checker<'_>, entry: &PanelFile) -> bool {
 /// Says which spacing suits a panel of a size, in m, in place of a spacing, in m.
 fn spacing_help(spacing: f64, size: f64) -> String {
     let most = 500.0 * size;
-    let meant = match (1.0..most).contains(&spacing) {
-        true => format!("did you mean \"{} mm\"? ", figure(spacing)),
-        false => String::new(),
+    let meant = if (1.0..most).contains(&spacing) {
+        format!("did you mean \"{} mm\"? ", figure(spacing))
+    } else {
+        String::new()
     };
     format!("write spacing = \"{} mm\" or less; {meant}", figure_below(most))
 }

@@ -132,10 +132,10 @@ fn axes(checker: &mut Checker<'_>, key: &str, pin: &PinFile) -> [bool; 3] {
 
 /// Finds the particles of an edge of a garment's panel.
 fn named_edge(checker: &mut Checker<'_>, key: &str, edge: &str, panel: &Panel) -> Vec<usize> {
-    if let Some(found) = panel.edges.iter().find(|own| own.name == edge) {
+    if let Some(found) = panel.edges.iter().find(|named| named.name == edge) {
         return found.nodes.iter().map(|&node| panel.first + node as usize).collect();
     }
-    let names: Vec<&str> = panel.edges.iter().map(|own| own.name.as_str()).collect();
+    let names: Vec<&str> = panel.edges.iter().map(|edge| edge.name.as_str()).collect();
     let help = match closest(edge, names.iter().copied()) {
         Some(near) => format!("did you mean \"{near}\"? its edges are: {}", names.join(", ")),
         None => format!("its edges are: {}", names.join(", ")),

@@ -1,5 +1,5 @@
-//! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in
-//! order.
+//! Start of a scene: checks that cloth starts outside all bodies, that surfaces start apart, and
+//! that layers start in order.
 
 mod apart;
 mod bodies;
@@ -18,7 +18,6 @@ use drape_input::{Diagnostics, Subject, tidy};
 use crate::check::checker::Checker;
 use crate::error::{Error, Refused};
 use crate::scene::Scene;
-use crate::scene::panel::Panel;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
@@ -28,33 +27,43 @@ use self::ease_notes::ease_notes;
 use self::girth::girth_notes;
 use self::layers::check_layers;
 use self::place_key::place_key;
-use self::placing::{Places, check_places};
+use self::placing::{PlaceReport, check_places};
 use self::stitches::{stitches_through_bodies, stitches_through_panels};
 use self::tangle::{Tangled, check_tangle};
 
-/// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
-/// layers.
+/// Checks the start of `scene`, which has no other mistakes. Moves panels by a few millimetres
+/// where patterns overlap, and returns `scene` with notes on what was moved and on seams, girths
+/// and layers.
+///
+/// Fails with the mistakes of `checker` together with the refused scene.
 pub(crate) fn check_start(
     checker: &mut Checker<'_>,
     mut scene: Scene,
 ) -> Result<Scene, Box<Refused>> {
     let moved = leave_bodies(&mut scene);
     scene.source.notes.extend(moved);
-    let Places { notes, advised } = check_places(checker, &scene);
+    let PlaceReport { notes, advised } = check_places(checker, &scene);
     if advised {
-        // Where it is advised to be, it is clear of the bodies that it crosses where it is.
+        // A garment crosses bodies because its place is wrong. At the advised place it is clear of
+        // them, so further mistakes would repeat this one.
         if let Err(mistakes) = checker.finish() {
             return Err(Refused::with(mistakes, scene));
         }
     }
+
     scene.source.contact_limits = contact_limits(&scene);
     scene.source.notes.extend([body_notes(&scene), notes].concat());
+
+    // Panels of a pattern that overlap by millimetres are moved apart, and the surfaces are then
+    // made again from the new positions.
     let mut surfaces = surfaces(checker, &scene)?;
-    let moved = surfaces.as_mut().map(|surfaces| part_panels(&mut scene, surfaces));
-    if let Some(moved) = moved.filter(|moved| !moved.is_empty()) {
+    let parted = surfaces.as_mut().map(|surfaces| part_panels(&mut scene, surfaces));
+    if let Some(moved) = parted.filter(|moved| !moved.is_empty()) {
         scene.source.notes.extend(moved);
         surfaces = self::surfaces(checker, &scene)?;
     }
+
+    // Cloth starts outside all bodies. Growing bodies may still cover some particles of a panel.
     let tangle = surfaces.as_mut().and_then(|surfaces| check_tangle(checker, surfaces, &scene));
     let particles = scene.particle_contact();
     let particles = particles.map_err(|error| mistake(checker, "collider", &error))?;
@@ -62,6 +71,8 @@ pub(crate) fn check_start(
         (Some(surfaces), Some(_)) => check_panels_outside(checker, &surfaces.contact, &scene),
         _ => check_particles_outside(checker, &particles, &scene),
     }
+
+    // Notes on a tangled start would repeat its mistake in other words.
     if tangle.is_none() {
         let notes = [
             stitches_through_bodies(&scene),
@@ -71,11 +82,10 @@ pub(crate) fn check_start(
         ]
         .concat();
         scene.source.notes.extend(notes);
-    }
-    if tangle.is_none() {
         let notes = check_layers(checker, &scene);
         scene.source.notes.extend(notes);
     }
+
     let Err(mistakes) = checker.finish() else { return Ok(scene) };
     let error = match tangle {
         Some(Tangled { overlaps, mistake }) => Error::Tangled(Box::new(Tangle {
@@ -90,7 +100,8 @@ pub(crate) fn check_start(
     Err(Refused::with(error, scene))
 }
 
-/// Makes the surfaces of a scene where they are kept apart.
+/// Returns the surfaces of `scene` at its start, or `None` if the scene does not keep surfaces
+/// apart. Fails with a mistake at the key `contact.surfaces`.
 fn surfaces(
     checker: &mut Checker<'_>,
     scene: &Scene,
@@ -99,24 +110,30 @@ fn surfaces(
     surfaces.map_err(|error| mistake(checker, "contact.surfaces", &error))
 }
 
-/// Mistake of a scene of which no contact can be made.
+/// Returns `error` as a mistake of the scene at `key`.
 fn mistake(checker: &Checker<'_>, key: &str, error: &drape_collide::Error) -> Diagnostics {
     checker.document().at(key, tidy(&error.to_string())).into()
 }
 
-/// Checks that no particle starts inside a body.
+/// Checks that no particle of `scene` starts inside a body. Adds one mistake about the deepest
+/// particle.
 fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact, scene: &Scene) {
     let summary = contact.summary(&scene.start.positions);
     if summary.inside > 0 {
         let particle = summary.nearest.map_or(0, |nearest| nearest.particle);
-        let of = |panel: &&Panel| panel.particles().contains(&particle);
-        let panel = scene.panels.iter().find(of);
+        let panel = scene.panels.iter().find(|panel| panel.particles().contains(&particle));
         let key = panel.map_or("panel".into(), |panel| place_key(checker, scene, panel));
         let body = summary.nearest.map_or("", |nearest| &contact.bodies()[nearest.body].name);
+        let particles = if summary.inside == 1 {
+            "1 particle starts".to_owned()
+        } else {
+            format!("{} particles start", summary.inside)
+        };
         let message = format!(
-            "{} particles start inside a body (deepest {:.4} m, in {body})",
-            summary.inside, -summary.min_distance
+            "{particles} inside a body (deepest {:.4} m, in {body})",
+            -summary.min_distance
         );
+
         let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
         let mistake = checker.fail(&key, message, help);
         if let Some(panel) = panel {
@@ -125,7 +142,8 @@ fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact,
     }
 }
 
-/// Checks that no panel starts inside a body. Of panels that cross no body, one particle tells.
+/// Checks that no panel of `scene` starts inside a body. The surfaces of `contact` do not cross, so
+/// the first particle of a panel stands for all of its particles.
 fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, scene: &Scene) {
     for panel in &scene.panels {
         if contact.is_inside_body(panel.first, &scene.start.positions) {

@@ -61,7 +61,8 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
     if let Some(error) = error {
         let help = "an error of positions; 0.1 mm is usual";
         checker.within("time.error", error, 1e-9..=0.1, help);
-        let quasi_static = file.settle.as_ref().is_some_and(|own| !own.inertia.unwrap_or(false));
+        let quasi_static =
+            file.settle.as_ref().is_some_and(|settle| !settle.inertia.unwrap_or(false));
         if quasi_static && file.motion.is_none() {
             let message = "steps on the way to rest have no error in time";
             let help =
@@ -87,7 +88,7 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
         (None, Some(_)) => HALVINGS,
         (None, None) => 0,
     };
-    let inertia = file.settle.as_ref().is_some_and(|own| own.inertia.unwrap_or(false));
+    let inertia = file.settle.as_ref().is_some_and(|settle| settle.inertia.unwrap_or(false));
     let growth = match (error, &file.settle) {
         (Some(_), None) => GROWTH,
         (Some(_), Some(_)) if inertia => GROWTH,
@@ -135,9 +136,9 @@ pub(crate) fn refinement(checker: &mut Checker<'_>) {
         return;
     }
     let unit = checker.unit;
-    let Ok(own) = spacings(checker.document()) else { return };
+    let Ok(spacings) = spacings(checker.document()) else { return };
     let grids = refine.spacings.iter().map(|spacing| *spacing * unit);
-    let grids: Vec<f64> = grids.chain([own[0].value]).collect();
+    let grids: Vec<f64> = grids.chain([spacings[0].value]).collect();
     // A comparison that NaN fails.
     let too_close =
         grids.windows(2).position(|pair| !(pair[0] >= 0.999_999 * GRID_RATIO_MIN * pair[1]));

@@ -96,27 +96,27 @@ impl Surface {
         }
         let mut pairs: Vec<[u32; 2]> = Vec::new();
         let mut is_branched = vec![false; cuts.len()];
-        for own in at_side.values() {
-            pairs.extend(own.windows(2).map(|pair| [pair[0].0, pair[1].0]));
-            if own.len() > 2 {
-                own.iter().for_each(|&(cut, _)| is_branched[cut as usize] = true);
+        for ends in at_side.values() {
+            pairs.extend(ends.windows(2).map(|pair| [pair[0].0, pair[1].0]));
+            if ends.len() > 2 {
+                ends.iter().for_each(|&(cut, _)| is_branched[cut as usize] = true);
             }
         }
-        let free = at_side.values().filter(|own| own.len() == 1).map(|own| own[0]);
-        let left = tied(&cuts, free.collect(), &mut pairs);
+        let free = at_side.values().filter(|ends| ends.len() == 1).map(|ends| ends[0]);
+        let open_ends = tied(&cuts, free.collect(), &mut pairs);
 
         // Sum up by classes.
         let class = equivalence_classes(cuts.len(), &pairs);
         let mut sections: BTreeMap<u32, ClothSection> = BTreeMap::new();
-        for ((cut, own), branched) in cuts.iter().zip(&class).zip(is_branched) {
-            let section = sections.entry(*own).or_insert_with(ClothSection::empty);
+        for ((cut, class), branched) in cuts.iter().zip(&class).zip(is_branched) {
+            let section = sections.entry(*class).or_insert_with(ClothSection::empty);
             let [[a, b], [c, d]] = cut.places;
             section.worn += (c - a).hypot(d - b);
             section.pattern += cut.pattern;
             section.is_branched |= branched;
             section.pieces.push(cut.places);
         }
-        for (cut, _) in left {
+        for (cut, _) in open_ends {
             if let Some(section) = sections.get_mut(&class[cut as usize]) {
                 section.is_closed = false;
             }
@@ -138,9 +138,9 @@ impl Surface {
             let ((from, low), (to, high)) = (place(a), place(b));
             ((low < 0.0) != (high < 0.0)).then(|| {
                 let part = low / (low - high);
-                let [flat_a, flat_b] = [a, b].map(|own| cloth.coordinates[own as usize]);
+                let [flat_a, flat_b] = [a, b].map(|particle| cloth.coordinates[particle as usize]);
                 let is_sewn = self.is_sewn[a as usize] && self.is_sewn[b as usize];
-                let side = [a, b].map(|own| self.class[own as usize]);
+                let side = [a, b].map(|particle| self.class[particle as usize]);
                 (side, is_sewn, between(from, to, part), between(flat_a, flat_b, part))
             })
         };
@@ -180,7 +180,7 @@ impl ClothSection {
 fn tied(cuts: &[Cut], free: Vec<(u32, usize)>, pairs: &mut Vec<[u32; 2]>) -> Vec<(u32, usize)> {
     let place = |(cut, end): (u32, usize)| cuts[cut as usize].places[end];
     let is_sewn = |(cut, end): (u32, usize)| cuts[cut as usize].is_sewn[end];
-    let (sewn, mut left): (Vec<_>, Vec<_>) = free.into_iter().partition(|own| is_sewn(*own));
+    let (sewn, mut remaining): (Vec<_>, Vec<_>) = free.into_iter().partition(|end| is_sewn(*end));
     let mut near = Vec::new();
     for (k, one) in sewn.iter().enumerate() {
         for (m, other) in sewn.iter().enumerate().skip(k + 1) {
@@ -199,6 +199,6 @@ fn tied(cuts: &[Cut], free: Vec<(u32, usize)>, pairs: &mut Vec<[u32; 2]>) -> Vec
             pairs.push([sewn[k].0, sewn[m].0]);
         }
     }
-    left.extend(sewn.iter().zip(is_taken).filter(|(_, taken)| !taken).map(|(own, _)| *own));
-    left
+    remaining.extend(sewn.iter().zip(is_taken).filter(|(_, taken)| !taken).map(|(end, _)| *end));
+    remaining
 }

@@ -94,11 +94,11 @@ impl Figures {
     pub fn new(bodies: Vec<Triangulation>) -> Self {
         let all = (bodies.len() > 1).then(|| bodies.clone());
         let each = bodies.into_iter().map(|body| vec![body]);
-        let found = |own: Vec<Triangulation>| {
-            let landmarks = landmarks(&own);
-            (own, landmarks)
-        };
-        Self { candidates: each.chain(all).map(found).collect() }
+        let candidates = each.chain(all).map(|figure| {
+            let landmarks = landmarks(&figure);
+            (figure, landmarks)
+        });
+        Self { candidates: candidates.collect() }
     }
 
     /// Returns the landmarks of each figure, with its bodies.
@@ -111,12 +111,12 @@ impl MeasuredGarment {
     /// Takes the garments of a scene.
     #[must_use]
     pub fn all(scene: &Scene) -> Vec<Self> {
-        let measured = |own: &Garment| Self {
-            name: own.name.clone(),
-            surface: Surface::new(scene, &own.particles),
-            named: named(own),
-        };
-        scene.garments.iter().map(measured).collect()
+        let measured = scene.garments.iter().map(|garment| Self {
+            name: garment.name.clone(),
+            surface: Surface::new(scene, &garment.particles),
+            named: named(garment),
+        });
+        measured.collect()
     }
 
     /// Measures it on the figure that it is worn on, at the heights at which it is worn, from the top down.
@@ -127,7 +127,7 @@ impl MeasuredGarment {
             all.iter().filter_map(|landmark| self.at(cloth, bodies, landmark)).collect()
         };
         let mut all = figures.candidates.iter().map(on);
-        all.find(|own| !own.is_empty()).unwrap_or_default()
+        all.find(|girths| !girths.is_empty()).unwrap_or_default()
     }
 
     /// Measures it at a landmark; none where it is not worn there.
@@ -140,7 +140,7 @@ impl MeasuredGarment {
         let trunk = Trunk::at(bodies, landmark.height)?;
         let garment = match self.girth(cloth, &trunk, landmark.height)? {
             Err(NoGirth::Arms) => self.below_arms(cloth, bodies, landmark.height),
-            own => own,
+            girth => girth,
         };
         Some(GirthPair { landmark: landmark.clone(), body: trunk.girth(), garment })
     }
@@ -154,7 +154,8 @@ impl MeasuredGarment {
     ) -> Result<GarmentGirth, NoGirth> {
         let steps = (ARMHOLE / ARMHOLE_STEP).round() as usize;
         let mut heights = (1..=steps).map(|k| height - k as f64 * ARMHOLE_STEP);
-        let girth = heights.find_map(|own| self.girth(cloth, &Trunk::at(bodies, own)?, own)?.ok());
+        let girth =
+            heights.find_map(|height| self.girth(cloth, &Trunk::at(bodies, height)?, height)?.ok());
         girth.ok_or(NoGirth::Arms)
     }
 
@@ -187,9 +188,9 @@ impl MeasuredGarment {
 
 /// Returns landmarks with those that a scene names in their places, from the top down.
 pub(crate) fn merged(found: &[Landmark], named: &[Landmark]) -> Vec<Landmark> {
-    let is_named = |own: &&Landmark| named.iter().any(|other| other.name == own.name);
-    let found = found.iter().filter(|own| !is_named(own));
-    let mut all: Vec<Landmark> = found.chain(named).cloned().collect();
+    let unnamed =
+        found.iter().filter(|landmark| named.iter().all(|other| other.name != landmark.name));
+    let mut all: Vec<Landmark> = unnamed.chain(named).cloned().collect();
     all.sort_by(|a, b| b.height.total_cmp(&a.height));
     all
 }

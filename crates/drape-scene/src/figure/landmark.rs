@@ -232,7 +232,7 @@ impl<'a> Profile<'a> {
         let (first, last) = (slices[0].fraction, slices[slices.len() - 1].fraction);
         let offset = |k: usize| (k as f64 - FINE as f64) * step;
         let fractions = (0..=2 * FINE).map(|k| middle + offset(k));
-        let heights = fractions.filter(|own| (first..=last).contains(own));
+        let heights = fractions.filter(|fraction| (first..=last).contains(fraction));
         let heights = heights.map(|fraction| self.height(fraction));
         let measured =
             heights.filter_map(|height| Some((height, measure(&Trunk::at(self.bodies, height)?))));
@@ -242,7 +242,7 @@ impl<'a> Profile<'a> {
     /// Returns the landmarks of a dress form: of the thinnest place between two swellings.
     fn of_dress_form(&self) -> Vec<Landmark> {
         let waists = (1..self.slices.len().saturating_sub(1)).filter_map(|k| self.swellings(k));
-        let girth = |own: &[usize; 3]| self.slices[own[1]].girth;
+        let girth = |candidate: &[usize; 3]| self.slices[candidate[1]].girth;
         let Some([hip, waist, bust]) = waists.min_by(|a, b| girth(a).total_cmp(&girth(b))) else {
             return Vec::new();
         };
@@ -261,8 +261,8 @@ impl<'a> Profile<'a> {
 
     /// Returns the slices of hip, waist and bust if one is a waist.
     fn swellings(&self, waist: usize) -> Option<[usize; 3]> {
-        let own = &self.slices[waist];
-        let (_, shape) = own.trunk.longest();
+        let waist_slice = &self.slices[waist];
+        let (_, shape) = waist_slice.trunk.longest();
         if !WAIST_SHAPE.contains(&shape) {
             return None;
         }
@@ -271,9 +271,10 @@ impl<'a> Profile<'a> {
         let [bust, hip] = [up, down].map(|way| {
             let top = self.first_swelling(&way)?;
             let swollen = &self.slices[top];
-            let away = (swollen.fraction - own.fraction).abs() * self.stature / own.girth;
+            let away =
+                (swollen.fraction - waist_slice.fraction).abs() * self.stature / waist_slice.girth;
             let is_right = SWELLING_HEIGHTS.contains(&away)
-                && SWELLING_GIRTHS.contains(&(swollen.girth / own.girth));
+                && SWELLING_GIRTHS.contains(&(swollen.girth / waist_slice.girth));
             is_right.then_some(top)
         });
         Some([hip?, waist, bust?])

@@ -50,15 +50,13 @@ impl Trunk {
         }
         let mut trunk = Self { parts: Vec::new(), arms: Vec::new() };
         let is_single = lines.get(1).is_none_or(|(second, _)| *second < LEG_MIN * largest);
-        for (own, line) in &lines {
-            if *own >= LEG_MIN * largest {
-                let (part, arms) = match is_single {
-                    true => without_arms(line),
-                    false => (hull_of(line), Vec::new()),
-                };
+        for (area, line) in &lines {
+            if *area >= LEG_MIN * largest {
+                let (part, arms) =
+                    if is_single { without_arms(line) } else { (hull_of(line), Vec::new()) };
                 trunk.parts.push(part);
                 trunk.arms.extend(arms);
-            } else if *own >= ARM_MIN * largest {
+            } else if *area >= ARM_MIN * largest {
                 trunk.arms.push(hull_of(line));
             }
         }
@@ -197,9 +195,9 @@ fn clip(piece: Piece, axis: [f64; 2], [from, to]: [f64; 2]) -> Option<Piece> {
     if a.max(b) < from || a.min(b) > to {
         return None;
     }
-    let end = |own: f64, point: [f64; 2]| {
-        let kept = own.clamp(from, to);
-        if kept == own { point } else { between(piece[0], piece[1], (kept - a) / (b - a)) }
+    let end = |place: f64, point: [f64; 2]| {
+        let kept = place.clamp(from, to);
+        if kept == place { point } else { between(piece[0], piece[1], (kept - a) / (b - a)) }
     };
     Some([end(a, piece[0]), end(b, piece[1])])
 }

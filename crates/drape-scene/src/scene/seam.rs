@@ -50,13 +50,13 @@ impl SeamPairs {
 
     /// Returns the constraints, those of the pairs first.
     pub fn constraints(&self) -> impl Iterator<Item = SeamConstraint> {
-        let own = |weights: &[(u32, f64)]| {
+        let constraint = |weights: &[(u32, f64)]| {
             let weight = |&(particle, weight)| SeamWeight { particle, weight };
             SeamConstraint { weights: weights.iter().map(weight).collect() }
         };
-        let pairs = self.pairs.iter().map(move |&[a, b]| own(&[(a, 1.0), (b, -1.0)]));
+        let pairs = self.pairs.iter().map(move |&[a, b]| constraint(&[(a, 1.0), (b, -1.0)]));
         let ties = self.ties.iter().map(move |&Tie { particle, ends: [a, b], fraction }| {
-            own(&[(particle, 1.0), (a, fraction - 1.0), (b, -fraction)])
+            constraint(&[(particle, 1.0), (a, fraction - 1.0), (b, -fraction)])
         });
         pairs.chain(ties)
     }
@@ -100,7 +100,7 @@ impl SeamConstraint {
     /// Lowers the gaps of the particles that are to meet, both of a pair or the tied one, to a width,
     /// all in m.
     pub fn narrow(&self, width: f64, gaps: &mut [f64]) {
-        let whole = self.weights.iter().filter(|own| own.weight.abs() == 1.0);
+        let whole = self.weights.iter().filter(|weight| weight.weight.abs() == 1.0);
         for &SeamWeight { particle, .. } in whole {
             let gap = &mut gaps[particle as usize];
             *gap = gap.min(width);

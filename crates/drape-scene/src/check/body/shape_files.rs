@@ -156,7 +156,7 @@ fn sequence(
         return Err(ShapeError::Mismatch(format!("there is no file {}", pattern.display())));
     };
     if (last - first) as usize != numbered.len() - 1 {
-        let missing = (*first..).zip(&numbered).find(|(number, (own, _))| number != own);
+        let missing = (*first..).zip(&numbered).find(|(expected, (number, _))| expected != number);
         let (number, _) = missing.unwrap_or((*first, &numbered[0]));
         let message = format!("of {} there is no or a second number {number}", pattern.display());
         return Err(ShapeError::Mismatch(message));

@@ -27,8 +27,8 @@ fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
             high - low
         };
         let size = size(0).max(size(1)).max(size(2));
-        let named = |(index, own): (usize, &MeshBodyFile)| {
-            let name = own.common().name.map_or(format!("mesh {}", index + 1), str::to_owned);
+        let named = |(index, mesh): (usize, &MeshBodyFile)| {
+            let name = mesh.common().name.map_or(format!("mesh {}", index + 1), str::to_owned);
             name == body.name
         };
         let index = file.collider.mesh.iter().enumerate().position(named).unwrap_or(0);
@@ -57,8 +57,8 @@ pub(crate) fn check_distance(
     if !garments.is_empty() {
         check_sizes(checker, bodies);
     }
-    let solid = bodies.iter().filter(|own| !matches!(own.body.shape, Shape::Plane));
-    let outlines = solid.filter_map(|own| own.body.triangulate().ok());
+    let solid = bodies.iter().filter(|checked| !matches!(checked.body.shape, Shape::Plane));
+    let outlines = solid.filter_map(|checked| checked.body.triangulate().ok());
     let vertices: Vec<[f64; 3]> = outlines.flat_map(|outline| outline.vertices).collect();
     if garments.is_empty() || vertices.is_empty() {
         return;
@@ -76,7 +76,7 @@ pub(crate) fn check_distance(
         let message = format!(
             "no panel is within {FAR} m of a body: they start {distance:.2} m away ({x:+.2}, {y:+.2}, {z:+.2}) m"
         );
-        let solids = Solids::new(bodies.iter().map(|own| &own.body));
+        let solids = Solids::new(bodies.iter().map(|checked| &checked.body));
         let places: Vec<[f64; 3]> = places.copied().collect();
         // Its girths are measured with its seams, which need sound panels.
         let shift = solids.and_then(|solids| solids.shift(&places, None));

@@ -62,7 +62,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Keys of the panel in the scene.
-    fn own(&self) -> Option<&'a GarmentPanelFile> {
+    fn entry_of_panel(&self) -> Option<&'a GarmentPanelFile> {
         self.entry.panel.get(self.panel().name())
     }
 }
@@ -75,18 +75,18 @@ pub(crate) fn placed_panel(
     noise: &mut Option<Noise>,
 ) -> Option<PlacedPiece> {
     let &Piece { key, entry, cut, index, first, .. } = piece;
-    let (panel, own) = (piece.panel(), piece.own());
+    let (panel, panel_entry) = (piece.panel(), piece.entry_of_panel());
     let cut = &cut.panels[index];
     let placement = placement(checker, piece);
     let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
-    let layer = layer(checker, &layer_key, own.and_then(|own| own.layer));
+    let layer = layer(checker, &layer_key, panel_entry.and_then(|entry| entry.layer));
     let layer = layer.unwrap_or(layer_of_garment);
-    let (fabric_key, fabric) = match own.and_then(|own| own.fabric.as_ref()) {
+    let (fabric_key, fabric) = match panel_entry.and_then(|entry| entry.fabric.as_ref()) {
         Some(fabric) => (format!("{key}.panel.{}.fabric", toml_key(panel.name())), fabric),
         None => (format!("{key}.fabric"), &entry.fabric),
     };
     // A panel may have a fabric of its own in the pattern, by the name that the scene gives it.
-    let given = panel.fabric().filter(|_| own.is_none_or(|own| own.fabric.is_none()));
+    let given = panel.fabric().filter(|_| panel_entry.is_none_or(|entry| entry.fabric.is_none()));
     let material = match given {
         Some(name) if !checker.file.fabric.contains_key(name) => {
             let message =
@@ -139,8 +139,10 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
     let &Piece { key, pattern, cut, index, grading, .. } = piece;
     let panel = piece.panel();
     let numbers = node_numbers(&cut.panels[index]);
-    let allowances: Vec<_> =
-        allowances(pattern, cut, index).iter().map(|own| own.numbered(&numbers)).collect();
+    let allowances: Vec<_> = allowances(pattern, cut, index)
+        .iter()
+        .map(|allowance| allowance.numbered(&numbers))
+        .collect();
     let grain = Grain::from_degrees(panel.grain().to_degrees());
     let lattice = cut_lattice(&cut.panels[index], &numbers, grain);
     let lattice =
@@ -169,9 +171,9 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
 /// garment.
 fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> {
     let &Piece { key, entry, .. } = piece;
-    let (unit, own) = (checker.unit, piece.own());
-    let center = own.and_then(|own| own.center).map(|center| center.map(|x| x * unit));
-    let turn = own.and_then(|own| own.turn);
+    let (unit, panel_entry) = (checker.unit, piece.entry_of_panel());
+    let center = panel_entry.and_then(|entry| entry.center).map(|center| center.map(|x| x * unit));
+    let turn = panel_entry.and_then(|entry| entry.turn);
     let turn = turn.map(|turn| turn.map(|angle| angle.value().to_radians()));
     let mut placement = match (center, turn, piece.panel().placement()) {
         // Of a place in the pattern each of both stays that the scene does not give.
@@ -196,7 +198,7 @@ fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> 
             return None;
         }
     };
-    if let Some(radius) = own.and_then(|own| own.wrap) {
+    if let Some(radius) = panel_entry.and_then(|entry| entry.wrap) {
         placement.wrap = Some(radius * unit);
     }
     let numbers =

@@ -95,9 +95,10 @@ impl<'a> PlacedSeam<'a> {
     pub(crate) fn mistake(&self, home: &SeamHome<'_>) -> Option<Diagnostic> {
         let Better { order, listed_gap, gap } = self.better()?;
         let name = &self.seam.name;
-        let (fault, change) = match order.edges == self.listed().edges {
-            true => ("reversed", "if the second side ran the other way"),
-            false => ("twisted", "if its edges were in the order that fits"),
+        let (fault, change) = if order.edges == self.listed().edges {
+            ("reversed", "if the second side ran the other way")
+        } else {
+            ("twisted", "if its edges were in the order that fits")
         };
         let message = format!(
             "the seam is {fault}: its stitches are {:.0} mm long on average at the start, and would be {:.0} mm {change}",
@@ -123,7 +124,7 @@ impl<'a> PlacedSeam<'a> {
     /// Returns the order that fits better than the listed one, if there is one.
     fn better(&self) -> Option<Better> {
         let listed = self.listed();
-        let own = self.gaps(&listed);
+        let listed_gaps = self.gaps(&listed);
         let lengths = self.sides.each_ref().map(|side| side.iter().map(SideEdge::length).sum());
         let [one, other]: [f64; 2] = lengths;
         let scale = one * other / 3.0;
@@ -135,8 +136,8 @@ impl<'a> PlacedSeam<'a> {
             }
         }
         let (order, gaps) = best?;
-        let better = own.mean_square - gaps.mean_square > ADVANTAGE * scale;
-        better.then_some(Better { order, listed_gap: own.mean, gap: gaps.mean })
+        let better = listed_gaps.mean_square - gaps.mean_square > ADVANTAGE * scale;
+        better.then_some(Better { order, listed_gap: listed_gaps.mean, gap: gaps.mean })
     }
 
     /// Returns the orders to compare, those with the listed sense first.
@@ -196,7 +197,8 @@ impl<'a> PlacedSeam<'a> {
     /// Returns the changes that give a seam an order.
     fn edits(&self, home: &SeamHome<'_>, order: &Order) -> Vec<Edit> {
         let key = home.seam(&self.seam.name);
-        let set = |own: &str, new: Option<&str>| home.document.edit(&format!("{key}.{own}"), new);
+        let set =
+            |field: &str, new: Option<&str>| home.document.edit(&format!("{key}.{field}"), new);
         let mut edits = Vec::new();
         if order.edges != self.listed().edges || !home.document.has(&key) {
             edits.push(set("sides", Some(&self.sides(order))));

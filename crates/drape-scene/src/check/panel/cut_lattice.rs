@@ -23,9 +23,9 @@ pub(crate) fn cut_lattice(
 ) -> Result<Lattice, drape_cloth::Error> {
     let mut coordinates = vec![[0.0; 2]; numbers.len()];
     let mut grid = vec![None; numbers.len()];
-    for (node, &own) in numbers.iter().enumerate() {
-        coordinates[own as usize] = cut.yarns[node];
-        grid[own as usize] = cut.lattice[node];
+    for (node, &number) in numbers.iter().enumerate() {
+        coordinates[number as usize] = cut.yarns[node];
+        grid[number as usize] = cut.lattice[node];
     }
     let mesh = Mesh {
         spacing: cut.spacing,

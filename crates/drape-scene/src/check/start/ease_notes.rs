@@ -24,7 +24,7 @@ pub(crate) fn ease_notes(scene: &Scene) -> Vec<String> {
         return Vec::new();
     }
     let solid = scene.bodies.iter().filter(|moving| !matches!(moving.body.shape, Shape::Plane));
-    let figures = Figures::new(solid.filter_map(|own| own.body.triangulate().ok()).collect());
+    let figures = Figures::new(solid.filter_map(|moving| moving.body.triangulate().ok()).collect());
     let garments = scene.garments.iter().enumerate();
     garments.flat_map(|(number, garment)| notes(scene, &figures, (number, garment))).collect()
 }
@@ -53,10 +53,11 @@ fn notes(scene: &Scene, figures: &Figures, (number, garment): (usize, &Garment))
     Vec::new()
 }
 
-/// Returns whether a ring near a landmark belongs to it: it is at its height, or to no other one it is nearer.
+/// Returns whether `ring`, which is near `landmark`, belongs to it: the ring is at the height of
+/// `landmark`, or no landmark of `all` is nearer.
 fn is_worn_at(ring: &Ring, landmark: &Landmark, all: &[Landmark]) -> bool {
-    let away = |own: &Landmark| (own.height - ring.plane.height()).abs();
-    away(landmark) <= LEVEL || all.iter().all(|own| away(landmark) <= away(own))
+    let away = |other: &Landmark| (other.height - ring.plane.height()).abs();
+    away(landmark) <= LEVEL || all.iter().all(|other| away(landmark) <= away(other))
 }
 
 /// Describes a garment that is smaller than its body.

@@ -26,18 +26,18 @@ use super::rings::{Ring, RingFinder, openings};
 /// close against it hardly do.
 const PULL_MAX: f64 = 490.3325;
 
-/// Stretch from which on it is told.
+/// Smallest stretch that is reported.
 const STRETCH_MIN: f64 = 0.01;
 
-/// Distance by which a ring may lie away from where it starts, in m: an opening that is too narrow
-/// there goes to where its body is narrower.
+/// Largest distance of a ring from the place where it starts, in m. An opening that is too narrow
+/// there slides to where the body is narrower.
 const SLACK: f64 = 0.05;
 
-/// Distance of the heights at which garments are measured, in m, at least.
+/// Least distance between the heights at which a garment is measured, in m.
 const STEP_MIN: f64 = 0.01;
 
-/// Fraction of a limb's section from which on a ring is to go round it: flat panels beside the trunk
-/// enclose some of an arm at the start.
+/// Least fraction of a limb's section inside a ring that goes round the limb. Flat panels beside
+/// the trunk enclose some of an arm at the start.
 const LIMB_MIN: f64 = 0.5;
 
 /// Number of the rings by which places are compared.
@@ -76,35 +76,37 @@ pub(crate) struct Girths<'a> {
     scene: &'a Scene,
     bodies: Vec<Triangulation>,
     rings: Vec<Ring>,
-    /// Number of its openings, which are the first of the rings.
+    /// Number of openings of the garment. The openings are the first of `rings`.
     openings: usize,
 }
 
 impl<'a> Girths<'a> {
-    /// Measures a garment of a scene, by its number.
+    /// Measures the garment of `scene` with the number `garment`.
     pub(crate) fn new(scene: &'a Scene, garment: usize) -> Self {
         let solid = scene.bodies.iter().map(|moving| &moving.body);
         let solid = solid.filter(|body| !matches!(body.shape, Shape::Plane));
         let bodies = solid.filter_map(|body| body.triangulate().ok()).collect();
         let particles = &scene.garments[garment].particles;
-        let own = |panel: usize| particles.contains(&scene.panels[panel].first);
-        let panels: Vec<usize> = (0..scene.panels.len()).filter(|&panel| own(panel)).collect();
-        let mut rings: Vec<Ring> =
-            openings(scene).into_iter().filter(|ring| own(ring.panel)).collect();
+        let panels: Vec<usize> = (0..scene.panels.len())
+            .filter(|&panel| particles.contains(&scene.panels[panel].first))
+            .collect();
+        let openings = openings(scene).into_iter();
+        let mut rings: Vec<Ring> = openings.filter(|ring| panels.contains(&ring.panel)).collect();
         let count = rings.len();
         let finder = RingFinder::new(scene);
         rings.extend(heights(scene, &panels).flat_map(|height| finder.at_height(&panels, height)));
         Self { scene, bodies, rings, openings: count }
     }
 
-    /// Returns the ring that stretches most where the garment is moved by a shift, in m.
+    /// Returns the ring of `rings` that stretches most where the garment is moved by `shift`, in m.
     fn tightest(&self, rings: &[&Ring], shift: [f64; 3]) -> Option<TightRing> {
         let tight =
             rings.iter().filter_map(|ring| tight(self.scene, &self.bodies, ring.moved(shift)));
         tight.max_by(|a, b| a.stretch().total_cmp(&b.stretch()))
     }
 
-    /// Returns the ring round a point that is nearest to a height, in m, if one is near.
+    /// Returns the ring round `point` that is nearest to `height`, in m, or `None` if no ring is
+    /// near.
     pub(crate) fn around(&self, height: f64, point: [f64; 2]) -> Option<&Ring> {
         let away = |ring: &Ring| (ring.plane.height() - height).abs();
         let goes_round = |ring: &&Ring| {
@@ -122,7 +124,8 @@ impl<'a> Girths<'a> {
         matches!(self.openings, 2 | 3)
     }
 
-    /// Returns how the garment fits where it is moved by a shift, in m, by some of its rings.
+    /// Returns how the garment fits where it is moved by `shift`, in m, by about [`RINGS`] of its
+    /// rings.
     pub(crate) fn fit(&self, shift: [f64; 3]) -> Fit {
         let step = self.rings.len().div_ceil(RINGS).max(1);
         let some: Vec<&Ring> = self.rings.iter().step_by(step).collect();
@@ -134,7 +137,7 @@ impl<'a> Girths<'a> {
     }
 }
 
-/// Returns notes on the garments of a scene that have to stretch.
+/// Returns a note for each garment of `scene` that has to stretch.
 pub(crate) fn girth_notes(scene: &Scene) -> Vec<String> {
     if scene.sewing.is_none() {
         return Vec::new();
@@ -149,7 +152,7 @@ pub(crate) fn girth_notes(scene: &Scene) -> Vec<String> {
     scene.garments.iter().enumerate().filter_map(note).collect()
 }
 
-/// Returns the heights at which panels are cut, in m.
+/// Returns the heights at which `panels` are cut, in m.
 fn heights(scene: &Scene, panels: &[usize]) -> impl Iterator<Item = f64> {
     let particles = panels.iter().flat_map(|&panel| scene.panels[panel].particles());
     let heights = particles.map(|particle| scene.start.positions[3 * particle + 1]);
@@ -161,14 +164,14 @@ fn heights(scene: &Scene, panels: &[usize]) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| low + (k as f64 + 0.5) * step)
 }
 
-/// Returns the girths of a ring that is shorter than what it goes round, wherever near its place it
-/// lies.
+/// Returns the girths of `ring` if the ring is too short for `bodies`, wherever within [`SLACK`] of
+/// its place it lies.
 fn tight(scene: &Scene, bodies: &[Triangulation], ring: Ring) -> Option<TightRing> {
     let outline = convex_hull(ring.points.iter().map(|&point| ring.plane.flat(point)).collect());
     let mut hull = f64::INFINITY;
     for part in [0.0, -1.0, -0.5, 0.5, 1.0] {
-        let own = hull_inside(bodies, &outline, &ring.plane.moved(part * SLACK))?;
-        hull = hull.min(own);
+        let moved = hull_inside(bodies, &outline, &ring.plane.moved(part * SLACK))?;
+        hull = hull.min(moved);
     }
     let with_offset = hull + TAU * scene.contact.particles.activation_distance;
     let [across, along] = scene.panels[ring.panel].lattice.spacing;
@@ -182,8 +185,8 @@ fn tight(scene: &Scene, bodies: &[Triangulation], ring: Ring) -> Option<TightRin
     })
 }
 
-/// Returns the perimeter of the hull of the limbs that a plane cuts of bodies inside an outline, in
-/// m.
+/// Returns the perimeter of the hull of the limbs of `bodies` that `plane` cuts inside `outline`,
+/// in m.
 fn hull_inside(
     bodies: &[Triangulation],
     outline: &[[f64; 2]],
@@ -198,8 +201,8 @@ fn hull_inside(
     (points.len() > 2).then(|| perimeter(&convex_hull(points)))
 }
 
-/// Returns the pull of the fabric of a ring that is stretched to what it needs, in N/m: along the
-/// softer of its yarns.
+/// Returns the load of the fabric of the ring `tight` at the needed stretch, in N/m, along the
+/// softer yarns.
 fn pull(scene: &Scene, tight: &TightRing) -> f64 {
     let fabric = &scene.materials[scene.panels[tight.ring.panel].material].fabric;
     let stretch = tight.stretch();
@@ -207,13 +210,15 @@ fn pull(scene: &Scene, tight: &TightRing) -> f64 {
     laws.map(|law| law.elastic(stretch, stretch).load).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Describes a garment that is too narrow.
+/// Describes `garment`, which is too narrow and pulls with `pull`, in N/m.
 fn describe(garment: &str, tight: &TightRing, pull: f64) -> String {
     let TightRing { ring, hull, with_offset, needed } = tight;
-    let limit = match pull > PULL_MAX {
-        true => ", more than the tensile test has: its seams may stay open",
-        false => "",
+    let limit = if pull > PULL_MAX {
+        ", more than the tensile test has: its seams may stay open"
+    } else {
+        ""
     };
+
     format!(
         "\"{garment}\" is too narrow at a height of {:.2} m: {}{} measure {:.0} mm round, and the body's hull {:.0} mm there, \
          {:.0} mm with contact.offset, {:.0} mm for its particles at this spacing; it would stretch by {:.1} % and pull \
@@ -229,7 +234,7 @@ fn describe(garment: &str, tight: &TightRing, pull: f64) -> String {
     )
 }
 
-/// Names the seams across a ring.
+/// Names the seams that `ring` goes across.
 fn seams(ring: &Ring) -> String {
     let named: Vec<String> = ring.seams.iter().map(|seam| format!("\"{seam}\"")).collect();
     match &named[..] {
@@ -239,14 +244,11 @@ fn seams(ring: &Ring) -> String {
     }
 }
 
-/// Returns the remedy for a garment that is too narrow.
+/// Returns the remedy for a garment with the ring `tight`.
 fn remedy(tight: &TightRing) -> String {
     let TightRing { ring, with_offset, needed, .. } = tight;
     let wider = (1e3 * (needed - ring.girth)).ceil();
-    let coarse = match ring.girth > *with_offset {
-        true => ", choose a smaller spacing",
-        false => "",
-    };
+    let coarse = if ring.girth > *with_offset { ", choose a smaller spacing" } else { "" };
     format!(
         "widen it there by {wider:.0} mm in all{coarse}, or start it where the body is narrower (center)"
     )

@@ -1,4 +1,5 @@
-//! Order of layers at the start: a panel of a higher layer is to start outside those of lower ones.
+//! Order of layers at the start: a panel of a higher layer has to start outside all panels of lower
+//! layers.
 //!
 //! A particle is inside a panel if the straight line from it to the nearest point of a body passes
 //! through the panel.
@@ -12,8 +13,8 @@ use crate::scene::panel::Panel;
 /// Height of the slabs in which triangles are looked for, in m: some edges of usual spacings.
 const SLAB: f64 = 0.05;
 
-/// Refuses panels that start between the body and those of a lower layer; notes those of which a
-/// smaller area does so than is in order.
+/// Refuses panels of `scene` that start between the body and a panel of a lower layer. Returns
+/// notes on panels of which only the smaller area starts there.
 pub(crate) fn check_layers(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
     let lowest = scene.panels.iter().map(|panel| panel.layer).min();
     let higher = scene.panels.iter().filter(|panel| Some(panel.layer) > lowest);
@@ -25,7 +26,7 @@ pub(crate) fn check_layers(checker: &mut Checker<'_>, scene: &Scene) -> Vec<Stri
     let lines = (0..scene.cloth.particles()).map(|particle| line_to_body(scene, particle));
     let lines: Vec<Option<Line>> = lines.collect();
     for panel in higher {
-        let order = Order::of(panel, &lines, scene);
+        let order = Order::new(panel, &lines, scene);
         let Some(Hidden { panel: below, place: [x, y, z] }) = order.hidden_by else { continue };
         let fault = format!(
             "\"{}\" of layer {} starts inside \"{}\" of layer {}, between it and the body, near ({x:.4}, {y:.4}, {z:.4}) m",
@@ -43,13 +44,13 @@ pub(crate) fn check_layers(checker: &mut Checker<'_>, scene: &Scene) -> Vec<Stri
     notes
 }
 
-/// Order of a panel and those of lower layers.
+/// Order of one panel relative to the panels of lower layers.
 struct Order<'a> {
-    /// Area of lower layers that lies outside of it, in m².
+    /// Area of lower layers that lies outside the panel, in m².
     inside: f64,
-    /// Area of its own that lies outside of a lower layer, in m².
+    /// Area of the panel that lies outside a lower layer, in m².
     outside: f64,
-    /// Panel of a lower layer inside of which most of it lies.
+    /// Panel of a lower layer inside which most of the panel lies.
     hidden_by: Option<Hidden<'a>>,
 }
 
@@ -61,18 +62,18 @@ struct Hidden<'a> {
 }
 
 impl<'a> Order<'a> {
-    fn of(panel: &Panel, lines: &[Option<Line>], scene: &'a Scene) -> Self {
+    fn new(panel: &Panel, lines: &[Option<Line>], scene: &'a Scene) -> Self {
         let lower = || scene.panels.iter().filter(|other| other.layer < panel.layer);
-        let own = Slabs::of(scene, |particle| panel.particles().contains(&particle));
+        let of_panel = Slabs::new(scene, |particle| panel.particles().contains(&particle));
         let is_below = |particle| lower().any(|lower| lower.particles().contains(&particle));
-        let below = Slabs::of(scene, is_below);
+        let below = Slabs::new(scene, is_below);
         let passes = |particle: usize, slabs: &Slabs| {
             lines[particle].is_some_and(|line| slabs.are_crossed(line))
         };
         let mut order = Self { inside: 0.0, outside: 0.0, hidden_by: None };
         let mut most = 0.0;
         for other in lower() {
-            let hidden = other.particles().filter(|&particle| passes(particle, &own));
+            let hidden = other.particles().filter(|&particle| passes(particle, &of_panel));
             let hidden: Vec<usize> = hidden.collect();
             let area = hidden.iter().map(|&particle| scene.cloth.areas()[particle]).sum();
             order.inside += area;
@@ -100,8 +101,8 @@ fn place(scene: &Scene, particle: usize) -> [f64; 3] {
     [0, 1, 2].map(|axis| scene.start.positions[3 * particle + axis])
 }
 
-/// Line from a particle to the nearest point of a body, unless it is inside one. Floors wear
-/// nothing.
+/// Returns the line from `particle` to the nearest point of a body, or `None` if the particle is
+/// inside a body. Nobody wears cloth on a floor, so floors do not count.
 fn line_to_body(scene: &Scene, particle: usize) -> Option<Line> {
     let from = place(scene, particle);
     let bodies = scene.bodies.iter().map(|moving| &moving.body);
@@ -119,23 +120,23 @@ struct Slabs {
 }
 
 impl Slabs {
-    /// Triangles whose corners are all chosen.
-    fn of(scene: &Scene, is_chosen: impl Fn(usize) -> bool) -> Self {
+    /// Returns the triangles of `scene` whose corners all pass `is_chosen`.
+    fn new(scene: &Scene, is_chosen: impl Fn(usize) -> bool) -> Self {
         let chosen = |t: &&[u32; 3]| t.iter().all(|&corner| is_chosen(corner as usize));
         let triangles = scene.cloth.triangles().iter().filter(chosen);
         let places = |t: &[u32; 3]| t.map(|corner| place(scene, corner as usize));
         let triangles: Vec<[[f64; 3]; 3]> = triangles.map(places).collect();
         let heights = triangles.iter().flatten().map(|corner| corner[1]);
-        let mut own = Self { bottom: heights.fold(f64::INFINITY, f64::min), slabs: Vec::new() };
+        let mut sorted = Self { bottom: heights.fold(f64::INFINITY, f64::min), slabs: Vec::new() };
         for triangle in triangles {
-            let slabs = own.numbers(&triangle);
-            own.slabs.resize(own.slabs.len().max(slabs.end), Vec::new());
-            own.slabs[slabs].iter_mut().for_each(|slab| slab.push(triangle));
+            let slabs = sorted.numbers(&triangle);
+            sorted.slabs.resize(sorted.slabs.len().max(slabs.end), Vec::new());
+            sorted.slabs[slabs].iter_mut().for_each(|slab| slab.push(triangle));
         }
-        own
+        sorted
     }
 
-    /// Numbers of the slabs between some points.
+    /// Returns the numbers of the slabs between the lowest and the highest of `points`.
     fn numbers(&self, points: &[[f64; 3]]) -> std::ops::Range<usize> {
         let heights = points.iter().map(|point| point[1]);
         let [low, high] = heights.fold([f64::MAX, f64::MIN], |[a, b], y| [a.min(y), b.max(y)]);
@@ -143,7 +144,7 @@ impl Slabs {
         if high < self.bottom { 0..0 } else { number(low)..number(high) + 1 }
     }
 
-    /// Whether a line goes through one of them.
+    /// Returns whether `line` goes through one of the triangles.
     fn are_crossed(&self, line: Line) -> bool {
         let numbers = self.numbers(&[line.from, line.to]);
         let end = numbers.end.min(self.slabs.len());
@@ -152,8 +153,8 @@ impl Slabs {
     }
 }
 
-/// Whether a line goes through a triangle, by the signs of the volumes that it spans with the
-/// sides.
+/// Returns whether the line goes through the triangle `a`, `b`, `c`, by the signs of the volumes
+/// that the line spans with the sides.
 fn is_crossed([a, b, c]: [[f64; 3]; 3], Line { from, to }: Line) -> bool {
     let volume = |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| {
         let [u, v, w] = [q, r, s].map(|x| [0, 1, 2].map(|axis| x[axis] - p[axis]));

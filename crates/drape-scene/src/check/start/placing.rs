@@ -1,11 +1,11 @@
-//! Places of garments: whether a garment starts about its body, and the shift that would bring it
-//! there.
+//! PlaceReport of garments: checks whether a garment starts round a body, and finds the shift that would
+//! bring the garment there.
 //!
-//! A garment is about a body where its horizontal outline goes round a part of it. One that hangs
-//! from the waist, as its openings tell, is brought to the lowest place where it is wide enough and
-//! the body below is too wide for it. Others are brought to where their particles are nearest to the
-//! bodies on average, without being inside of them; those at the top count for more, since a garment
-//! hangs from there.
+//! A garment is about a body if its horizontal outline goes round a part of the body. A garment
+//! that hangs from the waist, as the number of its openings shows, is brought to the lowest place
+//! where it is wide enough and the body below is too wide for it. Any other garment is brought to
+//! the place where its particles are nearest to the bodies on average without being inside a body.
+//! Particles at the top count for more, since a garment hangs from its top.
 
 use std::cmp::Ordering;
 
@@ -19,73 +19,76 @@ use drape_collide::section::{SectionPlane, convex_hull, encloses};
 
 use super::girth::{Fit, Girths};
 
-/// Number of heights at which a garment is looked at.
+/// Number of heights at which the outline of a garment is compared with the bodies.
 const HEIGHTS: usize = 24;
 
-/// Fraction of its heights at which a garment goes round a body, at least. The shipped garments do
-/// so at 9 of 10.
+/// Least fraction of the heights at which a garment that is worn goes round a body. The shipped
+/// garments go round it at 9 of 10.
 const AROUND_MIN: f64 = 0.25;
 
-/// Fraction of its width that a garment is high, at least, for it to go round a body: lower ones
-/// lie flat and fall on it.
+/// Least height of a garment over its width if it goes round a body. Lower garments lie flat and
+/// fall on the body.
 const FLAT: f64 = 0.1;
 
-/// Fraction of a figure's height below which a garment is about its feet.
+/// A garment below this fraction of a figure's height is about its feet.
 const FEET: f64 = 0.3;
 
-/// Fraction of a figure's height from which on a garment is more than a shoe or a sock.
+/// A garment taller than this fraction of a figure's height is neither a shoe nor a sock.
 const TALL: f64 = 0.25;
 
-/// Fraction of its particles that may start inside a body before another place is looked for.
+/// Largest fraction of a garment's particles inside a body at which its place still counts as
+/// right.
 const INSIDE_MAX: f64 = 0.002;
 
-/// Number of particles by which places are compared: of all that are tried, and near the best.
+/// Number of particles by which all tried places are compared.
 const SAMPLES_COARSE: usize = 100;
+/// Number of particles by which places near the best one are compared.
 const SAMPLES: usize = 250;
 
-/// Distance from a body at which a garment is to start, in m: its surfaces are apart there.
+/// Distance from a body at which a garment should start, in m. Surfaces are apart there.
 const MARGIN: f64 = 0.005;
 
-/// Increase of the weight of a distance with it, in 1/m: of places with one mean distance, that in
-/// the middle is taken.
+/// Increase of the weight of a distance with the distance, in 1/m. Among places with equal mean
+/// distance, the most centred place then costs least.
 const CENTRING: f64 = 2.0;
 
-/// Weight of a depth below the margin against a distance outside of a body.
+/// Weight of a depth below [`MARGIN`] over the weight of a distance outside a body.
 const DEPTH_WEIGHT: f64 = 50.0;
 
-/// Fraction of a garment's height that is its top, and the weight of a distance there.
+/// Fraction of a garment's height that counts as its top.
 const TOP: f64 = 0.1;
+/// Weight of a distance at the top of a garment.
 const TOP_WEIGHT: f64 = 10.0;
 
-/// Step of the heights that are tried, in m, and the last step of the search around the best.
+/// Step of the heights that are tried, in m.
 const STEP: f64 = 0.04;
+/// Step at which the search near the best place ends, in m.
 const STEP_LAST: f64 = 0.004;
 
-/// Places to the back and to the front that are tried at each height, in steps.
+/// Shifts to the back and to the front that are tried at each height, in steps of [`STEP`].
 const ASIDE: [f64; 7] = [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5];
 
-/// Way down on which a garment that is worn at the waist comes to where the body is too wide for it,
-/// in m.
+/// A waist position holds if the garment no longer fits this far below it, in m.
 const SLIDE: f64 = 0.12;
 
-/// Distance from bodies that all particles of a garment have at a place that is advised, in m, and
-/// distance beyond which those are that the search around it need not look at.
+/// Least distance of a garment from every body at an advised place, in m.
 pub(crate) const CLEAR: f64 = 0.002;
+/// Particles farther from the bodies than this are skipped in the local search, in m.
 const NEAR: f64 = 0.12;
 
-/// Number of the best places around which a search begins where none is clear of the bodies: of all
-/// heights, and of one.
+/// Number of the best places of all heights from which a local search begins if none is clear of
+/// the bodies.
 const CLOSE: usize = 4;
+/// Number of the best places of one height from which a local search begins.
 const CLOSE_AT_HEIGHT: usize = 2;
 
-/// Ways up and down, to the front and to the back, and to the sides by which a place that is advised is
-/// changed where surfaces cross, in m.
+/// Distances by which an advised place is shifted along each axis, in m, if surfaces cross there.
 const NUDGES: [f64; 5] = [0.005, 0.01, 0.015, 0.02, 0.03];
 
-/// Weight of the cost of a place where a garment has to stretch.
+/// Factor on the cost of a place where the garment has to stretch.
 const STRETCHED: f64 = 1.5;
 
-/// Bodies without floors.
+/// Bodies that a garment can be worn on: all but floors.
 pub(crate) struct Solids<'a> {
     bodies: Vec<&'a Body>,
     outlines: Vec<Triangulation>,
@@ -93,37 +96,41 @@ pub(crate) struct Solids<'a> {
     high: [f64; 3],
 }
 
-/// Place of a garment against its bodies.
+/// Place of a garment relative to the bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum GarmentPlace {
+    /// The garment goes round a body.
     About,
+    /// The garment goes round the feet of a figure.
     Feet,
+    /// A `fraction` of the particles is inside a body.
     Inside { fraction: f64 },
+    /// The garment goes round a body at no more than a `fraction` of its heights.
     Beside { fraction: f64 },
 }
 
 impl<'a> Solids<'a> {
-    /// Returns the solid ones of some bodies, if there are some.
+    /// Returns those of `bodies` that are no floors, or `None` if all are floors.
     pub(crate) fn new(bodies: impl Iterator<Item = &'a Body>) -> Option<Self> {
         let solid = bodies.filter(|body| !matches!(body.shape, Shape::Plane));
-        let both = solid.filter_map(|body| Some((body, body.triangulate().ok()?)));
-        let (bodies, outlines): (Vec<_>, Vec<_>) = both.unzip();
-        let vertices = || outlines.iter().flat_map(|outline: &Triangulation| &outline.vertices);
-        let [low, high] = extent(vertices());
+        let outlined = solid.filter_map(|body| Some((body, body.triangulate().ok()?)));
+        let (bodies, outlines): (Vec<_>, Vec<Triangulation>) = outlined.unzip();
+        let [low, high] = extent(outlines.iter().flat_map(|outline| &outline.vertices));
         (!bodies.is_empty()).then_some(Self { bodies, outlines, low, high })
     }
 
-    /// Returns the signed distance of a point from the nearest body, in m.
+    /// Returns the signed distance of `point` from the nearest body, in m.
     pub(crate) fn distance(&self, point: [f64; 3]) -> f64 {
         let distances = self.bodies.iter().filter_map(|body| body.signed_distance(point).ok());
         distances.map(|near| near.distance).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the fraction of the heights of points at which their outline goes round a body.
+    /// Returns the fraction of [`HEIGHTS`] at which the horizontal outline of `points` goes round a
+    /// part of a body.
     fn fraction_around(&self, points: &[[f64; 3]]) -> f64 {
         let [low, high] = extent(points.iter());
         let band = (high[1] - low[1]) / HEIGHTS as f64;
-        let is_round = |k: &usize| {
+        let around = (0..HEIGHTS).filter(|k| {
             let height = low[1] + (*k as f64 + 0.5) * band;
             let plane = SectionPlane::horizontal(height);
             let near = points.iter().filter(|point| (point[1] - height).abs() <= band);
@@ -133,40 +140,44 @@ impl<'a> Solids<'a> {
                 let mut cuts = body.triangles.iter().flat_map(|t| plane.cuts(corners(t)));
                 cuts.any(|point| encloses(&outline, point))
             })
-        };
-        (0..HEIGHTS).filter(is_round).count() as f64 / HEIGHTS as f64
+        });
+        around.count() as f64 / HEIGHTS as f64
     }
 
-    /// Returns the fraction of points that are inside a body.
+    /// Returns the fraction of `points` that are inside a body.
     fn fraction_inside(&self, points: &[[f64; 3]]) -> f64 {
         let inside = points.iter().filter(|&&point| self.distance(point) < 0.0).count();
         inside as f64 / points.len().max(1) as f64
     }
 
-    /// Returns the place of a garment with particles at some points.
-    fn place(&self, points: &[[f64; 3]]) -> Place {
+    /// Returns the place of a garment whose particles are at `points`.
+    fn place(&self, points: &[[f64; 3]]) -> GarmentPlace {
         let [low, high] = extent(points.iter());
         let width = (high[0] - low[0]).max(high[2] - low[2]);
-        let [figure, own] = [self.high[1] - self.low[1], high[1] - low[1]];
-        if own < FLAT * width {
-            return Place::About;
+        let [figure, garment] = [self.high[1] - self.low[1], high[1] - low[1]];
+        if garment < FLAT * width {
+            return GarmentPlace::About;
         }
         let around = self.fraction_around(points);
         let inside = self.fraction_inside(points);
         let is_figure = figure > (self.high[0] - self.low[0]).max(self.high[2] - self.low[2]);
-        match () {
-            () if around < AROUND_MIN => Place::Beside { fraction: around },
-            () if inside > INSIDE_MAX => Place::Inside { fraction: inside },
-            () if is_figure && own > TALL * figure && high[1] < self.low[1] + FEET * figure => {
-                Place::Feet
-            }
-            () => Place::About,
+        let is_at_feet = garment > TALL * figure && high[1] < self.low[1] + FEET * figure;
+
+        if around < AROUND_MIN {
+            GarmentPlace::Beside { fraction: around }
+        } else if inside > INSIDE_MAX {
+            GarmentPlace::Inside { fraction: inside }
+        } else if is_figure && is_at_feet {
+            GarmentPlace::Feet
+        } else {
+            GarmentPlace::About
         }
     }
 
-    /// Returns the shift, in m, that brings a garment with particles at some points about a body,
-    /// if there is one: where it holds at the waist, if it is worn there by its girths, or else the
-    /// nearest place at which it fits and is clear of bodies.
+    /// Returns the shift, in m, that brings a garment with particles at `points` about a body, or
+    /// `None` if no place was found. A garment that `girths` shows to be worn at the waist comes to
+    /// the place where it holds there. Any other garment comes to the nearest place at which it
+    /// fits and is clear of bodies.
     pub(crate) fn shift(
         &self,
         points: &[[f64; 3]],
@@ -181,8 +192,8 @@ impl<'a> Solids<'a> {
         place.map(|place| place.map(|x| (1e3 * x).round() / 1e3))
     }
 
-    /// Returns the shifts, in m, to a height, from the foot of the bodies to their top, and there to
-    /// the front and to the back.
+    /// Returns the shifts of `points`, in m, that are tried: for each height from the foot of the
+    /// bodies to their top, the shifts to the back and to the front.
     fn places(&self, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 7]> {
         let [low, high] = extent(points.iter());
         let middle = [0, 1, 2].map(|k| 0.5 * (self.low[k] + self.high[k] - low[k] - high[k]));
@@ -192,14 +203,16 @@ impl<'a> Solids<'a> {
         heights.map(|y| ASIDE.map(|part| [middle[0], y, middle[2] + part * STEP])).collect()
     }
 
-    /// Returns the shift, in m, to the lowest place at which a garment does not slide down: where it
-    /// goes round the body without a stretch, or else with one.
+    /// Returns the shift of `points`, in m, to the lowest place at which the garment of `girths`
+    /// does not slide down. PlaceReport where the garment goes round the body without a stretch come
+    /// first.
     fn place_at_waist(&self, points: &[[f64; 3]], girths: &Girths<'_>) -> Option<[f64; 3]> {
         let places = self.places(points);
-        let fits: Vec<Fit> = places.iter().map(|own| girths.fit(own[own.len() / 2])).collect();
+        let fits: Vec<Fit> =
+            places.iter().map(|shifts| girths.fit(shifts[shifts.len() / 2])).collect();
         [Fit::Wide, Fit::Stretched].into_iter().find_map(|wanted| {
-            let held = places.iter().zip(&fits).filter(|(_, fit)| **fit == wanted);
-            let mut held = held.filter(|(places, _)| {
+            let fitting = places.iter().zip(&fits).filter(|(_, fit)| **fit == wanted);
+            let mut held = fitting.filter(|(places, _)| {
                 let middle = places[places.len() / 2];
                 let lower = girths.fit([middle[0], middle[1] - SLIDE, middle[2]]);
                 lower == Fit::Narrow || (lower == Fit::Stretched && wanted == Fit::Wide)
@@ -208,12 +221,12 @@ impl<'a> Solids<'a> {
         })
     }
 
-    /// Returns a shift, in m, among some to one height or near them, at which points are clear of the
-    /// bodies.
+    /// Returns one of the shifts `places` to one height, in m, or a shift near them, at which
+    /// `points` are clear of the bodies.
     fn clear_place(&self, points: &[[f64; 3]], places: &[[f64; 3]]) -> Option<[f64; 3]> {
         let samples = samples(points, SAMPLES_COARSE);
-        let costed = places.iter().map(|&place| (self.cost(&samples, place), place));
-        let mut costed: Vec<(f64, [f64; 3])> = costed.collect();
+        let mut costed: Vec<(f64, [f64; 3])> =
+            places.iter().map(|&place| (self.cost(&samples, place), place)).collect();
         costed.sort_by(|a, b| a.0.total_cmp(&b.0));
         let all = costed.iter().map(|(_, place)| *place);
         if let Some(place) = all.clone().find(|place| self.is_free(points, *place)) {
@@ -222,69 +235,71 @@ impl<'a> Solids<'a> {
         self.close_place(points, all.take(CLOSE_AT_HEIGHT))
     }
 
-    /// Returns a shift, in m, near some others at which points are clear of the bodies and go round one:
-    /// a close garment is clear of the body at one place only.
+    /// Returns a shift, in m, near one of the shifts `places` at which `points` are clear of the
+    /// bodies and go round one. A close garment is clear of the body at one place only.
     fn close_place(
         &self,
         points: &[[f64; 3]],
         places: impl Iterator<Item = [f64; 3]>,
     ) -> Option<[f64; 3]> {
         let search = Search { axes: &[0, 1, 2], clear: false };
-        let mut near = places.map(|place| self.refine(points, place, search));
-        near.find(|place| self.is_free(points, *place))
+        let mut refined = places.map(|place| self.refine(points, place, search));
+        refined.find(|place| self.is_free(points, *place))
     }
 
-    /// Returns the shift, in m, to the place at which a garment is nearest to the bodies, fits, and
-    /// is clear of them.
+    /// Returns the shift, in m, to the place at which `points` are nearest to the bodies, are clear
+    /// of them, and fit by `girths`.
     fn place_near(&self, points: &[[f64; 3]], girths: Option<&Girths<'_>>) -> Option<[f64; 3]> {
         let coarse = samples(points, SAMPLES_COARSE);
         let places = self.places(points).into_iter().flatten();
         let mut costed: Vec<(f64, [f64; 3])> =
             places.map(|shift| (self.cost(&coarse, shift), shift)).collect();
         costed.sort_by(|a, b| a.0.total_cmp(&b.0));
+
+        // Costs rise along the list, so the search ends where even a wide fit could not beat the
+        // best place.
         let mut best: Option<Candidate> = None;
         for &(cost, shift) in &costed {
-            let own = Candidate { fit: Fit::Wide, cost, shift };
-            if best.is_some_and(|best| best.compare(&own).is_lt()) {
+            let candidate = Candidate { fit: Fit::Wide, cost, shift };
+            if best.is_some_and(|best| best.compare(&candidate).is_lt()) {
                 break;
             }
             if self.is_free(points, shift) {
                 let fit = girths.map_or(Fit::Wide, |girths| girths.fit(shift));
-                let own = Candidate { fit, ..own };
-                if best.is_none_or(|best| own.compare(&best).is_lt()) {
-                    best = Some(own);
+                let candidate = Candidate { fit, ..candidate };
+                if best.is_none_or(|best| candidate.compare(&best).is_lt()) {
+                    best = Some(candidate);
                 }
             }
         }
+
         let near = costed.iter().take(CLOSE).map(|(_, shift)| *shift);
         best.map(|best| best.shift).or_else(|| self.close_place(points, near))
     }
 
-    /// Returns whether points are clear of the bodies and go round one where they are moved by a shift,
-    /// in m.
+    /// Returns whether `points` moved by `shift`, in m, are clear of the bodies and go round one.
     fn is_free(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
         self.is_clear(points, shift) && self.is_around(points, shift)
     }
 
-    /// Returns whether all points are clear of the bodies where they are moved by a shift, in m.
+    /// Returns whether all `points` moved by `shift`, in m, are clear of the bodies.
     fn is_clear(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
-        let moved = |point: &[f64; 3]| [0, 1, 2].map(|k| point[k] + shift[k]);
-        points.iter().all(|point| self.distance(moved(point)) > CLEAR)
+        points.iter().all(|point| self.distance(moved(point, shift)) > CLEAR)
     }
 
-    /// Returns whether points go round a body where they are moved by a shift, in m.
+    /// Returns whether `points` moved by `shift`, in m, go round a body.
     fn is_around(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
-        let moved = |point: &[f64; 3]| [0, 1, 2].map(|k| point[k] + shift[k]);
-        self.fraction_around(&points.iter().map(moved).collect::<Vec<_>>()) >= AROUND_MIN
+        let moved: Vec<[f64; 3]> = points.iter().map(|point| moved(point, shift)).collect();
+        self.fraction_around(&moved) >= AROUND_MIN
     }
 
-    /// Returns how far a garment with particles at some points is from the bodies where it is moved
-    /// by a shift, in m.
+    /// Returns the cost of a garment with particles at `points` that is moved by `shift`: its
+    /// weighted mean distance from the bodies, in m.
     fn cost(&self, points: &[[f64; 3]], shift: [f64; 3]) -> f64 {
         let [low, high] = extent(points.iter());
         let top = high[1] - TOP * (high[1] - low[1]);
         let costs = points.iter().map(|point| {
-            let distance = self.distance([0, 1, 2].map(|k| point[k] + shift[k]));
+            let distance = self.distance(moved(point, shift));
             let weight = if point[1] > top { TOP_WEIGHT } else { 1.0 };
             let depth = (MARGIN - distance).max(0.0);
             weight * distance.max(0.0) * (1.0 + CENTRING * distance) + DEPTH_WEIGHT * depth
@@ -292,26 +307,27 @@ impl<'a> Solids<'a> {
         costs.sum::<f64>() / points.len() as f64
     }
 
-    /// Returns the shift near another, in m, at which points are nearest to the bodies.
+    /// Returns the shift near `start`, in m, at which `points` are nearest to the bodies: a pattern
+    /// search that halves its step where no step lowers the cost.
     fn refine(&self, points: &[[f64; 3]], start: [f64; 3], search: Search<'_>) -> [f64; 3] {
         let samples = samples(points, SAMPLES);
-        let at_start =
-            |point: &&[f64; 3]| self.distance([0, 1, 2].map(|k| point[k] + start[k])) < NEAR;
-        let near: Vec<[f64; 3]> = points.iter().filter(at_start).copied().collect();
+        let near = points.iter().filter(|point| self.distance(moved(point, start)) < NEAR);
+        let near: Vec<[f64; 3]> = near.copied().collect();
+
         let (mut best, mut least) = (start, self.cost(&samples, start));
         let mut step = 0.5 * STEP;
         while step > STEP_LAST {
-            let mut moved = false;
+            let mut improved = false;
             for (axis, sign) in search.axes.iter().flat_map(|&k| [(k, -1.0), (k, 1.0)]) {
                 let mut shift = best;
                 shift[axis] += sign * step;
                 let cost = self.cost(&samples, shift);
                 let is_here = (0..3).all(|k| (shift[k] - start[k]).abs() <= 0.5 * NEAR);
                 if cost < least && is_here && (!search.clear || self.is_clear(&near, shift)) {
-                    (best, least, moved) = (shift, cost, true);
+                    (best, least, improved) = (shift, cost, true);
                 }
             }
-            if !moved {
+            if !improved {
                 step *= 0.5;
             }
         }
@@ -319,16 +335,16 @@ impl<'a> Solids<'a> {
     }
 }
 
-/// Search for the best place near another.
+/// Settings of the search for the best place near another one.
 #[derive(Clone, Copy)]
 struct Search<'a> {
     /// Axes along which a garment is moved.
     axes: &'a [usize],
-    /// Whether it stays clear of the bodies where it is so at the start of the search.
+    /// Whether particles that start near the bodies stay clear of them.
     clear: bool,
 }
 
-/// Place of a garment that is looked at.
+/// Place that is compared with others.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     fit: Fit,
@@ -339,120 +355,145 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Compares two places, the better one first.
+    /// Compares this place with `other`. The better place is less.
     fn compare(&self, other: &Self) -> Ordering {
-        let rank = |own: &Self| match own.fit {
-            Fit::Wide => (false, own.cost),
-            Fit::Stretched => (false, STRETCHED * own.cost),
-            Fit::Narrow => (true, own.cost),
-        };
-        let ((narrow, cost), (other_narrow, other_cost)) = (rank(self), rank(other));
+        let ((narrow, cost), (other_narrow, other_cost)) = (self.rank(), other.rank());
         narrow.cmp(&other_narrow).then(cost.total_cmp(&other_cost))
+    }
+
+    /// Returns whether the garment is too narrow at this place, and the weighted cost, in m.
+    fn rank(&self) -> (bool, f64) {
+        match self.fit {
+            Fit::Wide => (false, self.cost),
+            Fit::Stretched => (false, STRETCHED * self.cost),
+            Fit::Narrow => (true, self.cost),
+        }
     }
 }
 
-/// What is said of the places of garments.
+/// Results of the check of the places of all garments.
 #[derive(Default)]
-pub(crate) struct Places {
-    /// Notes on those about the feet.
+pub(crate) struct PlaceReport {
+    /// Notes on garments about the feet of a figure.
     pub(crate) notes: Vec<String>,
-    /// Whether one is wrong, and its garment has got another.
+    /// Whether a garment is at a wrong place for which another place is advised.
     pub(crate) advised: bool,
 }
 
-/// Checks the places of the garments of a scene.
-pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Places {
-    let mut places = Places::default();
+/// Checks the places of the garments of `scene`. Garments that pins hold need no body. A garment at
+/// a wrong place is a mistake with the advised place as its remedy.
+pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> PlaceReport {
+    let mut report = PlaceReport::default();
     let Some(solids) = Solids::new(scene.bodies.iter().map(|moving| &moving.body)) else {
-        return places;
+        return report;
     };
     for (number, garment) in scene.garments.iter().enumerate() {
-        // What is held needs no body.
-        let held = |particle: &usize| garment.particles.contains(particle);
-        if scene.pins.iter().any(|pin| pin.particles.iter().any(held)) {
+        if is_held(scene, garment) {
             continue;
         }
         let points = points(scene, garment);
         let place = solids.place(&points);
-        if place == Place::About || (matches!(place, Place::Inside { .. }) && grows(scene)) {
+        if place == GarmentPlace::About
+            || (matches!(place, GarmentPlace::Inside { .. }) && grows(scene))
+        {
             continue;
         }
+
         let fault = describe(&garment.name, place, &points, &solids);
         let girths = Girths::new(scene, number);
-        let shift = solids.shift(&points, Some(&girths)).map(|shift| apart(scene, garment, shift));
+        let shift =
+            solids.shift(&points, Some(&girths)).map(|shift| free_shift(scene, garment, shift));
         let remedy = PlaceRemedy::new(checker, number, shift);
+
         match place {
-            Place::Feet => places.notes.push(format!("{fault}; {}", remedy.help)),
+            GarmentPlace::Feet => report.notes.push(format!("{fault}; {}", remedy.help)),
             _ => {
                 let key = format!("garment[{number}].pattern");
                 let mistake = checker.fail(&key, fault, &remedy.help);
                 remedy.attach(checker, mistake, number);
-                places.advised |= shift.is_some();
+                report.advised |= shift.is_some();
             }
         }
     }
-    places
+    report
 }
 
-/// Returns whether bodies grow at the start.
+/// Returns whether the bodies of `scene` grow at the start.
 fn grows(scene: &Scene) -> bool {
     scene.contact.inflation.is_some()
 }
 
-fn points(scene: &Scene, garment: &Garment) -> Vec<[f64; 3]> {
-    let place = |particle| [0, 1, 2].map(|axis| scene.start.positions[3 * particle + axis]);
-    garment.particles.clone().map(place).collect()
+/// Returns whether pins hold particles of `garment`.
+pub(super) fn is_held(scene: &Scene, garment: &Garment) -> bool {
+    let mut pinned = scene.pins.iter().flat_map(|pin| &pin.particles);
+    pinned.any(|particle| garment.particles.contains(particle))
 }
 
-/// Returns the place next to a shift of a garment, in m, at which it crosses nothing, or the same if there
-/// is none: fingers can be between the particles of a coarse panel.
-fn apart(scene: &Scene, garment: &Garment, shift: [f64; 3]) -> [f64; 3] {
+/// Returns the positions of the particles of `garment` at the start, in m.
+fn points(scene: &Scene, garment: &Garment) -> Vec<[f64; 3]> {
+    scene.start.positions.as_chunks::<3>().0[garment.particles.clone()].to_vec()
+}
+
+/// Returns the shift of `garment` nearest to `shift`, in m, at which the garment crosses nothing,
+/// or `shift` if there is none. A place that is clear at all particles can still be crossed, since
+/// fingers fit between the particles of a coarse panel.
+fn free_shift(scene: &Scene, garment: &Garment, shift: [f64; 3]) -> [f64; 3] {
     let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(scene).ok()).flatten();
     let Some(StartSurfaces { mut contact, .. }) = surfaces else { return shift };
-    let own = 3 * garment.particles.start..3 * garment.particles.end;
-    let mut crosses_nothing = |shift: &[f64; 3]| {
-        let mut positions = scene.start.positions.clone();
-        let places = positions[own.clone()].as_chunks_mut::<3>().0;
-        places
-            .iter_mut()
-            .for_each(|place| *place = [0, 1, 2].map(|axis| place[axis] + shift[axis]));
-        contact.intersections(&positions).is_ok_and(<[_]>::is_empty)
-    };
-    let ways = NUDGES.iter().flat_map(|way| [1, 2, 0].map(|axis| (axis, way)));
-    let nudged = ways.flat_map(|(axis, way)| {
-        [*way, -way].map(|way| {
+
+    // Small distances come first, and of each distance the vertical axis.
+    let axes = NUDGES.iter().flat_map(|nudge| [1, 2, 0].map(|axis| (axis, nudge)));
+    let nudged = axes.flat_map(|(axis, nudge)| {
+        [*nudge, -nudge].map(|distance| {
             let mut nudged = shift;
-            nudged[axis] += way;
+            nudged[axis] += distance;
             nudged
         })
     });
-    std::iter::once(shift).chain(nudged).find(&mut crosses_nothing).unwrap_or(shift)
+
+    let mut shifts = std::iter::once(shift).chain(nudged);
+    let free = shifts.find(|shift| {
+        let mut positions = scene.start.positions.clone();
+        for point in &mut positions.as_chunks_mut::<3>().0[garment.particles.clone()] {
+            *point = moved(point, *shift);
+        }
+        contact.intersections(&positions).is_ok_and(<[_]>::is_empty)
+    });
+    free.unwrap_or(shift)
 }
 
-/// Describes where a garment starts.
-fn describe(garment: &str, place: Place, points: &[[f64; 3]], solids: &Solids<'_>) -> String {
+/// Describes where `garment`, with its particles at `points`, starts relative to `solids`.
+fn describe(
+    garment: &str,
+    place: GarmentPlace,
+    points: &[[f64; 3]],
+    solids: &Solids<'_>,
+) -> String {
     let [low, high] = extent(points.iter());
     let [bottom, top] = [solids.low[1], solids.high[1]];
     let heights = format!(
         "between {:.2} and {:.2} m, and the body is between {bottom:.2} and {top:.2} m",
         low[1], high[1]
     );
+
     match place {
-        Place::Feet | Place::About => {
+        GarmentPlace::Feet | GarmentPlace::About => {
             format!("\"{garment}\" starts about the feet of the body: it is {heights}")
         }
-        Place::Inside { fraction } => {
+        GarmentPlace::Inside { fraction } => {
             let percent = match 100.0 * fraction {
                 percent if percent < 1.0 => "Less than 1".to_owned(),
                 percent => format!("{percent:.0}"),
             };
             format!("{percent} % of \"{garment}\" starts inside the body: it is {heights}")
         }
-        Place::Beside { fraction } => {
-            let side = match () {
-                () if high[1] < bottom + FEET * (top - bottom) => "at the feet of",
-                () if low[1] > top => "above",
-                () => "beside",
+        GarmentPlace::Beside { fraction } => {
+            let side = if high[1] < bottom + FEET * (top - bottom) {
+                "at the feet of"
+            } else if low[1] > top {
+                "above"
+            } else {
+                "beside"
             };
             format!(
                 "\"{garment}\" starts {side} the body, not about it: it goes round it at {:.0} % of its heights; it is \
@@ -463,14 +504,16 @@ fn describe(garment: &str, place: Place, points: &[[f64; 3]], solids: &Solids<'_
     }
 }
 
-/// Remedy of a place: in words, and as the centre of the garment in TOML, if one was found.
+/// Remedy for a wrong place of a garment, in words and as the TOML value of its `center`, if a
+/// place was found.
 pub(crate) struct PlaceRemedy {
     pub(crate) help: String,
     center: Option<String>,
 }
 
 impl PlaceRemedy {
-    /// Returns the remedy for a garment with a number, by the shift to a place that was found, in m.
+    /// Returns the remedy for the garment with the number `garment`. `shift` leads to the place
+    /// that was found, in m.
     pub(crate) fn new(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 3]>) -> Self {
         let (Some(shift), Some(entry)) = (shift, checker.file.garment.get(garment)) else {
             let help = "no place about the body was found: does the pattern fit it? turn or move its panels";
@@ -485,7 +528,8 @@ impl PlaceRemedy {
         Self { help, center: Some(center) }
     }
 
-    /// Gives a mistake, by its index, the change that makes the remedy.
+    /// Attaches the new `center` of the garment with the number `garment` to the mistake with the
+    /// index `mistake`.
     pub(crate) fn attach(&self, checker: &mut Checker<'_>, mistake: usize, garment: usize) {
         if let Some(center) = &self.center {
             checker.remedy(mistake, &format!("garment[{garment}].center"), Some(center));
@@ -493,12 +537,17 @@ impl PlaceRemedy {
     }
 }
 
-/// Returns about so many of many points, evenly.
+/// Returns `point` moved by `shift`.
+pub(super) fn moved(point: &[f64; 3], shift: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| point[k] + shift[k])
+}
+
+/// Returns about `count` of `points`, evenly spaced in the list.
 fn samples(points: &[[f64; 3]], count: usize) -> Vec<[f64; 3]> {
     points.iter().step_by((points.len() / count).max(1)).copied().collect()
 }
 
-/// Returns the low and the high corner of the bounding box of points.
+/// Returns the low and the high corner of the bounding box of `points`.
 fn extent<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
     points.fold([[f64::MAX; 3], [f64::MIN; 3]], |[low, high], point| {
         [[0, 1, 2].map(|k| low[k].min(point[k])), [0, 1, 2].map(|k| high[k].max(point[k]))]

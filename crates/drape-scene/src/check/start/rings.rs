@@ -15,16 +15,16 @@ use drape_collide::equivalence_classes;
 use crate::scene::Scene;
 use drape_collide::section::{SectionPlane, between};
 
-/// Mean gradient of the height from which on a panel stands upright: with an axis within 30 degrees
-/// of the vertical.
+/// Least mean gradient of the height over a panel that stands upright: its axis is within 30
+/// degrees of the vertical.
 const UPRIGHT: f64 = 0.86;
 
 /// Closed line of cloth.
 #[derive(Debug, Clone)]
 pub(crate) struct Ring {
-    /// Edges of an opening, or panels of a cut.
+    /// Edges of an opening, or panels of a cut, each once, in order.
     pub(crate) parts: Vec<String>,
-    /// Seams that it goes across, by their names.
+    /// Names of the seams that the ring goes across, each once, in order.
     pub(crate) seams: Vec<String>,
     /// Index of a panel that it goes through.
     pub(crate) panel: usize,
@@ -36,7 +36,7 @@ pub(crate) struct Ring {
 }
 
 impl Ring {
-    /// Returns the ring moved by a shift, in m.
+    /// Returns the ring moved by `shift`, in m.
     pub(crate) fn moved(&self, shift: [f64; 3]) -> Self {
         let moved = |point: &[f64; 3]| [0, 1, 2].map(|axis| point[axis] + shift[axis]);
         let points = self.points.iter().map(moved).collect();
@@ -71,7 +71,7 @@ struct Cut {
 }
 
 impl<'a> RingFinder<'a> {
-    /// Prepares the cloth of a scene.
+    /// Prepares the cloth of `scene` to be cut.
     pub(crate) fn new(scene: &'a Scene) -> Self {
         let mut seams = vec![Vec::new(); scene.cloth.particles()];
         let all = scene.sewing.iter().flat_map(|sewing| &sewing.seams);
@@ -89,14 +89,14 @@ impl<'a> RingFinder<'a> {
         }
         let mut triangles = vec![Vec::new(); scene.panels.len()];
         for triangle in scene.cloth.triangles() {
-            let panel = scene.panels.partition_point(|own| own.first <= triangle[0] as usize);
+            let panel = scene.panels.partition_point(|panel| panel.first <= triangle[0] as usize);
             triangles[panel.saturating_sub(1)].push(*triangle);
         }
-        let upright = triangles.iter().map(|own| stands_upright(scene, own)).collect();
+        let upright = triangles.iter().map(|triangles| stands_upright(scene, triangles)).collect();
         Self { scene, seams, triangles, upright }
     }
 
-    /// Returns the rings at a height, in m, of the panels of a garment.
+    /// Returns the rings at `height`, in m, of the `panels` of one garment.
     pub(crate) fn at_height(&self, panels: &[usize], height: f64) -> Vec<Ring> {
         let cuts: Vec<Cut> = panels.iter().flat_map(|&panel| self.cuts(panel, height)).collect();
         // Cuts that end at each seam.
@@ -110,6 +110,8 @@ impl<'a> RingFinder<'a> {
                 }
             }
         }
+
+        // Two cuts that end at opposite sides of a seam are sewn into one line.
         let mut pairs = Vec::new();
         let mut seams: Vec<(usize, usize)> = Vec::new();
         for (seam, joint) in &joints {
@@ -122,6 +124,7 @@ impl<'a> RingFinder<'a> {
                 _ => joint.iter().for_each(|&(cut, _)| is_open[cut] = true),
             }
         }
+
         let class = equivalence_classes(cuts.len(), &pairs);
         let mut rings: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         class
@@ -131,15 +134,13 @@ impl<'a> RingFinder<'a> {
         let is_girth = |cut: usize| !is_open[cut] && self.upright[cuts[cut].panel];
         let closed = rings.into_values().filter(|ring| ring.iter().all(|&cut| is_girth(cut)));
         let ring = |ring: Vec<usize>| Ring {
-            parts: ring
-                .iter()
-                .map(|&cut| self.scene.panels[cuts[cut].panel].name.clone())
-                .collect(),
-            seams: seams
-                .iter()
-                .filter(|(cut, _)| ring.contains(cut))
-                .map(|&(_, seam)| self.seam_name(seam))
-                .collect(),
+            parts: unique(ring.iter().map(|&cut| self.scene.panels[cuts[cut].panel].name.clone())),
+            seams: unique(
+                seams
+                    .iter()
+                    .filter(|(cut, _)| ring.contains(cut))
+                    .map(|&(_, seam)| self.seam_name(seam)),
+            ),
             panel: cuts[ring[0]].panel,
             girth: ring.iter().map(|&cut| cuts[cut].length).sum(),
             points: ring.iter().flat_map(|&cut| cuts[cut].points.iter().copied()).collect(),
@@ -148,7 +149,7 @@ impl<'a> RingFinder<'a> {
         closed.map(ring).collect()
     }
 
-    /// Returns the side of a seam that a side of a triangle is on.
+    /// Returns the side of a seam on which both ends `a` and `b` of a triangle's side lie.
     fn seam_of(&self, [a, b]: Side) -> Option<SeamSide> {
         let [a, b] = [a, b].map(|particle| &self.seams[particle as usize]);
         a.iter().find(|seam| b.contains(seam)).copied()
@@ -163,7 +164,7 @@ impl<'a> RingFinder<'a> {
         [0, 1, 2].map(|axis| self.scene.start.positions[3 * particle as usize + axis])
     }
 
-    /// Returns the connected cuts through a panel at a height.
+    /// Returns the connected cuts through `panel` at `height`, in m.
     fn cuts(&self, panel: usize, height: f64) -> Vec<Cut> {
         let coordinates = self.scene.cloth.coordinates();
         let depth = |particle: u32| self.place(particle)[1] - height;
@@ -182,7 +183,8 @@ impl<'a> RingFinder<'a> {
         for (number, side) in segments.iter().flatten().enumerate() {
             at_side.entry(*side).or_default().push(number as u32 / 2);
         }
-        let joined = at_side.values().filter_map(|own| <[u32; 2]>::try_from(&own[..]).ok());
+        let joined =
+            at_side.values().filter_map(|segments| <[u32; 2]>::try_from(&segments[..]).ok());
         let class = equivalence_classes(segments.len(), &joined.collect::<Vec<_>>());
         let part = |[a, b]: Side| depth(a) / (depth(a) - depth(b));
         let on_cloth = |side: Side| {
@@ -206,7 +208,7 @@ impl<'a> RingFinder<'a> {
     }
 }
 
-/// Returns whether a panel of some triangles stands upright.
+/// Returns whether the panel of `triangles` stands upright.
 fn stands_upright(scene: &Scene, triangles: &[[u32; 3]]) -> bool {
     let coordinates = scene.cloth.coordinates();
     let (mut sum, mut areas) = ([0.0; 2], 0.0);
@@ -222,6 +224,12 @@ fn stands_upright(scene: &Scene, triangles: &[[u32; 3]]) -> bool {
     sum[0].hypot(sum[1]) > UPRIGHT * areas
 }
 
+/// Returns `names` without repetitions, in the order of their first occurrence.
+fn unique(names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    names.filter(|name| seen.insert(name.clone())).collect()
+}
+
 /// Free edge of a panel.
 struct FreeEdge {
     name: String,
@@ -229,7 +237,7 @@ struct FreeEdge {
     particles: Vec<u32>,
 }
 
-/// Returns the openings of the garments of a scene.
+/// Returns the openings of the garments of `scene`.
 pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
     let finder = RingFinder::new(scene);
     let none = Vec::new();
@@ -238,16 +246,16 @@ pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
     let ends = |edge: &FreeEdge| {
         [edge.particles[0], edge.particles[edge.particles.len() - 1]].map(|p| class[p as usize])
     };
-    let mut left = free_edges(scene);
+    let mut remaining = free_edges(scene);
     let mut rings = Vec::new();
-    while !left.is_empty() {
-        let first = left.remove(0);
+    while !remaining.is_empty() {
+        let first = remaining.remove(0);
         let [start, mut end] = ends(&first);
         let mut row = vec![first];
         while end != start
-            && let Some(next) = left.iter().position(|edge| ends(edge).contains(&end))
+            && let Some(next) = remaining.iter().position(|edge| ends(edge).contains(&end))
         {
-            let mut edge = left.remove(next);
+            let mut edge = remaining.remove(next);
             let [one, other] = ends(&edge);
             if one == end {
                 end = other;
@@ -264,7 +272,7 @@ pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
     rings
 }
 
-/// Returns the ring of a closed row of edges.
+/// Returns the ring of `row`, a closed row of edges.
 fn opening(finder: &RingFinder<'_>, row: &[FreeEdge]) -> Option<Ring> {
     let scene = finder.scene;
     let ends = row.iter().flat_map(|edge| [edge.particles.first(), edge.particles.last()]);
@@ -280,8 +288,8 @@ fn opening(finder: &RingFinder<'_>, row: &[FreeEdge]) -> Option<Ring> {
     let points: Vec<[f64; 3]> =
         row.iter().flat_map(|edge| edge.particles.iter().map(place)).collect();
     Some(Ring {
-        parts: row.iter().map(|edge| edge.name.clone()).collect(),
-        seams: seams.into_iter().map(|seam| finder.seam_name(seam)).collect(),
+        parts: unique(row.iter().map(|edge| edge.name.clone())),
+        seams: unique(seams.into_iter().map(|seam| finder.seam_name(seam))),
         panel: row.first()?.panel,
         girth: row.iter().flat_map(|edge| edge.particles.windows(2).map(length)).sum(),
         plane: SectionPlane::through(&points)?,
@@ -289,7 +297,7 @@ fn opening(finder: &RingFinder<'_>, row: &[FreeEdge]) -> Option<Ring> {
     })
 }
 
-/// Returns the edges of panels whose particles between the ends are not sewn.
+/// Returns the edges of panels of `scene` whose particles between the ends are not sewn.
 fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
     let mut sewn = vec![false; scene.cloth.particles()];
     if let Some(sewing) = &scene.sewing {

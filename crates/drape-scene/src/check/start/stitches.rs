@@ -13,14 +13,16 @@ use crate::scene::seam::Seam;
 
 use super::placing::Solids;
 
-/// Depth in a body from which on a stitch leads through it, in m: cloth slides round less.
+/// Least depth in a body at which a stitch counts as leading through it, in m. Cloth slides round
+/// less.
 const DEPTH: f64 = 0.03;
 
-/// Fraction of the stitches of a seam that lead through a body, from which on it is told.
+/// Fraction of the stitches of a seam that lead through a body or a panel, above which the seam is
+/// reported.
 const PART: f64 = 0.2;
 
-/// Number of stitches through a panel that are told: an edge of a spacing or two, which is sewn at its
-/// ends, follows its neighbours.
+/// Least number of stitches through a panel that is reported. An edge of one or two spacings, which
+/// is sewn at its ends, follows its neighbours.
 const FEWEST: usize = 3;
 
 /// Number of points of a stitch that are looked at.
@@ -85,8 +87,8 @@ struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     fn new(scene: &Scene, panel: &'a Panel) -> Self {
         let particles = panel.particles();
-        let own = |triangle: &&[u32; 3]| particles.contains(&(triangle[0] as usize));
-        let triangles = scene.cloth.triangles().iter().filter(own);
+        let triangles = scene.cloth.triangles().iter();
+        let triangles = triangles.filter(|triangle| particles.contains(&(triangle[0] as usize)));
         let triangles: Vec<_> =
             triangles.map(|corners| corners.map(|corner| place(scene, corner))).collect();
         let bound = |start: f64, pick: fn(f64, f64) -> f64| {
