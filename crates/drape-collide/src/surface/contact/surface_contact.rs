@@ -467,6 +467,44 @@ impl SurfaceContact {
         self.growth.work = self.active.energy(self.stiffness) - before;
     }
 
+    /// Opens the seams at the `positions` of the free vertices, in m. `gaps` holds the gap at each
+    /// free vertex, in m: 0 where its seam is one point, infinite without a seam.
+    ///
+    /// The two sides of an open seam are two cloths. They repel each other below half of the gap,
+    /// and keep a tenth of the gap, or the usual distances where these are smaller.
+    ///
+    /// # Errors
+    /// Positions are not finite, or there are too many pairs.
+    ///
+    /// # Panics
+    /// There is not one gap for each free vertex.
+    pub fn open_seams(&mut self, gaps: &[f64], positions: &[f64]) -> Result<(), Error> {
+        assert_eq!(gaps.len(), self.surface.free_count(), "a gap for each free vertex");
+        self.open_seams.open(&self.surface);
+        self.set_seam_gaps(gaps);
+        self.summary_at(positions)?;
+        self.open_seams.limit(&self.surface, self.active.iter());
+        self.set_seam_gaps(gaps);
+        Ok(())
+    }
+
+    /// Sets the gaps of the open seams at the free vertices to `gaps`, in m, before a step is
+    /// opened. Gaps only become narrower. Nothing happens once the seams are closed.
+    pub fn set_seam_gaps(&mut self, gaps: &[f64]) {
+        let gaps = self.open_seams.gaps_of_classes(&self.surface, gaps);
+        if gaps != self.surface.separations.seam_gaps {
+            gaps.clone_into(&mut self.surface.separations.seam_gaps);
+            self.drop_pairs();
+        }
+    }
+
+    /// Closes the seams: from now on, primitives with vertices that seams join or tie are exempt
+    /// from contact with each other. The vertices must be at their sewn positions.
+    pub fn close_seams(&mut self) {
+        self.open_seams.close();
+        self.set_seam_gaps(&[]);
+    }
+
     /// Returns the fraction of its minimum separation from bodies that pinched cloth keeps:
     /// [`PinchPolicy::THINNED_FRACTION`] or 1.
     #[must_use]

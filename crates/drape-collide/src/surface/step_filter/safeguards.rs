@@ -31,8 +31,7 @@ mod tests {
         ContactDistances { activation_distance: 1e-3, min_separation: 1e-4 };
     const MARGIN: f64 = 4e-3;
 
-    /// Returns two parallel triangles of 0.1 m at the distance `apart`, the upper one moved to the side
-    /// by a third.
+    /// Two parallel triangles of 0.1 m so far apart, the upper one to the side by a third.
     fn triangles(apart: f64) -> (Surface, Vec<f64>) {
         let flat = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1], [0.03, 0.03], [0.13, 0.03], [0.03, 0.13]];
         let height = |k: usize| if k < 3 { 0.0 } else { apart };
@@ -51,20 +50,20 @@ mod tests {
         (surface.unwrap(), positions)
     }
 
-    /// Moves one corner of the upper triangle down by `drop` in each of `steps` steps without a new
-    /// detection. Returns its least height, and whether the triangles met.
+    /// What one corner of the upper triangle does that is told to go down by so much, in so many
+    /// steps without a new detection: the least height of it, and whether the triangles meet.
     ///
-    /// Pairs are detected with `margin`, but the filter takes them for pairs of `assumed_margin`.
+    /// The pairs are those of the margin, but the filter is told another.
     fn drop_corner(
         safeguards: Safeguards,
         (apart, drop, steps): (f64, f64, usize),
-        (margin, assumed_margin): (f64, f64),
+        (margin, told): (f64, f64),
     ) -> [(f64, bool); 2] {
         [false, true].map(|scalar| {
             let (surface, mut positions) = triangles(apart);
             let mut detector = Detector::default();
             let mut pairs = detector.detect(&surface, &positions, margin).unwrap().clone();
-            pairs.margin = assumed_margin;
+            pairs.margin = told;
             let mut filter = CcdFilter::default();
             filter.safeguards = safeguards;
             let mut met = false;
