@@ -50,7 +50,6 @@ impl State {
     /// Returns each [`Memory`], for hashes and comparisons, in a fixed order. Memories of rims come
     /// last. Places without a connector, such as the end of a row, have the memory of a connector
     /// that has never been deformed.
-
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
         let Self { grid, rim, .. } = self;
         let sets = grid.traction.iter().chain(&grid.shear).chain(&grid.bending);

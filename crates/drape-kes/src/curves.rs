@@ -23,6 +23,7 @@
 pub(crate) mod branch;
 pub(crate) mod curve;
 pub(crate) mod evaluation;
+pub(crate) mod extent;
 pub(crate) mod loop_values;
 pub(crate) mod mean;
 pub(crate) mod preparation;

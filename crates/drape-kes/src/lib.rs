@@ -34,8 +34,9 @@ mod tables;
 mod exports;
 
 pub use curves::branch::{Branch, reversals};
-pub use curves::curve::{Curve, Extent};
+pub use curves::curve::Curve;
 pub use curves::evaluation::{CurveValue, EvaluationPoints};
+pub use curves::extent::Extent;
 pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
 pub use curves::preparation::{Preparation, Rupture};
 pub use curves::steady::SteadyPath;

@@ -27,15 +27,15 @@ impl Material {
         let friction = "coefficient of friction of the surface".into();
         let pressure = "under 49 Pa (0.5 gf/cm²)".into();
         let mut rows = vec![
-            row("Mass", "", number(1e3 * self.density), "g/m²", "mass per area".into()),
-            row("Friction", "", number(self.surface_friction), "", friction),
-            row("Thickness", "", number(1e3 * self.thickness), "mm", pressure),
+            row(["Mass", ""], number(1e3 * self.density), "g/m²", "mass per area".into()),
+            row(["Friction", ""], number(self.surface_friction), "", friction),
+            row(["Thickness", ""], number(1e3 * self.thickness), "mm", pressure),
         ];
 
         for (index, direction) in ["length", "width"].into_iter().enumerate() {
             let rigidity = number(DYN_CENTIMETRES * self.bending[index]);
             let meaning = "KES B of the law: moment per width over curvature, from 0.5 to 1.5 1/cm";
-            rows.push(row("Bend", direction, rigidity, "dyn·cm", meaning.into()));
+            rows.push(row(["Bend", direction], rigidity, "dyn·cm", meaning.into()));
         }
         for (index, direction) in ["length", "width"].into_iter().enumerate() {
             let stretch = self.stretch[index];
@@ -44,37 +44,32 @@ impl Material {
                  first stretching",
                 number(100.0 * stretch.strain)
             );
-            rows.push(row("Stretch", direction, number(stretch.stiffness), "N/m", meaning));
+            rows.push(row(["Stretch", direction], number(stretch.stiffness), "N/m", meaning));
         }
 
-        rows.push(row(
-            "Shear",
-            "",
-            String::new(),
-            "N/m",
-            format!(
+        rows.push(row(["Shear", ""], String::new(), "N/m", format!(
                 "left empty: the public description does not say which shear is meant; KES G of the law is {} N/m \
                  per rad, and a strip on the bias whose yarns do not stretch has {} N/m",
                 number(self.shear),
                 number(BIAS * self.shear)
-            ),
-        ));
+            )));
 
         for loss in &self.losses {
-            rows.push(row("lost", "", String::new(), "", one_line(loss)));
+            rows.push(row(["lost", ""], String::new(), "", one_line(loss)));
         }
         let source = format!(
             "{}, by drape {}; length is warp, width is weft",
             one_line(&self.name),
             env!("CARGO_PKG_VERSION")
         );
-        rows.push(row("fabric", "", String::new(), "", source));
+        rows.push(row(["fabric", ""], String::new(), "", source));
         table(&rows)
     }
 }
 
-/// Returns a row of the table: property, direction, value, unit and meaning.
-fn row(property: &str, direction: &str, value: String, unit: &str, meaning: String) -> [String; 5] {
+/// Returns a row of the table: `property` and direction, `value`, `unit` and `meaning`.
+fn row(property: [&str; 2], value: String, unit: &str, meaning: String) -> [String; 5] {
+    let [property, direction] = property;
     [property.into(), direction.into(), value, unit.into(), meaning]
 }
 

@@ -87,14 +87,23 @@ impl Material {
     fn u3m_values(&self) -> Vec<Value> {
         let load = rounded(self.stretch[0].load);
         let mut rows = vec![
-            row("mass per area", None, self.density, "kg/m²", ""),
-            row("thickness", None, self.thickness, "m", "under 49 Pa (0.5 gf/cm²)"),
-            row("surface friction", None, self.surface_friction, "", "coefficient of friction"),
+            row("mass per area", None, Quantity { value: self.density, unit: "kg/m²" }, ""),
+            row(
+                "thickness",
+                None,
+                Quantity { value: self.thickness, unit: "m" },
+                "under 49 Pa (0.5 gf/cm²)",
+            ),
+            row(
+                "surface friction",
+                None,
+                Quantity { value: self.surface_friction, unit: "" },
+                "coefficient of friction",
+            ),
             row(
                 "shear stiffness",
                 None,
-                self.shear,
-                "N/m per rad",
+                Quantity { value: self.shear, unit: "N/m per rad" },
                 "KES G of the law: shear force per width over angle, 0.5° to 2.5°",
             ),
         ];
@@ -106,26 +115,28 @@ impl Material {
             );
             let direction = Some(direction);
             rows.extend([
-                row("stretch", direction, stretch[index].stiffness, "N/m", &secant),
+                row(
+                    "stretch",
+                    direction,
+                    Quantity { value: stretch[index].stiffness, unit: "N/m" },
+                    &secant,
+                ),
                 row(
                     "strain",
                     direction,
-                    stretch[index].strain,
-                    "",
+                    Quantity { value: stretch[index].strain, unit: "" },
                     &format!("at {load} N/m, on the first stretching"),
                 ),
                 row(
                     "compression",
                     direction,
-                    compression[index],
-                    "N/m",
+                    Quantity { value: compression[index], unit: "N/m" },
                     "force per width over strain, from rest to a compression of 1 %",
                 ),
                 row(
                     "bending rigidity",
                     direction,
-                    bending[index],
-                    "N·m",
+                    Quantity { value: bending[index], unit: "N·m" },
                     "KES B of the law: moment per width over curvature, 50 to 150 1/m",
                 ),
             ]);
@@ -144,13 +155,19 @@ impl Material {
     }
 }
 
-/// Returns a number with its name, direction, unit and definition.
-fn row(name: &str, direction: Option<&str>, value: f64, unit: &str, definition: &str) -> Value {
+/// Number with its unit.
+struct Quantity<'a> {
+    value: f64,
+    unit: &'a str,
+}
+
+/// Returns `quantity` with its `name`, `direction` and `definition`.
+fn row(name: &str, direction: Option<&str>, quantity: Quantity<'_>, definition: &str) -> Value {
     json!({
         "name": name,
         "direction": direction,
-        "value": rounded(value),
-        "unit": unit,
+        "value": rounded(quantity.value),
+        "unit": quantity.unit,
         "definition": definition,
     })
 }

@@ -52,7 +52,6 @@ pub(crate) fn yarn_tangents(
 
 /// Returns the unit normal `$u \times v$` of a surface with the tangents `v` along the warp and `u`
 /// along the weft.
-
 pub(crate) fn surface_normal([v, u]: [Vector; 2]) -> Vector {
     let across = cross(u, v);
     let length = dot(across, across).sqrt();

@@ -39,7 +39,6 @@ impl Seam {
     pub const REST_ANGLE_MAX: f64 = 140.0 * std::f64::consts::PI / 180.0;
 
     /// Returns a seam of `pairs` with the default stiffness that is pressed open.
-
     #[must_use]
     pub fn new(pairs: Vec<[u32; 2]>) -> Self {
         let (ties, breaks) = (Vec::new(), Vec::new());

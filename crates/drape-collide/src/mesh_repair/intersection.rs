@@ -68,7 +68,6 @@ impl Bounds {
     }
 
     /// Returns the largest extent along an axis, in m.
-
     fn size(&self) -> f64 {
         (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max)
     }

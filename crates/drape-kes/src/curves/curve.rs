@@ -4,32 +4,10 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::curves::branch::{Branch, reversals};
+use crate::curves::extent::Extent;
 use crate::curves::preparation::Preparation;
 use crate::error::Error;
 use crate::test::{Direction, Test};
-
-/// Lowest and highest value of a column.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extent {
-    /// Lowest value.
-    pub low: f64,
-    /// Highest value.
-    pub high: f64,
-}
-
-impl Extent {
-    /// Returns the extent of `values`; from infinity to minus infinity for no value.
-    pub(crate) fn from_values(values: &[f64]) -> Self {
-        let empty = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
-        values.iter().fold(empty, |e, &v| Self { low: e.low.min(v), high: e.high.max(v) })
-    }
-
-    /// Returns the difference of `high` and `low`.
-    #[must_use]
-    pub fn span(self) -> f64 {
-        self.high - self.low
-    }
-}
 
 /// Point of a curve, in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]

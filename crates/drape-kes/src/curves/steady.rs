@@ -6,7 +6,7 @@
 //! \[BBBB72\].
 
 use crate::curves::branch::{REVERSAL_THRESHOLD, reversals_beyond};
-use crate::curves::curve::Extent;
+use crate::curves::extent::Extent;
 
 /// Part of the steps that go back above which the path is smoothed. With fewer backward steps the
 /// path is only made monotone.

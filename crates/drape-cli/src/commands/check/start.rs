@@ -84,7 +84,6 @@ fn is_png(figure: &Path) -> bool {
 
 /// Returns the faults that `mistakes` name in `scene`: seams, edges and panels. `triangles` are the
 /// corners of crossing triangles, in m.
-
 fn start_faults(
     scene: &Scene,
     mistakes: &Diagnostics,

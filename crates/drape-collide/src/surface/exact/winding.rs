@@ -23,7 +23,6 @@ pub(crate) fn encloses(surface: &Surface, group: u32, point: Vector, positions: 
 
 /// Returns the solid angle of the triangle `a`, `b`, `c` seen from the origin, in sr, with the sign
 /// of the triangle's orientation \[VOS83\].
-
 fn solid_angle([a, b, c]: [Vector; 3]) -> f64 {
     let [la, lb, lc] = [a, b, c].map(norm);
     let volume = dot(a, cross(b, c));

@@ -98,7 +98,7 @@ pub(super) fn read(paths: &[PathBuf], fabric: Option<&str>) -> Result<Vec<Tested
     let mut tested = Vec::new();
     let mut has_tables = false;
     for path in paths {
-        if sheets::is_fit_tables(path) {
+        if sheets::holds_tables(path) {
             has_tables = true;
             tested.extend(fit_tables(path, fabric)?);
         } else if is_laws_file(path)? {
