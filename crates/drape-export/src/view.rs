@@ -1,8 +1,8 @@
 //! View: runs as one page of HTML that needs nothing else.
 //!
-//! The page has three.js, the runs' frames (positions as 16-bit fractions of a box, fields as 8-bit
-//! fractions of a range, both deflated), and the viewer's script. It is for looking: the frames of the
-//! run have the exact numbers.
+//! The page contains three.js, the frames of the runs, and the viewer's script. Positions are
+//! 16-bit fractions of a box and fields are 8-bit fractions of a range, both deflated. The page
+//! shows rounded numbers. The frames of the run have the exact numbers.
 
 mod bits;
 mod element;
@@ -79,7 +79,7 @@ impl View {
     }
 }
 
-/// Returns text as HTML.
+/// Returns `text` as HTML.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

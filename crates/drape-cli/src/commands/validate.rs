@@ -52,7 +52,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
             bar.set_length(count);
             bar.inc(1);
         };
-        let outcome = Outcome::of(case, &told);
+        let outcome = Outcome::run(case, &told);
         bar.finish_and_clear();
         if !arguments.json {
             show(&outcome)?;

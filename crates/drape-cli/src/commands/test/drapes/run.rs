@@ -53,7 +53,7 @@ impl Specimens<'_> {
     /// Returns the number of specimens: of the fabric, of it without friction, at the ends of each open
     /// parameter, and that of the picture.
     fn count(&self) -> u64 {
-        let studies = 1 + Prediction::studies(self.fabric);
+        let studies = 1 + Prediction::study_count(self.fabric);
         self.request.starts * studies + u64::from(self.has_picture)
     }
 
@@ -79,7 +79,7 @@ impl Specimens<'_> {
         let sampling = Sampling { spacing: *spacing, starts: request.starts };
         let done = || bar.inc(1);
         let meter = &request.meter;
-        let prediction = Prediction::of(meter, fabric, sampling, &done).map_err(failed)?;
+        let prediction = Prediction::run(meter, fabric, sampling, &done).map_err(failed)?;
         let elastic = fabric.without_friction();
         let elastic = meter.study(&elastic, sampling, &done).map_err(failed)?;
         let shown = prediction.fitted.typical();
