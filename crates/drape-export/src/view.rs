@@ -44,8 +44,10 @@ impl View {
     /// # Errors
     /// A file of a run is not as it was written.
     pub fn new(runs: &[Named<'_>], size_max: usize) -> Result<View, Error> {
-        let own = size_max.saturating_sub(PAGE.len() + STYLE.len() + SCRIPT.len() + THREE.len());
-        let share = own / runs.len().max(1);
+        // Each run has an equal share of the bytes that the viewer itself leaves.
+        let remaining =
+            size_max.saturating_sub(PAGE.len() + STYLE.len() + SCRIPT.len() + THREE.len());
+        let share = remaining / runs.len().max(1);
         let palette = FabricPalette::of_runs(runs.iter().map(|run| run.recording));
         let scenes: Result<Vec<Scene>, Error> =
             runs.iter().map(|run| Scene::of_size(run, &palette, share)).collect();
@@ -64,6 +66,8 @@ impl View {
             ("data", fabrics + &data),
             ("script", SCRIPT.to_owned()),
         ];
+
+        // Each mark of the page, such as `{title}`, is replaced by its content.
         let mut html = String::new();
         let mut rest = PAGE;
         for (name, content) in &parts {

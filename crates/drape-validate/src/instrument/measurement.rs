@@ -31,7 +31,7 @@ pub struct Resolution {
 
 /// Returns the curve that a simulated instrument draws of a specimen of `fabric` along `direction`.
 ///
-/// The deformations are those of [`cycle`], with the points of `resolution` in a branch. The
+/// [`cycle`] returns the deformations, with the points of `resolution` in a branch. The
 /// specimen has the spacing nearest to `resolution` that divides its free length.
 ///
 /// # Errors
