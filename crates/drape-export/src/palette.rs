@@ -1,6 +1,6 @@
-//! Palette: the colours of the fabrics of runs, by which one fabric can be told from another.
+//! Palette: colours that distinguish the fabrics of runs.
 //!
-//! Pictures, the viewer and files for other programs take colours from here, so that a fabric has one
+//! Pictures, the viewer and files for other programs use this palette, so that a fabric has one
 //! colour in all of them.
 
 use std::collections::BTreeMap;
@@ -12,8 +12,8 @@ pub type Rgb = [u8; 3];
 
 /// Colours of the front of fabrics for which the scene states none.
 ///
-/// Any two are told apart with usual sight and without the cones for long, medium or short waves: they
-/// differ by at least 12 in CIELAB after the simulation of Machado et al. 2009. They are light or warm,
+/// Any two colours differ by at least 12 in CIELAB, with usual sight and without the cones for
+/// long, medium or short waves (simulation of Machado et al. 2009). The colours are light or warm,
 /// since shadows show folds on light cloth.
 const COLOURS: [Rgb; 8] = [
     [0x96, 0xb6, 0xd6],
@@ -37,7 +37,7 @@ const NEAR: f64 = 60.0;
 const PALER: f64 = 0.45;
 const DARKER: f64 = 0.22;
 
-/// Mean of the three channels from which on a colour is light.
+/// Smallest mean of the three channels of a light colour.
 const LIGHT: u16 = 190;
 
 /// Part of a colour that is left after the colours of the palette are used up, for each time.
@@ -65,8 +65,8 @@ pub struct FabricPalette {
 }
 
 impl FabricPalette {
-    /// Returns the colours of fabrics, each given by its name and the colour that the scene states; a
-    /// fabric may be given several times, and its first stated colour counts.
+    /// Returns the colours of `fabrics`: pairs of a name and the colour that the scene states. A
+    /// fabric may occur several times. Its first stated colour counts.
     pub fn new<'a>(fabrics: impl IntoIterator<Item = (&'a str, Option<Rgb>)>) -> FabricPalette {
         let mut stated: BTreeMap<&str, Option<Rgb>> = BTreeMap::new();
         for (name, colour) in fabrics {
@@ -88,13 +88,13 @@ impl FabricPalette {
         FabricPalette { sides, is_stated }
     }
 
-    /// Returns the colours of the fabrics of some runs that are shown together.
+    /// Returns the colours of the fabrics of `runs`, which are shown together.
     pub fn of_runs<'a>(runs: impl IntoIterator<Item = &'a Recording>) -> FabricPalette {
         let panels = runs.into_iter().flat_map(|run| &run.manifest().panels);
         FabricPalette::new(panels.map(|panel| (&panel.fabric[..], panel.fabric_colour)))
     }
 
-    /// Returns the colours of the front and the back of a fabric.
+    /// Returns the colours of the front and the back of the fabric with the name `fabric`.
     #[must_use]
     pub fn sides(&self, fabric: &str) -> [Rgb; 2] {
         self.sides.get(fabric).copied().unwrap_or([COLOURS[0], SAND])
@@ -106,15 +106,16 @@ impl FabricPalette {
         self.is_stated || self.sides.len() > 1
     }
 
-    /// Returns the name and the colour of the front of each fabric where there are several; nothing
-    /// where a fabric is alone.
+    /// Returns the name and the colour of the front of each fabric if there are several fabrics,
+    /// and nothing if there is a single fabric.
     pub fn legend(&self) -> impl Iterator<Item = (&str, Rgb)> {
         let several = self.sides.iter().filter(|_| self.sides.len() > 1);
         several.map(|(name, [front, _])| (&name[..], *front))
     }
 }
 
-/// Returns the colour of the palette with a number; after the last, the colours come again darker.
+/// Returns the colour with `number` in the palette. After the last colour, the colours come again
+/// darker.
 fn shade(number: u8) -> Rgb {
     let rounds = number as usize / COLOURS.len();
     let left = AGAIN.powi(rounds as i32);
@@ -122,25 +123,24 @@ fn shade(number: u8) -> Rgb {
         .map(|channel| (left * f64::from(channel)).round() as u8)
 }
 
-/// Returns the colour of the back of a fabric, by which it can be told from its front.
+/// Returns a colour of the back of a fabric that differs visibly from `front`.
 fn back(front: Rgb) -> Rgb {
     let mean = front.iter().map(|channel| u16::from(*channel)).sum::<u16>() / 3;
     let (part, to) = if mean < LIGHT { (PALER, 255.0) } else { (DARKER, 0.0) };
     front.map(|channel| (f64::from(channel) + part * (to - f64::from(channel))).round() as u8)
 }
 
-/// Returns the distance of two colours in sRGB.
-fn distance(one: Rgb, other: Rgb) -> f64 {
-    let square = |k: usize| (f64::from(one[k]) - f64::from(other[k])).powi(2);
-    (0..3).map(square).sum::<f64>().sqrt()
+/// Returns the distance of the colours `a` and `b` in sRGB.
+fn distance(a: Rgb, b: Rgb) -> f64 {
+    (0..3).map(|k| (f64::from(a[k]) - f64::from(b[k])).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Returns a colour as it is written in a page.
+/// Returns a colour as hexadecimal text of CSS, such as `#96b6d6`.
 pub(crate) fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Returns the linear light of a colour, 0 to 1 \[IEC61966\].
+/// Returns the linear light of `colour`, 0 to 1 \[IEC61966\].
 pub(crate) fn light(colour: Rgb) -> [f64; 3] {
     colour.map(|channel| {
         let value = f64::from(channel) / 255.0;
@@ -155,9 +155,9 @@ pub(crate) fn light(colour: Rgb) -> [f64; 3] {
 mod tests {
     use super::*;
 
-    /// Linear light as somebody sees it without the cones for long, medium and short waves: matrices
-    /// of Machado, Oliveira and Fernandes 2009, "A physiologically-based model for simulation of color
-    /// vision deficiency", at full severity.
+    /// Linear light as somebody sees it without the cones for long, medium and short waves:
+    /// matrices of Machado, Oliveira and Fernandes 2009, "A physiologically-based model for
+    /// simulation of color vision deficiency", at full severity.
     const SIGHTS: [[[f64; 3]; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [

@@ -1,8 +1,8 @@
 //! View: runs as one page of HTML that needs nothing else.
 //!
-//! The page has three.js, the runs' frames (positions as 16-bit fractions of a box, fields as 8-bit
-//! fractions of a range, both deflated), and the viewer's script. It is for looking: the frames of the
-//! run have the exact numbers.
+//! The page contains three.js, the frames of the runs, and the viewer's script. Positions are
+//! 16-bit fractions of a box and fields are 8-bit fractions of a range, both deflated. The page
+//! shows rounded numbers. The frames of the run have the exact numbers.
 
 mod bits;
 mod element;
@@ -44,8 +44,10 @@ impl View {
     /// # Errors
     /// A file of a run is not as it was written.
     pub fn new(runs: &[Named<'_>], size_max: usize) -> Result<View, Error> {
-        let own = size_max.saturating_sub(PAGE.len() + STYLE.len() + SCRIPT.len() + THREE.len());
-        let share = own / runs.len().max(1);
+        // Each run has an equal share of the bytes that the viewer itself leaves.
+        let remaining =
+            size_max.saturating_sub(PAGE.len() + STYLE.len() + SCRIPT.len() + THREE.len());
+        let share = remaining / runs.len().max(1);
         let palette = FabricPalette::of_runs(runs.iter().map(|run| run.recording));
         let scenes: Result<Vec<Scene>, Error> =
             runs.iter().map(|run| Scene::of_size(run, &palette, share)).collect();
@@ -64,6 +66,8 @@ impl View {
             ("data", fabrics + &data),
             ("script", SCRIPT.to_owned()),
         ];
+
+        // Each mark of the page, such as `{title}`, is replaced by its content.
         let mut html = String::new();
         let mut rest = PAGE;
         for (name, content) in &parts {
@@ -79,7 +83,7 @@ impl View {
     }
 }
 
-/// Returns text as HTML.
+/// Returns `text` as HTML.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -81,7 +81,7 @@ pub(crate) fn validate(py: Python<'_>, name: &str) -> PyResult<String> {
         let message = format!("{name:?} is no case; give one of {}", names.join(", "));
         return Err(failure(Kind::Usage, message));
     };
-    let outcome = Detached::new(None)?.leave(py, || Outcome::of(case, &|_| ()))?;
+    let outcome = Detached::new(None)?.leave(py, || Outcome::run(case, &|_| ()))?;
     let mut value = serde_json::to_value(&outcome).unwrap_or_default();
     value["passes"] = outcome.passes().into();
     Ok(value.to_string())

@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = include_str!("../fabrics/cupro-weave.toml");
     let fabric = Fabric::from_document(&Document::new("cupro-weave.toml", text))?;
     let resolution = Resolution { spacing: 0.005, points: 10 };
-    let found = Comparison::of(&fabric, Test::Bending, Direction::Weft, resolution)?;
+    let found = Comparison::run(&fabric, Test::Bending, Direction::Weft, resolution)?;
     println!("curvature, 1/cm   moment, mN   of the law, mN");
     let loads = found.measured.load().iter().zip(found.ideal.load());
     for (curvature, (moment, law)) in found.measured.deformation().iter().zip(loads) {

@@ -1,12 +1,12 @@
-//! Drapemeters: a disc of fabric on a smaller disc, let down, and its shadow.
+//! Drapemeters: a disc of fabric hangs over a smaller disc, and its shadow is measured.
 //!
-//! `protocol` says how a specimen is let down; `meter` simulates that and reads the shadow; `study`
-//! is the result over several starts. `prediction` varies what a KES sheet leaves open,
-//! `sensitivity` one parameter after another. `drape test --drape` and the cases of drapes call
-//! this chapter.
+//! `protocol` describes how a specimen is lowered. `meter` simulates the test and reads the shadow.
+//! `study` has the results over several starts. `prediction` varies the parameters that a KES sheet
+//! leaves open. `sensitivity` varies one parameter after another. `drape test --drape` and the
+//! cases of drapes call this chapter.
 //!
-//! The drape coefficient is the area of the shadow beyond the disc over that of the flat specimen
-//! beyond it, `$D = (A - \pi r^2)/(\pi R^2 - \pi r^2)$` \[Cus68\].
+//! The drape coefficient is the area of the shadow beyond the disc over the area of the flat
+//! specimen beyond the disc, `$D = (A - \pi r^2)/(\pi R^2 - \pi r^2)$` \[Cus68\].
 
 mod meter;
 mod prediction;

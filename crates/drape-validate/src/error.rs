@@ -1,4 +1,6 @@
-//! Error of a case that cannot be run to its end. All modules return it; the suite tells it.
+//! Error of a case that cannot be run to its end.
+//!
+//! All modules return this error. The suite turns it into the failure of an outcome.
 
 use drape_input::Diagnostics;
 
@@ -6,22 +8,22 @@ use drape_input::Diagnostics;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ValidationError {
-    /// A scene of the suite, or a fabric that it was given, is wrong.
+    /// A scene of the suite, or the fabric in it, is wrong.
     #[error("{0}")]
     Scene(#[from] drape_scene::Error),
-    /// A scene of the suite cannot be set up, or its frames stored.
+    /// A scene of the suite cannot be set up, or its frames cannot be stored.
     #[error("{0}")]
     Simulation(#[from] drape_dynamics::Error),
     /// A step could not be solved.
     #[error("{0}")]
     Step(#[from] drape_implicit::Error),
-    /// A curve that is none.
+    /// Deformations and loads do not form a curve.
     #[error("{0}")]
     Curve(#[from] drape_kes::Error),
-    /// Too few starts for a deviation.
+    /// A study has too few starts for a standard deviation.
     #[error("{starts} starts have no standard deviation; take 2 or more")]
     Starts {
-        /// As asked for.
+        /// Number of starts that was asked for.
         starts: u64,
     },
     /// A strip that should rest still moves.

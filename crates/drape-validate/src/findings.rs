@@ -1,8 +1,8 @@
 //! Findings: what a case returns, as plain data.
 //!
-//! A case compares figures of a simulation with a reference ([`Check`]), and adds what a person
-//! looks at: plots ([`Graph`]) and pictures ([`Still`]). `drape validate` prints the checks and
-//! draws the rest; this crate draws nothing.
+//! A case compares figures of a simulation with a reference ([`Check`]), and adds plots ([`Graph`])
+//! and pictures ([`Still`]) for people. `drape validate` prints the checks and draws plots and
+//! pictures. This crate draws nothing.
 
 mod check;
 mod graph;
@@ -15,7 +15,7 @@ pub use graph::{Axis, Graph, Layout, Series, Source};
 /// Findings of a case: checks, plots and pictures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Findings {
-    /// The figures.
+    /// Figures with their references.
     pub checks: Vec<Check>,
     /// Plots.
     pub graphs: Vec<Graph>,

@@ -1,10 +1,10 @@
 //! Instruments: the KES tests, answered by the laws alone and by simulated specimens.
 //!
 //! `cycle` has the deformations of each test. `ideal` and `bias` answer with the laws of the
-//! fabric, as if it deformed evenly. `specimen` is a panel in two clamps with its true size;
-//! `measurement` drives it and reads the load of the moving clamp as the instrument does, and
-//! `comparison` holds the two curves against each other. `drape test` and the cases of loops call
-//! this chapter.
+//! fabric, as if the fabric deformed evenly. `specimen` is a panel in two clamps at its true size.
+//! `measurement` drives the specimen and reads the load of the moving clamp, as the instrument
+//! does. `comparison` compares the two curves. `drape test` and the cases of loops call this
+//! chapter.
 
 mod bias;
 mod comparison;
@@ -22,5 +22,5 @@ pub(crate) use cycle::LARGEST_CURVATURE;
 pub use cycle::{LARGEST_TENSION, SHEAR_TENSION, cycle};
 pub use ideal::ideal;
 pub use measurement::{Resolution, bend_on_the_bias, bias_spacing, measure};
-pub(crate) use placement::{Rows, arm, bent, moment};
+pub(crate) use placement::{Rows, bending_placement, lever_arm, pivot_moment};
 pub(crate) use yarn::laws;

@@ -4,25 +4,26 @@
 //!
 //! `setup` turns strips and shipped fabrics into scenes in memory. [`instrument`] and
 //! [`drapemeter`] simulate the tests of a laboratory; `outline` reads closed curves from draped
-//! cloth. [`mod@reference`] has the exact solutions. Each of `cases` runs one experiment, compares
-//! it and returns [`Findings`]; [`CASES`] lists them for the command line.
+//! cloth. [`mod@reference`] has the exact solutions. Each function of `cases` runs one experiment,
+//! compares the result with a reference and returns [`Findings`]. [`CASES`] lists the cases for the
+//! command line.
 //!
-//! Modules use each other in this order only: `error`, `progress`, `bisection`, `findings`,
-//! `setup`, `instrument`, `outline`, `drapemeter`, `reference`, `cases`, `suite`.
+//! A module uses only modules before it in this order: `error`, `progress`, `bisection`,
+//! `findings`, `setup`, `instrument`, `outline`, `drapemeter`, `reference`, `cases`, `suite`.
 
-// What a case returns.
+// Results of a case.
 mod error;
 mod findings;
 mod progress;
 
-// What is simulated, and how it is read.
+// Simulations, and measurements of their results.
 mod bisection;
 pub mod drapemeter;
 pub mod instrument;
 mod outline;
 mod setup;
 
-// What it is held against, and the comparisons.
+// References, and comparisons with them.
 mod cases;
 pub mod reference;
 mod suite;

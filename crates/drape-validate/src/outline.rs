@@ -1,8 +1,8 @@
 //! Outlines of a draped cloth: closed curves, and the folds in them.
 //!
-//! `shadow` is what light from straight above leaves dark; `section` cuts the cloth by a horizontal
-//! plane. `harmonics` smooths either curve, and `folds` counts its maxima. Drapemeters read the
-//! shadow, the cases of cloth on a cube the section.
+//! `shadow` is the area that light from straight above leaves dark. `section` cuts the cloth by a
+//! horizontal plane. `harmonics` smooths a curve, and `folds` counts its maxima. Drapemeters read
+//! the shadow. The cases of cloth on a cube read the section.
 
 mod folds;
 mod harmonics;

@@ -1,4 +1,5 @@
-//! Progress of a long case, told to the caller.
+//! Progress of a long case, reported to the caller.
 
-/// Function that is called after each simulation of a long case, with the number of all of them.
+/// Function that a long case calls after each of its simulations. Its argument is the number of all
+/// simulations of the case.
 pub type Progress<'a> = dyn Fn(u64) + Sync + 'a;

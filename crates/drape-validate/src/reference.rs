@@ -1,9 +1,9 @@
 //! Exact solutions of the statics and dynamics of thin strips.
 //!
-//! Each function answers one question with one formula and its source; none comes from a
+//! Each function answers one question with one formula and its source. No solution comes from a
 //! simulation. `runge_kutta` integrates where no closed form exists. A ratio such as `$wL^3/B$`
-//! stands for all strips with the same shape: `$w$` weight per area, `$L$` length, `$B$` bending
-//! rigidity per width. The cases compare simulations with these.
+//! describes all strips with equal shape: `$w$` is the weight per area, `$L$` the length and `$B$`
+//! the bending rigidity per width. The cases compare simulations with these solutions.
 
 mod bias;
 mod catenary;
@@ -22,7 +22,7 @@ pub use decrement::{CycleLoss, DahlStrip, Deflection};
 pub use heavy_elastica::{Tip, cantilever, cantilever_shape};
 pub use vibration::{CHAIN_MODES, pendulum_period, pendulum_swing, strip_modes};
 
-/// Returns the place between two numbers where a function changes sign, to the last bits.
+/// Returns the number between `low` and `high` where `f` changes sign, to the last bits.
 fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let rising = f(low) < 0.0;
     let bracket = bisect(low..high, |x| (f(x) < 0.0) == rising);

@@ -1,7 +1,7 @@
 //! Suite: the cases of `drape validate` with their names and titles.
 //!
-//! The command line asks for a case by its name, runs it, and shows its [`Outcome`]. A long case
-//! takes many minutes and is left out unless it is asked for.
+//! The command line runs a case by its name and shows its [`Outcome`]. A long case takes many
+//! minutes and runs only if a person asks for it.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,34 +13,36 @@ use crate::progress::Progress;
 /// Case of the suite.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// Name by which it is asked for.
+    /// Name on the command line.
     pub name: &'static str,
     /// Title, with the source of the reference.
     pub title: &'static str,
-    run: Run,
+    run: CaseFunction,
 }
 
+/// Function that runs a case.
 #[derive(Debug, Clone, Copy)]
-enum Run {
+enum CaseFunction {
     Short(fn() -> Result<Findings, ValidationError>),
     Long(fn(&Progress<'_>) -> Result<Findings, ValidationError>),
 }
 
 impl Case {
-    /// Returns whether it takes many minutes.
+    /// Returns whether the case takes many minutes.
     #[must_use]
     pub fn is_long(&self) -> bool {
-        matches!(self.run, Run::Long(_))
+        matches!(self.run, CaseFunction::Long(_))
     }
 
-    /// Simulates, compares and returns the findings.
+    /// Simulates, compares and returns the findings. A long case calls `progress` after each of its
+    /// simulations.
     ///
     /// # Errors
-    /// A simulation that cannot be run to its end.
+    /// A simulation cannot be run to its end.
     pub fn run(&self, progress: &Progress<'_>) -> Result<Findings, ValidationError> {
         match self.run {
-            Run::Short(run) => run(),
-            Run::Long(run) => run(progress),
+            CaseFunction::Short(run) => run(),
+            CaseFunction::Long(run) => run(progress),
         }
     }
 }
@@ -50,147 +52,147 @@ pub const CASES: &[Case] = &[
     Case {
         name: "instruments",
         title: "Specimens in simulated KES instruments return the loops of the laws",
-        run: Run::Short(loops::instruments),
+        run: CaseFunction::Short(loops::instruments),
     },
     Case {
         name: "bias-bending",
         title: "Bending specimens cut on the bias, with both yarns' loops (closed form)",
-        run: Run::Short(loops::bias_bending),
+        run: CaseFunction::Short(loops::bias_bending),
     },
     Case {
         name: "bias-rim",
         title: "Bending specimens cut on the bias, with a rim of triangles (closed form)",
-        run: Run::Short(loops::bias_rim),
+        run: CaseFunction::Short(loops::bias_rim),
     },
     Case {
         name: "hysteresis",
         title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
-        run: Run::Short(loops::hysteresis),
+        run: CaseFunction::Short(loops::hysteresis),
     },
     Case {
         name: "decrement",
         title: "A strip with friction swings less and less (Dahl friction, area of the loop)",
-        run: Run::Short(dynamics::decrement),
+        run: CaseFunction::Short(dynamics::decrement),
     },
     Case {
         name: "permanent-set",
         title: "A strip that was bent in clamps and let go stays curved (Dahl friction, closed form)",
-        run: Run::Short(recovery::permanent_set),
+        run: CaseFunction::Short(recovery::permanent_set),
     },
     Case {
         name: "crease",
         title: "A strip that was folded and let go recovers (Dahl friction, closed form)",
-        run: Run::Short(recovery::crease),
+        run: CaseFunction::Short(recovery::crease),
     },
     Case {
         name: "fold",
         title: "A strip that is folded at rest comes to the angle of its fold",
-        run: Run::Short(recovery::fold),
+        run: CaseFunction::Short(recovery::fold),
     },
     Case {
         name: "heavy-cantilever",
         title: "A clamped strip bends under its own weight (heavy elastica)",
-        run: Run::Short(statics::heavy_cantilever),
+        run: CaseFunction::Short(statics::heavy_cantilever),
     },
     Case {
         name: "end-load",
         title: "A clamped strip bends under a load at its tip (Bisshopp & Drucker 1945)",
-        run: Run::Short(statics::end_loaded_cantilever),
+        run: CaseFunction::Short(statics::end_loaded_cantilever),
     },
     Case {
         name: "catenary",
         title: "A limp strip between two hinges (catenary)",
-        run: Run::Short(statics::catenary),
+        run: CaseFunction::Short(statics::catenary),
     },
     Case {
         name: "self-stretch",
         title: "A hanging strip stretches under its own weight",
-        run: Run::Short(statics::self_stretch),
+        run: CaseFunction::Short(statics::self_stretch),
     },
     Case {
         name: "cylinder",
         title: "A sheet on a cylinder stores the energy of its yarns' bending",
-        run: Run::Short(statics::cylinder),
+        run: CaseFunction::Short(statics::cylinder),
     },
     Case {
         name: "bias-strip",
         title: "Strips cut at an angle to the grain stretch (Kilby 1963)",
-        run: Run::Short(statics::bias_strip),
+        run: CaseFunction::Short(statics::bias_strip),
     },
     Case {
         name: "column",
         title: "An upright strip bends over under its own weight (Greenhill 1881)",
-        run: Run::Short(statics::column),
+        run: CaseFunction::Short(statics::column),
     },
     Case {
         name: "hanging-chain",
         title: "Modes of a limp hanging strip (Bernoulli 1732)",
-        run: Run::Short(dynamics::hanging_chain),
+        run: CaseFunction::Short(dynamics::hanging_chain),
     },
     Case {
         name: "hanging-strip",
         title: "First mode of a hanging strip with bending rigidity",
-        run: Run::Short(dynamics::hanging_strip),
+        run: CaseFunction::Short(dynamics::hanging_strip),
     },
     Case {
         name: "pendulum",
         title: "Period of a stiff strip on a hinge at large amplitudes",
-        run: Run::Short(dynamics::pendulum),
+        run: CaseFunction::Short(dynamics::pendulum),
     },
     Case {
         name: "free-fall",
         title: "A strip that nothing holds",
-        run: Run::Short(dynamics::free_fall),
+        run: CaseFunction::Short(dynamics::free_fall),
     },
     Case {
         name: "rotation",
         title: "A strip that nothing holds or pulls at turns on",
-        run: Run::Short(dynamics::rotation),
+        run: CaseFunction::Short(dynamics::rotation),
     },
     Case {
         name: "vacuum",
         title: "A strip in a vacuum swings, and is thrown over (Tagawa, Hayashi & Kijima 2003)",
-        run: Run::Short(dynamics::vacuum),
+        run: CaseFunction::Short(dynamics::vacuum),
     },
     Case {
         name: "cube",
         title: "A stiff cloth on a cube, in the laws of its fabric and in Breen's particles; a coarse grid",
-        run: Run::Short(drapes::coarse_cube),
+        run: CaseFunction::Short(drapes::coarse_cube),
     },
     Case {
         name: "breen",
         title: "Cloths on a cube, in the laws of their fabrics and in Breen's particles (Breen, House & Wozny 1994)",
-        run: Run::Long(drapes::cubes),
+        run: CaseFunction::Long(drapes::cubes),
     },
     Case {
         name: "drapemeter-cotton",
         title: "Drape coefficient of a stiff cotton (Matsudaira et al. 2015)",
-        run: Run::Long(drapes::cotton),
+        run: CaseFunction::Long(drapes::cotton),
     },
     Case {
         name: "drapemeter-wool",
         title: "Drape coefficient of a limp wool (Matsudaira et al. 2015)",
-        run: Run::Long(drapes::wool),
+        run: CaseFunction::Long(drapes::wool),
     },
     Case {
         name: "grid-cotton",
         title: "Drape coefficient of the stiff cotton on a finer grid, and on a turned one",
-        run: Run::Long(drapes::grid_of_cotton),
+        run: CaseFunction::Long(drapes::grid_of_cotton),
     },
     Case {
         name: "grid-wool",
         title: "Drape coefficient of the limp wool on a finer grid, and on a turned one",
-        run: Run::Long(drapes::grid_of_wool),
+        run: CaseFunction::Long(drapes::grid_of_wool),
     },
     Case {
         name: "sensitivity-cotton",
         title: "What the drape coefficient of the stiff cotton depends on",
-        run: Run::Long(drapes::sensitivity_of_cotton),
+        run: CaseFunction::Long(drapes::sensitivity_of_cotton),
     },
     Case {
         name: "sensitivity-wool",
         title: "What the drape coefficient of the limp wool depends on",
-        run: Run::Long(drapes::sensitivity_of_wool),
+        run: CaseFunction::Long(drapes::sensitivity_of_wool),
     },
 ];
 
@@ -201,7 +203,7 @@ pub struct Outcome {
     pub name: String,
     /// Title of the case.
     pub title: String,
-    /// Checks; none where it could not be run.
+    /// Checks. Empty if the case could not be run.
     pub checks: Vec<Check>,
     /// Plots.
     #[serde(skip)]
@@ -209,16 +211,17 @@ pub struct Outcome {
     /// Pictures.
     #[serde(skip)]
     pub stills: Vec<Still>,
-    /// Reason why it could not be run.
+    /// Reason why the case could not be run.
     pub failure: Option<String>,
-    /// Time that it took, in s.
+    /// Wall-clock time of the case, in s.
     pub seconds: f64,
 }
 
 impl Outcome {
-    /// Runs a case and returns its outcome.
+    /// Runs `case` and returns its outcome. A long case calls `progress` after each of its
+    /// simulations.
     #[must_use]
-    pub fn of(case: &Case, progress: &Progress<'_>) -> Self {
+    pub fn run(case: &Case, progress: &Progress<'_>) -> Self {
         let start = std::time::Instant::now();
         let (findings, failure) = match case.run(progress) {
             Ok(findings) => (findings, None),
@@ -236,7 +239,7 @@ impl Outcome {
         }
     }
 
-    /// Returns whether it could be run and every figure is within its limit.
+    /// Returns whether the case could be run and every one of `checks` passes.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.failure.is_none() && self.checks.iter().all(Check::passes)

@@ -49,7 +49,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     for case in cases {
         let bar = progress::bar(0, "{msg}: {pos}/{len} simulations, {eta} left");
         bar.set_message(case.name);
-        let outcome = Outcome::of(case, &|count| {
+        let outcome = Outcome::run(case, &|count| {
             bar.set_length(count);
             bar.inc(1);
         });

@@ -29,8 +29,8 @@ const COLUMNS: [&str; 3] = ["warp", "weft", "shear"];
 /// Keys of texts that name an item of a list.
 const NAMES: [&str; 3] = ["name", "edge", "edges"];
 
-/// Table: rows of cells, the first of which is the name. A row of one cell is the heading of those that
-/// follow.
+/// Table: rows of cells. The first cell of a row is its name. A row of one cell is the heading of
+/// the rows that follow.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Table {
     title: String,
@@ -39,10 +39,10 @@ struct Table {
     rows: Vec<Vec<String>>,
 }
 
-/// Returns what a summary tells of the result, as tables of text for the page.
+/// Returns the results in `summary` as tables of text for the page.
 ///
-/// Each table is an object of `title`, `columns` and `rows`. Keys that have no plain name here are shown
-/// with their own.
+/// Each table is an object of `title`, `columns` and `rows`. Keys without a plain name in this
+/// crate are shown as they are.
 pub(super) fn tables(summary: &Value) -> Vec<Value> {
     let mut tables = Vec::new();
     let mut run = Table { title: "run".to_owned(), ..Table::default() };
@@ -59,7 +59,8 @@ pub(super) fn tables(summary: &Value) -> Vec<Value> {
     filled.map(Table::json).collect()
 }
 
-/// Returns the tables of the measures of garments: one of the numbers, and one of each list or object.
+/// Returns the tables of the `measures` of garments: a table of the numbers, and a table of each
+/// list or object.
 fn garment_tables(measures: &Map<String, Value>) -> Vec<Table> {
     let mut numbers = Table { title: "garment".to_owned(), ..Table::default() };
     let mut others = Vec::new();
@@ -98,8 +99,8 @@ impl Table {
         table
     }
 
-    /// Adds the objects of a map as columns, if there are several and all have the same keys with simple
-    /// values; returns whether they have.
+    /// Adds the objects in `map` as columns if there are several objects and all have equal keys
+    /// with simple values. Returns whether columns were added.
     fn add_columns(&mut self, path: &[&str], map: &Map<String, Value>) -> bool {
         let mut columns: Vec<(&str, &Map<String, Value>)> = Vec::new();
         for (key, value) in map {

@@ -106,13 +106,13 @@ const ENDS: [(&str, &str); 5] =
     [("_seconds", "s"), ("_percent", "%"), ("_deg", "°"), ("_mm", "mm"), ("_newton", "N")];
 
 impl Quantity {
-    /// Returns the quantity of a path of keys, from the outermost to the innermost.
+    /// Returns the quantity of `path`, which has keys from the outermost to the innermost.
     pub(super) fn of(path: &[&str]) -> Option<Quantity> {
         let (_, name, unit) = *QUANTITIES.get(Quantity::rank(path))?;
         Some(Quantity { name, unit })
     }
 
-    /// Returns the place of a path of keys in a table; paths without a quantity come last.
+    /// Returns the position in a table of the value at `path`. Paths without a quantity come last.
     pub(super) fn rank(path: &[&str]) -> usize {
         let fits = |(key, ..): &(&str, &str, Unit)| {
             let keys: Vec<&str> = key.split('.').collect();
@@ -123,13 +123,13 @@ impl Quantity {
 }
 
 impl Unit {
-    /// Returns the unit that the name of an unknown key says, and the key without it.
+    /// Returns the unit that the end of the unknown `key` states, and the key without this end.
     pub(super) fn of_unknown(key: &str) -> (Unit, &str) {
         let end = ENDS.iter().find_map(|(end, unit)| Some((Plain(unit), key.strip_suffix(end)?)));
         end.filter(|(_, rest)| !rest.is_empty()).unwrap_or((Bare, key))
     }
 
-    /// Returns a value in the unit, as text.
+    /// Returns `value` in the unit, as text.
     pub(super) fn written(self, value: f64) -> String {
         let (factor, unit) = match self {
             Bare => (1.0, ""),
@@ -154,7 +154,8 @@ impl Unit {
     }
 }
 
-/// Returns a number with three significant digits, a large one with all its digits before the point.
+/// Returns `value` with three significant digits. A large number has all its digits before the
+/// point.
 fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

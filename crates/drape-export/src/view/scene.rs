@@ -11,8 +11,8 @@ use super::samples::{Samples, ShownField, ShownSamples};
 use crate::palette::{FabricPalette, hex};
 use crate::scale;
 
-/// Least number of bytes of a vertex of the cloth in a frame of the page; waving cloth has 7. Frames
-/// that cannot fit by it are not read.
+/// Least number of bytes of a vertex of the cloth in a frame of the page. Waving cloth needs 7
+/// bytes. Frames that cannot fit with this number are not read.
 const BYTES_OF_SAMPLE: usize = 4;
 
 /// Run as the elements of a page.
@@ -24,8 +24,8 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Returns the scene of a run in the colours of `palette`, with so few frames that its elements have
-    /// at most `size` bytes, or with two.
+    /// Returns the scene of `run` in the colours of `palette`. Frames are left out until the
+    /// elements of the scene have at most `size` bytes, or two frames remain.
     pub(super) fn of_size(
         run: &Named<'_>,
         palette: &FabricPalette,
@@ -44,7 +44,7 @@ impl Scene {
         }
     }
 
-    /// Returns the scene of every so many of some frames, and of the last one.
+    /// Returns the scene of the last of `samples`, and of every `stride`-th sample before it.
     fn new(
         run: &Named<'_>,
         palette: &FabricPalette,

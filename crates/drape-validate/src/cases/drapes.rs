@@ -1,7 +1,8 @@
 //! Cases of drapes: whole cloths against published experiments.
 //!
-//! Drape coefficients are compared with measurements on the FRL drapemeter \[Mat15\], their grids and
-//! starts with each other, and cloths on a cube with what a paper says of three fabrics \[BHW94\].
+//! Drape coefficients are compared with measurements on the FRL drapemeter \[Mat15\], and between
+//! grids and starts. Cloths on a cube are compared with the observations of a paper on three
+//! fabrics \[BHW94\].
 
 mod breen;
 mod coefficient;
@@ -19,18 +20,17 @@ use drape_fabric::Fabric;
 
 use crate::drapemeter::{Study, spacing_bound};
 
-/// Starts of an evaluation, and of each row of the table of what matters.
+/// Starts of a study.
 const STARTS: u64 = 10;
 
-/// Largest spacing of the particles on a drapemeter, in m.
-const SPACING_MAX: f64 = 0.005;
-
-/// Returns a part of the spacing that a fabric asks for, and [`SPACING_MAX`] at most, in m.
+/// Returns `part` of the spacing that `fabric` needs on a drapemeter, but at most 5 mm; in m.
 fn spacing(fabric: &Fabric, part: f64) -> f64 {
+    /// Largest spacing of the particles on a drapemeter, in m.
+    const SPACING_MAX: f64 = 0.005;
     (part * spacing_bound(fabric)).min(SPACING_MAX)
 }
 
-/// Returns the mean drape coefficient of a study, in points, hundredths.
+/// Returns the mean drape coefficient of `study` in points, which are hundredths.
 fn points(study: &Study) -> f64 {
     100.0 * study.mean()
 }

@@ -1,7 +1,7 @@
 //! Cases of loops: KES tests of simulated specimens against the laws of the fabric.
 //!
 //! Specimens along the yarns, on the bias, and on the bias with a rim of triangles return the loops
-//! that the laws alone give; the loop of bending has the area and the residual curvature of its
+//! that the laws alone give. The loop of bending has the area and the residual curvature of its
 //! closed form.
 
 mod bias_bending;

@@ -1,8 +1,8 @@
 //! Cases of recovery: the angle or curvature to which a bent or folded strip comes when it is let
 //! go.
 //!
-//! What friction holds is known in closed form; what is folded at rest returns to the angle of its
-//! fold.
+//! The curvature that friction holds is known in closed form. A strip that is folded at rest
+//! returns to the angle of its fold.
 
 mod crease;
 mod fold;

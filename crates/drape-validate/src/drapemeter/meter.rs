@@ -1,7 +1,7 @@
-//! Drapemeter: the scene of a specimen that is let down, and what its shadow shows.
+//! Drapemeter: the scene of a specimen that is lowered, and the measurement of its shadow.
 //!
-//! The FRL and Cusick instruments differ by their diameters. Places of the grid over the starts
-//! follow the additive recurrence of the plastic number \[Rob18\].
+//! The FRL and Cusick instruments differ by their diameters. The offsets of the grid over the
+//! starts follow the additive recurrence of the plastic number \[Rob18\].
 
 use std::f64::consts::PI;
 
@@ -15,33 +15,8 @@ use crate::error::ValidationError;
 use crate::outline::{Harmonics, Shadow, Surface, maxima};
 use crate::setup::{GRAVITY, finish, simulation};
 
-/// Height of the disc's pedestal, in m: higher than a specimen hangs.
-const PEDESTAL: f64 = 0.3;
-
-/// Distance at which the cloth feels disc and platform, in m.
-const GAP: f64 = 1e-3;
-
-/// Tolerance of a step, over g. Ten times tighter takes half as long again, and two starts of a
-/// wool drape to the same within 0.05 points, as they do ten times looser.
-const TOLERANCE: f64 = 1e-3;
-
-/// Length over which the heights of an uneven specimen change, in m.
-const UNEVEN_LENGTH: f64 = 0.02;
-
-/// How long the specimen hangs before its shadow is read, in s.
+/// Time for which the specimen hangs before its shadow is read, in s.
 const REST: f64 = 2.5;
-
-/// How far beyond the disc particles are held, over the spacing: the last ones lie half a spacing
-/// beyond the line where the slope is held, and half a spacing less than this beyond the disc on
-/// the average.
-const CLAMP_REACH: f64 = 1.0;
-
-/// How far inside the disc the simulated cloth ends, over the spacing: a connector reaches two
-/// spacings from a particle that moves to others that are held.
-const HELD_ROWS: f64 = 2.0;
-
-/// How far a fold must stand out, in m.
-const PROMINENCE: f64 = 3e-3;
 
 /// Drapemeter: radii of disc and specimen, in m, and the protocol.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,30 +30,32 @@ pub struct Drapemeter {
 }
 
 impl Drapemeter {
-    /// The FRL meter: 127 mm on 63.5 mm.
+    /// Returns the FRL meter: a specimen with a radius of 127 mm on a disc with a radius of 63.5
+    /// mm.
     #[must_use]
     pub fn frl() -> Self {
-        Self::of_diameters(0.127, 0.254)
+        Self::from_diameters(0.127, 0.254)
     }
 
-    /// Cusick's, 18 cm, with a specimen of some diameter in m: 0.24 for limp fabrics, 0.3, or 0.36
-    /// for stiff ones (BS 5058, ISO 9073-9).
+    /// Returns Cusick's meter with a disc of 18 cm and a specimen of the diameter `specimen`, in m:
+    /// 0.24 for limp fabrics, 0.3 for others, or 0.36 for stiff fabrics (BS 5058, ISO 9073-9).
     #[must_use]
     pub fn cusick(specimen: f64) -> Self {
-        Self::of_diameters(0.18, specimen)
+        Self::from_diameters(0.18, specimen)
     }
 
-    fn of_diameters(disc: f64, specimen: f64) -> Self {
+    /// Returns a meter with the diameters of `disc` and `specimen`, in m, and the usual protocol.
+    fn from_diameters(disc: f64, specimen: f64) -> Self {
         Self { disc: 0.5 * disc, specimen: 0.5 * specimen, protocol: Protocol::default() }
     }
 }
 
 impl Drapemeter {
-    /// Drapes specimens of particles at a spacing, in m, from so many starts, side by side; tells
-    /// after each.
+    /// Drapes specimens of `fabric` from each start of `sampling` in parallel, and calls `done`
+    /// after each start.
     ///
     /// # Errors
-    /// Those of the first start that fails, and fewer than two starts.
+    /// The error of the first start that fails, or `sampling` has fewer than two starts.
     pub fn study(
         &self,
         fabric: &Fabric,
@@ -89,25 +66,27 @@ impl Drapemeter {
         if starts < 2 {
             return Err(ValidationError::Starts { starts });
         }
-        let drape = |seed: u64| {
-            let drape = self.drape(fabric, spacing, seed);
-            done();
-            drape
-        };
-        let drapes = (1..=starts).into_par_iter().map(drape).collect::<Result<Vec<_>, _>>()?;
-        Ok(Study { drapes })
+        let drapes: Result<Vec<Drape>, ValidationError> = (1..=starts)
+            .into_par_iter()
+            .map(|seed| {
+                let drape = self.drape(fabric, spacing, seed);
+                done();
+                drape
+            })
+            .collect();
+        Ok(Study { drapes: drapes? })
     }
 
-    /// Drapes a specimen of particles at a spacing, in m, from a start that a seed perturbs: how
-    /// uneven it is, and where the grid lies on it.
+    /// Drapes a specimen of `fabric` with particles at `spacing`, in m. `seed` perturbs the start:
+    /// the unevenness of the specimen and the offset of its grid.
     ///
-    /// The specimen lies on the disc and on a platform around it, which sinks away from under it,
-    /// and then hangs in air for a while. Its inertia matters, however slow the platform: as folds
-    /// fall into place the cloth sways, and works against its friction. Without inertia a cotton
-    /// and a wool of 83 and 50 % drape to 91 and 58 %.
+    /// At first the specimen lies on the disc and on a platform around the disc. The platform
+    /// sinks, and then the specimen hangs in air for a while. Inertia matters even if the platform
+    /// is slow: while folds form, the cloth sways and works against its friction. Without inertia,
+    /// a cotton of 83 % drapes to 91 %, and a wool of 50 % to 58 %.
     ///
     /// # Errors
-    /// A simulation that cannot be run to its end.
+    /// The simulation cannot be run to its end.
     pub fn drape(
         &self,
         fabric: &Fabric,
@@ -119,11 +98,11 @@ impl Drapemeter {
         Ok(self.read(&simulation))
     }
 
-    /// Drapes a specimen as [`Drapemeter::drape`] does, and returns the cloth on its disc at the end, for a
-    /// picture.
+    /// Drapes a specimen as [`Drapemeter::drape`] does, and returns the cloth on its disc at the
+    /// end, for a picture.
     ///
     /// # Errors
-    /// Those of [`Drapemeter::drape`].
+    /// The errors of [`Drapemeter::drape`].
     pub fn snapshot(
         &self,
         fabric: &Fabric,
@@ -135,11 +114,11 @@ impl Drapemeter {
         Ok(simulation.snapshot())
     }
 
-    /// Simulates the begin of a specimen's test for as long as `go_on` says, and returns the part of the
-    /// test that was simulated: from its duration that of a whole test can be told.
+    /// Simulates the begin of a test while `go_on` returns true, and returns the simulated part of
+    /// the test, a ratio. The caller estimates the duration of a whole test from this part.
     ///
     /// # Errors
-    /// A simulation whose begin cannot be run.
+    /// The begin of the simulation cannot be run.
     pub fn begin(
         &self,
         fabric: &Fabric,
@@ -156,24 +135,52 @@ impl Drapemeter {
         }
     }
 
-    /// Returns how far the platform sinks, in m: a little more than the specimen can hang, shaken or not.
+    /// Returns the distance by which the platform sinks, in m: a little more than the specimen can
+    /// hang, also if `protocol` shakes the disc.
     fn sink(&self) -> f64 {
         let shake = self.protocol.shake.map_or(0.0, |shake| 2.0 * shake.amplitude);
         1.1 * (self.specimen - self.disc) + shake
     }
 
+    /// Returns the simulation of a test of `fabric` with particles at `spacing`, in m, and a start
+    /// that `seed` perturbs.
     fn simulation(
         &self,
         fabric: &Fabric,
         spacing: f64,
         seed: u64,
     ) -> Result<Simulation, ValidationError> {
+        /// Height of the pedestal of the disc, in m: higher than a specimen hangs.
+        const PEDESTAL: f64 = 0.3;
+
+        /// Activation distance of the contact with disc and platform, in m.
+        const GAP: f64 = 1e-3;
+
+        /// Tolerance of a step, over g. A tolerance that is ten times tighter costs half as much
+        /// time again. Two starts of a wool drape to equal coefficients within 0.05 points with
+        /// tolerances ten times tighter and ten times looser.
+        const TOLERANCE: f64 = 1e-3;
+
+        /// Length over which the heights of an uneven specimen change, in m.
+        const UNEVEN_LENGTH: f64 = 0.02;
+
+        /// Distance from the disc within which particles are held, over the spacing. The last held
+        /// particles lie half a spacing beyond the line where the slope is held. On average they
+        /// lie half a spacing nearer to the disc than this distance.
+        const CLAMP_REACH: f64 = 1.0;
+
+        /// Distance inside the edge of the disc at which the simulated cloth ends, over the
+        /// spacing. A connector reaches two spacings from a free particle to held particles.
+        const HELD_ROWS: f64 = 2.0;
+
         let Self { disc, specimen, protocol } = self;
         let Protocol { sink_speed, shake, turn, step, unevenness } = protocol;
         let sink = self.sink();
         let grid = grid(seed).map(|part| part * spacing);
         let down = sink / sink_speed;
         let Strokes { keys, end } = shaken(*shake, down);
+
+        // Cloth in the middle of the disc is held, so it is left out.
         let hole = 2.0 * (disc - HELD_ROWS * spacing);
         let hole = if hole > 0.0 { format!("hole = {hole:e}\n") } else { String::new() };
         let text = format!(
@@ -197,10 +204,13 @@ impl Drapemeter {
         simulation(text, fabric.to_toml())
     }
 
-    /// Reads the shadow of a draped specimen from straight above.
+    /// Reads the shadow of the draped specimen in `simulation` from straight above.
     fn read(&self, simulation: &Simulation) -> Drape {
+        /// Prominence of a fold, in m.
+        const PROMINENCE: f64 = 3e-3;
+
         let positions = simulation.frame().positions;
-        let shadow = Shadow::of(
+        let shadow = Shadow::new(
             Surface {
                 triangles: simulation.triangles(),
                 coordinates: simulation.coordinates(),
@@ -209,9 +219,11 @@ impl Drapemeter {
             self.specimen,
         )
         .with_disc(self.disc);
+
+        // The disc and the flat specimen bound the area of the shadow.
         let [disc, specimen] = [self.disc, self.specimen].map(|radius| PI * radius * radius);
         let edge = shadow.edge();
-        let smooth = Harmonics::of(&edge, HARMONICS);
+        let smooth = Harmonics::new(&edge, HARMONICS);
         Drape {
             coefficient: (shadow.area() - disc) / (specimen - disc),
             nodes: maxima(&smooth.curve(edge.len()), PROMINENCE).len(),
@@ -222,8 +234,9 @@ impl Drapemeter {
     }
 }
 
-/// The coarsest spacing at which a fabric's drape coefficient is within some points of that of
-/// finer ones, in m: 0.22 of the length at which its weight bends it, `$(B/w)^{1/3}$`.
+/// Returns the coarsest spacing, in m, at which the drape coefficient of `fabric` is within a few
+/// points of the coefficient on finer grids: 0.22 of the length `$(B/w)^{1/3}$` over which `fabric`
+/// bends under its own weight.
 #[must_use]
 pub fn spacing_bound(fabric: &Fabric) -> f64 {
     let rigidity = fabric.warp.bending.backbone.respond(0.0).tangent;
@@ -231,8 +244,9 @@ pub fn spacing_bound(fabric: &Fabric) -> f64 {
     0.22 * (rigidity / (fabric.density * GRAVITY)).cbrt()
 }
 
-/// Where the grid of a start has a particle, from the specimen's middle in spacings: places that
-/// fill the square evenly (the additive recurrence of the plastic number, \[Rob18\]).
+/// Returns the offset of the grid of the start `seed` from the specimen's middle, in spacings. The
+/// offsets of consecutive seeds fill the square evenly (the additive recurrence of the plastic
+/// number, \[Rob18\]).
 fn grid(seed: u64) -> [f64; 2] {
     [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (seed as f64 * step).fract() - 0.5)
 }

@@ -1,8 +1,8 @@
 //! Prediction of a drape coefficient from a KES sheet that leaves parameters open.
 //!
-//! Each open parameter is taken to either end of its range. To first order the changes of
-//! independent parameters add as squares, so the interval around the fitted coefficient `$D$` ends
-//! at `$D \pm \sqrt{\sum_i \Delta_i^2}$`.
+//! Each open parameter is set to either end of its range. To first order the squares of the changes
+//! of independent parameters add up. So the interval around the fitted coefficient `$D$` ends at
+//! `$D \pm \sqrt{\sum_i \Delta_i^2}$`.
 
 use drape_fabric::{Fabric, ShearBackbone};
 
@@ -12,24 +12,25 @@ use crate::error::ValidationError;
 
 /// Parameter that a sheet may leave open.
 ///
-/// Its logarithm is taken to be normally distributed, with one in twenty fabrics below and one
-/// above its ends; the parameters are taken to be independent. No survey of many fabrics is behind
-/// the ends; they are meant to be wide for apparel weaves.
+/// The logarithm of a parameter is assumed to be normally distributed, with one in twenty fabrics
+/// below its lower end and one in twenty above its upper end. The parameters are assumed to be
+/// independent. The ends do not come from a survey of many fabrics. They are meant to be wide for
+/// apparel weaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnmeasuredParameter {
-    /// G.
+    /// Shear stiffness G.
     ShearStiffness,
-    /// 2HG.
+    /// Width of the shear loop, 2HG.
     ShearLoop,
     /// The curvature over which the friction of bending builds up.
     BendingSlip,
 }
 
 impl UnmeasuredParameter {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Self; 3] = [Self::ShearStiffness, Self::ShearLoop, Self::BendingSlip];
 
-    /// Its name, and its ends in the laboratory's units.
+    /// Returns the name of the parameter (`self`) with its ends in the laboratory's units.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -39,63 +40,63 @@ impl UnmeasuredParameter {
         }
     }
 
-    /// The two fabrics with this at the end where it drapes most and where it drapes least; none if
-    /// it was not assumed in the fabric's fit.
+    /// Returns `fabric` with the parameter at its limp end and at its stiff end. `None` if the fit
+    /// of `fabric` did not assume the parameter.
     #[must_use]
     pub fn ends(self, fabric: &Fabric) -> Option<[Fabric; 2]> {
         let assumed = &fabric.provenance.as_ref()?.assumed;
-        let named = |what: &str| assumed.iter().any(|text| text.starts_with(what));
-        let of = |change: &dyn Fn(&mut Fabric, usize)| {
-            [0, 1].map(|end| {
-                let mut changed = fabric.clone();
-                change(&mut changed, end);
-                changed
-            })
+        let starts: &[&str] = match self {
+            Self::ShearStiffness => &["shear stiffness"],
+            Self::ShearLoop => &["shear loop"],
+            Self::BendingSlip => &["warp bending friction", "weft bending friction"],
         };
-        match self {
-            Self::ShearStiffness => named("shear stiffness").then(|| {
-                of(&|fabric, end| {
+        let is_assumed: Vec<bool> =
+            starts.iter().map(|start| assumed.iter().any(|text| text.starts_with(start))).collect();
+        if !is_assumed.contains(&true) {
+            return None;
+        }
+
+        // Values are in SI. A plateau is half of the width of a loop.
+        let mut ends = [fabric.clone(), fabric.clone()];
+        for (end, changed) in ends.iter_mut().enumerate() {
+            match self {
+                Self::ShearStiffness => {
                     let stiffness = [16.86, 56.19][end];
-                    fabric.shear.backbone = ShearBackbone::Linear { stiffness };
-                })
-            }),
-            Self::ShearLoop => named("shear loop").then(|| {
-                of(&|fabric, end| {
-                    // Half of the loop's width.
-                    fabric.shear.friction.elements[0].plateau = [0.0981, 0.9807][end];
-                })
-            }),
-            Self::BendingSlip => {
-                let open = [named("warp bending friction"), named("weft bending friction")];
-                (open != [false; 2]).then(|| {
-                    of(&|fabric, end| {
-                        let both = [&mut fabric.warp, &mut fabric.weft];
-                        for (laws, _) in both.into_iter().zip(open).filter(|(_, open)| *open) {
+                    changed.shear.backbone = ShearBackbone::Linear { stiffness };
+                }
+                Self::ShearLoop => {
+                    changed.shear.friction.elements[0].plateau = [0.0981, 0.9807][end];
+                }
+                Self::BendingSlip => {
+                    let directions = [&mut changed.warp, &mut changed.weft];
+                    for (laws, is_assumed) in directions.into_iter().zip(&is_assumed) {
+                        if *is_assumed {
                             laws.bending.friction.elements[0].length = [20.0, 2.0][end];
                         }
-                    })
-                })
+                    }
+                }
             }
         }
+        Some(ends)
     }
 }
 
-/// Prediction of a drape coefficient, with what the sheet leaves open.
+/// Prediction of a drape coefficient from a KES sheet that leaves parameters open.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// The fabric as it was fitted.
+    /// Study of the fitted fabric.
     pub fitted: Study,
-    /// The same with one parameter at either end.
+    /// Studies with one open parameter at its limp end and at its stiff end.
     pub ends: Vec<(UnmeasuredParameter, [Study; 2])>,
 }
 
 impl Prediction {
-    /// Drapes a fabric as fitted and with each open parameter at its ends, at a spacing, in m, from
-    /// so many starts.
+    /// Drapes the fitted `fabric`, and `fabric` with each open parameter at its ends, from the
+    /// starts of `sampling`. Calls `done` after each start.
     ///
     /// # Errors
-    /// Those of [`Drapemeter::study`].
-    pub fn of(
+    /// The errors of [`Drapemeter::study`].
+    pub fn run(
         meter: &Drapemeter,
         fabric: &Fabric,
         sampling: Sampling,
@@ -112,24 +113,25 @@ impl Prediction {
         Ok(Self { fitted, ends })
     }
 
-    /// Studies that a prediction of a fabric takes.
+    /// Returns the number of studies in a prediction for `fabric`.
     #[must_use]
-    pub fn studies(fabric: &Fabric) -> u64 {
+    pub fn study_count(fabric: &Fabric) -> u64 {
         let open = UnmeasuredParameter::ALL.iter().filter(|open| open.ends(fabric).is_some());
         1 + 2 * open.count() as u64
     }
 
-    /// What nine of ten fabrics with the same sheet drape to: to first order, the changes of
-    /// independent parameters add up as squares.
+    /// Returns the interval that contains the drape coefficients of nine in ten fabrics with this
+    /// sheet, as ratios. To first order, the squares of the changes by independent parameters add
+    /// up.
     #[must_use]
     pub fn interval(&self) -> [f64; 2] {
         let middle = self.fitted.mean();
-        let reach = |sign: f64| {
-            let change = |ends: &[Study; 2]| {
+        let [below, above] = [-1.0, 1.0].map(|sign| {
+            let changes = self.ends.iter().map(|(_, ends)| {
                 ends.iter().map(|end| sign * (end.mean() - middle)).fold(0.0, f64::max)
-            };
-            self.ends.iter().map(|(_, ends)| change(ends).powi(2)).sum::<f64>().sqrt()
-        };
-        [middle - reach(-1.0), middle + reach(1.0)]
+            });
+            changes.map(|change| change.powi(2)).sum::<f64>().sqrt()
+        });
+        [middle - below, middle + above]
     }
 }

@@ -1,5 +1,5 @@
-//! Protocol of a drape test: how the platform sinks, how the disc is shaken, and how even a
-//! specimen is.
+//! Protocol of a drape test: the motion of the platform, the shaking of the disc, and the
+//! unevenness of the specimen.
 
 use std::f64::consts::TAU;
 
@@ -10,16 +10,16 @@ pub struct Protocol {
     pub sink_speed: f64,
     /// Shaking of the disc when the platform is down.
     pub shake: Option<Shake>,
-    /// Turn of the specimen about the upright, in degrees: what is read must not depend on it.
+    /// Turn of the specimen about the vertical, in degrees. Results must not depend on the turn.
     pub turn: f64,
     /// Length of a time step, in s.
     pub step: f64,
-    /// How uneven the specimen is at first, by heights that change over 20 mm: the greatest, in m.
+    /// Largest height of the uneven specimen at the start, in m. Heights change over 20 mm.
     ///
-    /// They are the same at every spacing. If each particle had a height of its own, the cloth
-    /// would be curved the more the finer its grid, and the friction of its yarns would slip, it
-    /// seems, before it moves: at 2.3 mm a cotton then drapes to 75 % in four folds or five, where
-    /// it drapes to 83 % in five or six.
+    /// The heights do not depend on the spacing. If heights varied from particle to particle, a
+    /// finer grid would make the cloth more curved, and the friction of its yarns would probably
+    /// slip before the cloth moves: at 2.3 mm a cotton then drapes to 75 % in four or five folds,
+    /// instead of 83 % in five or six folds.
     pub unevenness: f64,
 }
 
@@ -29,13 +29,10 @@ impl Default for Protocol {
     }
 }
 
-/// Keys of the trajectory of a shaken disc in a period.
-const SHAKE_KEYS: usize = 8;
-
 /// Strokes of the disc up and down, a sine in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shake {
-    /// Greatest distance from its place, in m.
+    /// Largest distance of the disc from its position at rest, in m.
     pub amplitude: f64,
     /// Frequency of the strokes, in 1/s.
     pub frequency: f64,
@@ -48,6 +45,7 @@ impl Shake {
     /// turns.
     pub const BOUNCE: Self = Self { amplitude: 0.01, frequency: 2.0, strokes: 3 };
 
+    /// Returns the duration of all `strokes`, in s.
     fn seconds(&self) -> f64 {
         self.strokes as f64 / self.frequency
     }
@@ -55,22 +53,26 @@ impl Shake {
 
 /// Trajectory of a shaken disc.
 pub(super) struct Strokes {
-    /// Its keys, as TOML.
+    /// Keys of the trajectory, as TOML.
     pub(super) keys: String,
     /// Time at which the disc rests again, in s.
     pub(super) end: f64,
 }
 
-/// Returns the trajectory of the disc when it is shaken from a time in s on.
+/// Returns the trajectory of a disc whose shaking `shake` begins at the time `start`, in s.
 pub(super) fn shaken(shake: Option<Shake>, start: f64) -> Strokes {
+    /// Keys of the trajectory in a period.
+    const SHAKE_KEYS: usize = 8;
+
     let shake = shake.unwrap_or(Shake { amplitude: 0.0, frequency: 1.0, strokes: 0 });
     let end = start + shake.seconds();
     let count = shake.strokes * SHAKE_KEYS;
-    let at = |k: usize| {
-        let part = k as f64 / SHAKE_KEYS as f64;
-        let height = if k == count { 0.0 } else { shake.amplitude * (TAU * part).sin() };
-        (start + part / shake.frequency, [0.0, height, 0.0])
-    };
-    let (times, shift): (Vec<f64>, Vec<[f64; 3]>) = (0..=count).map(at).unzip();
+    let (times, shift): (Vec<f64>, Vec<[f64; 3]>) = (0..=count)
+        .map(|k| {
+            let part = k as f64 / SHAKE_KEYS as f64;
+            let height = if k == count { 0.0 } else { shake.amplitude * (TAU * part).sin() };
+            (start + part / shake.frequency, [0.0, height, 0.0])
+        })
+        .unzip();
     Strokes { keys: format!("{{ times = {times:?}, shift = {shift:?} }}"), end }
 }

@@ -35,11 +35,11 @@ pub const FACTORS: [Factor; 13] = [
 ];
 
 impl Factor {
-    /// Drapes a fabric with this at its lower and at its higher value, at a spacing, in m, from so
-    /// many starts; tells after each.
+    /// Drapes `fabric` on `meter` with this factor at its lower and at its higher value, from the
+    /// starts of `sampling`. Calls `done` after each start.
     ///
     /// # Errors
-    /// Those of [`Drapemeter::study`].
+    /// The errors of [`Drapemeter::study`].
     pub fn vary(
         &self,
         meter: &Drapemeter,
@@ -47,12 +47,12 @@ impl Factor {
         sampling: Sampling,
         done: &(dyn Fn() + Sync),
     ) -> Result<[Study; 2], ValidationError> {
-        let study = |end: usize| {
+        let [low, high] = [0, 1].map(|end| {
             let mut setting = (*meter, fabric.clone());
             (self.set)(&mut setting, end);
-            setting.0.study(&setting.1, sampling, done)
-        };
-        Ok([study(0)?, study(1)?])
+            setting
+        });
+        Ok([low.0.study(&low.1, sampling, done)?, high.0.study(&high.1, sampling, done)?])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Study: the drapes of one fabric from several starts, and their mean and deviation.
 //!
-//! A start is a seed: the unevenness of the specimen and the place of the grid on it.
+//! A start is a seed. It determines the unevenness of the specimen and the offset of its grid.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,8 @@ pub(super) const HARMONICS: usize = 20;
 /// Drape of a specimen, read from its shadow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drape {
-    /// Drape coefficient: area of the shadow beyond the disc over that of the flat specimen.
+    /// Drape coefficient: area of the shadow beyond the disc over the area of the flat specimen
+    /// beyond the disc.
     pub coefficient: f64,
     /// Number of nodes: maxima of the shadow's edge.
     pub nodes: usize,
@@ -34,7 +35,7 @@ pub struct Sampling {
 /// Drapes from several starts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
-    /// One for each start.
+    /// One drape for each start.
     pub drapes: Vec<Drape>,
 }
 
@@ -54,17 +55,16 @@ impl Study {
         (squares.sum::<f64>() / (self.drapes.len() as f64 - 1.0)).sqrt()
     }
 
-    /// Returns the place of the drape whose coefficient is nearest to the mean.
+    /// Returns the index in `drapes` of the drape whose coefficient is nearest to the mean.
     #[must_use]
     pub fn typical(&self) -> usize {
         let mean = self.mean();
-        let far = |drape: &Drape| (drape.coefficient - mean).abs();
-        let places = self.drapes.iter().enumerate();
-        let nearest = places.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)));
-        nearest.map_or(0, |(place, _)| place)
+        let deviations = self.drapes.iter().map(|drape| (drape.coefficient - mean).abs());
+        let nearest = deviations.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b));
+        nearest.map_or(0, |(index, _)| index)
     }
 
-    /// Returns the number of starts with each number of nodes.
+    /// Returns the number of starts by number of nodes.
     #[must_use]
     pub fn nodes(&self) -> BTreeMap<usize, usize> {
         let mut counts = BTreeMap::new();
@@ -75,10 +75,11 @@ impl Study {
     /// Returns the mean amplitudes of the edge's harmonics 1, 2, …, in m.
     #[must_use]
     pub fn amplitudes(&self) -> Vec<f64> {
-        let mean = |harmonic: usize| {
-            let sum: f64 = self.drapes.iter().map(|drape| drape.amplitudes[harmonic]).sum();
-            sum / self.drapes.len() as f64
-        };
-        (0..HARMONICS).map(mean).collect()
+        (0..HARMONICS)
+            .map(|harmonic| {
+                let sum: f64 = self.drapes.iter().map(|drape| drape.amplitudes[harmonic]).sum();
+                sum / self.drapes.len() as f64
+            })
+            .collect()
     }
 }

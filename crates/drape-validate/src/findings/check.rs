@@ -14,7 +14,7 @@ pub struct Check {
     /// The figure of the simulation.
     #[serde(deserialize_with = "number")]
     pub measured: f64,
-    /// Reference; not a number where there is none.
+    /// Reference. Not a number if the figure has no reference.
     #[serde(deserialize_with = "number")]
     pub reference: f64,
     /// Limit of the difference, over the reference.
@@ -27,7 +27,7 @@ pub struct Check {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// Equal, but for a part of the reference either way.
+    /// Equal, up to a part of the reference to either side.
     Equal,
     /// At least as large.
     AtLeast,
@@ -38,43 +38,44 @@ pub enum Kind {
     Reported,
 }
 
-/// Returns a number, which JSON writes as null where it is not finite.
+/// Reads a number from `deserializer`. JSON writes a number that is not finite as null, which
+/// becomes NaN.
 fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 impl Check {
-    /// Returns a check of equality, up to a part of the reference.
+    /// Returns a check that `measured` equals `reference` up to the part `limit` of `reference`.
     #[must_use]
     pub fn within(what: impl Into<String>, measured: f64, reference: f64, limit: f64) -> Self {
         Self { what: what.into(), measured, reference, limit, kind: Kind::Equal }
     }
 
-    /// Returns a check that a figure is at most its reference.
+    /// Returns a check that `measured` is at most `reference`.
     #[must_use]
     pub fn at_most(what: impl Into<String>, measured: f64, reference: f64) -> Self {
         Self { what: what.into(), measured, reference, limit: 0.0, kind: Kind::AtMost }
     }
 
-    /// Returns a check that a figure is at least its reference.
+    /// Returns a check that `measured` is at least `reference`.
     #[must_use]
     pub fn at_least(what: impl Into<String>, measured: f64, reference: f64) -> Self {
         Self { what: what.into(), measured, reference, limit: 0.0, kind: Kind::AtLeast }
     }
 
-    /// Returns a figure without a reference.
+    /// Returns the figure `measured` without a reference.
     #[must_use]
     pub fn reported(what: impl Into<String>, measured: f64) -> Self {
         Self { what: what.into(), measured, reference: f64::NAN, limit: 0.0, kind: Kind::Reported }
     }
 
-    /// Returns the error of the figure, over the reference.
+    /// Returns the error of the figure: `measured` less `reference`, over the size of `reference`.
     #[must_use]
     pub fn error(&self) -> f64 {
         (self.measured - self.reference) / self.reference.abs()
     }
 
-    /// Returns whether the figure is within its limit; one that is not a number is not.
+    /// Returns whether the figure is within its limit. `false` if the figure is not a number.
     #[must_use]
     pub fn passes(&self) -> bool {
         match self.kind {
@@ -85,7 +86,7 @@ impl Check {
         }
     }
 
-    /// Returns whether the figure passes; none if it is reported only, and is a number.
+    /// Returns whether the figure passes. `None` if the figure is only reported and is finite.
     #[must_use]
     pub fn verdict(&self) -> Option<bool> {
         let passes = self.passes();

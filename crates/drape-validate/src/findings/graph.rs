@@ -1,6 +1,6 @@
 //! Graph: plot of a case, simulation and reference together, as numbers in SI.
 //!
-//! The pages choose colours and draw it.
+//! The pages choose colours and draw the graph.
 
 /// Plot of a case, in SI.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Axis {
 pub enum Layout {
     /// Each axis spans its numbers.
     Free,
-    /// Units of both axes are of one length: for shapes.
+    /// Units of both axes have equal length, for shapes.
     ToScale,
     /// Both axes are logarithmic.
     Logarithmic,
@@ -40,9 +40,9 @@ pub enum Layout {
 /// Series of points of a graph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Name; references of one name share it.
+    /// Name in the legend. References with equal names have one entry in the legend.
     pub label: String,
-    /// Source of its points.
+    /// Source of the points.
     pub source: Source,
     /// Points in order.
     pub points: Vec<[f64; 2]>,
@@ -60,13 +60,13 @@ pub enum Source {
 }
 
 impl Axis {
-    /// Returns the axis of a ratio.
+    /// Returns the axis `label` of a ratio.
     #[must_use]
     pub const fn ratio(label: &'static str) -> Self {
         Self { label, unit: "", in_si: 1.0 }
     }
 
-    /// Returns an axis with a unit.
+    /// Returns the axis `label` with `unit`, which is `in_si` in SI.
     #[must_use]
     pub const fn new(label: &'static str, unit: &'static str, in_si: f64) -> Self {
         Self { label, unit, in_si }
@@ -74,19 +74,19 @@ impl Axis {
 }
 
 impl Graph {
-    /// Returns a graph without series.
+    /// Returns a graph with `title` and `axes` and without series.
     #[must_use]
     pub fn new(title: impl Into<String>, axes: [Axis; 2]) -> Self {
         Self { title: title.into(), axes, layout: Layout::Free, series: Vec::new() }
     }
 
-    /// Returns the graph with another layout.
+    /// Returns the graph with `layout`.
     #[must_use]
     pub fn laid_out(self, layout: Layout) -> Self {
         Self { layout, ..self }
     }
 
-    /// Adds a series.
+    /// Adds a series of `points`, in SI.
     pub fn add(&mut self, source: Source, label: impl Into<String>, points: Vec<[f64; 2]>) {
         self.series.push(Series { label: label.into(), source, points });
     }

@@ -1,7 +1,7 @@
-//! Comparison of the curve of a simulated instrument with the ideal one.
+//! Comparison of the curve of a simulated instrument with the ideal curve.
 //!
-//! The distance is the root mean square of the differences of the loads over the range of the ideal
-//! ones.
+//! The distance of two curves is the root mean square of the differences of their loads, over the
+//! range of the ideal loads.
 
 use drape_fabric::Fabric;
 use drape_kes::{BendingPoints, Curve, Direction, EvaluationPoints, ShearPoints, Symbol, Test};
@@ -11,7 +11,7 @@ use super::ideal::ideal;
 use super::measurement::{Resolution, measure};
 use crate::error::ValidationError;
 
-/// Curve of a simulated instrument beside the ideal one.
+/// Curve of a simulated instrument, and the ideal curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// Curve of the simulated instrument.
@@ -21,11 +21,12 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Simulates a test and drives the laws through the same deformations; see [`measure`].
+    /// Simulates `test` along `direction` as [`measure`] does, and drives the laws of `fabric`
+    /// through equal deformations.
     ///
     /// # Errors
-    /// Those of [`measure`].
-    pub fn of(
+    /// The errors of [`measure`].
+    pub fn run(
         fabric: &Fabric,
         test: Test,
         direction: Direction,
@@ -45,7 +46,8 @@ impl Comparison {
         (squares / count as f64).sqrt() / self.ideal.load_range().span()
     }
 
-    /// Returns the KES values that both curves have, measured and ideal, in the laboratory's units.
+    /// Returns the KES values that both curves have: symbol, measured value and ideal value, in the
+    /// laboratory's units.
     #[must_use]
     pub fn values(&self) -> Vec<(Symbol, [f64; 2])> {
         let points = EvaluationPoints {

@@ -20,8 +20,9 @@ const LARGEST_ANGLE: f64 = 8.0;
 /// Largest curvature of the bending test, 2.5 1/cm in 1/m.
 pub(crate) const LARGEST_CURVATURE: f64 = 250.0;
 
-/// Returns the deformations of a test, with so many points in a branch, in the units of a
-/// [`drape_kes::Curve`].
+/// Returns the deformations of `test`, with `points` points in a branch, in the units of a
+/// [`drape_kes::Curve`]. The strains of a tensile test follow from the laws of `fabric` along
+/// `direction`.
 #[must_use]
 pub fn cycle(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Vec<f64> {
     let turns: &[f64] = match test {
@@ -32,16 +33,17 @@ pub fn cycle(fabric: &Fabric, test: Test, direction: Direction, points: usize) -
     path(turns, points)
 }
 
-/// Returns the turning points of a test to both sides.
+/// Returns the turning points of a test that deforms a specimen by `largest` to both sides.
 pub(super) fn there_and_back(largest: f64) -> [f64; 4] {
     [0.0, largest, -largest, largest]
 }
 
-/// Returns so many even steps from each turning point to the next.
+/// Returns the path through the turning points `turns`, with `points` even steps from each turning
+/// point to the next.
 pub(super) fn path(turns: &[f64], points: usize) -> Vec<f64> {
-    let branch = |ends: &[f64]| {
+    let branches = turns.windows(2).flat_map(|ends| {
         let [from, to] = [ends[0], ends[1]];
-        (1..=points).map(move |i| from + (to - from) * i as f64 / points as f64).collect::<Vec<_>>()
-    };
-    std::iter::once(turns[0]).chain(turns.windows(2).flat_map(branch)).collect()
+        (1..=points).map(move |i| from + (to - from) * i as f64 / points as f64)
+    });
+    std::iter::once(turns[0]).chain(branches).collect()
 }

@@ -1,7 +1,7 @@
 //! Ideal curve of a test: the laws of a fabric driven through the cycle of the instrument.
 //!
-//! The fabric deforms evenly, so strain, angle or curvature is that of the clamps, and the load per
-//! width is that of the law.
+//! The fabric deforms evenly, so the clamps give its strain, angle or curvature, and its law gives
+//! the load per width.
 
 use drape_fabric::{Fabric, Law, drive};
 use drape_kes::{Curve, Direction, Test};
@@ -9,10 +9,11 @@ use drape_kes::{Curve, Direction, Test};
 use super::cycle::cycle;
 use super::yarn::laws;
 
-/// Returns the curve of an instrument that deforms the fabric evenly: that of the laws alone.
+/// Returns the curve of `test` along `direction` by the laws of `fabric` alone, as if the
+/// instrument deformed the fabric evenly. Each branch has `points` points.
 ///
 /// # Panics
-/// If the loads are not finite, which those of a checked fabric are.
+/// If a load is not finite. Loads of a checked fabric are finite.
 #[must_use]
 pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Curve {
     let path = cycle(fabric, test, direction, points);
@@ -28,7 +29,8 @@ pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -
     curve(test, direction, path, load).expect("a checked fabric has finite loads")
 }
 
-/// Returns a curve; that of a tensile test ends where the returning fabric is slack.
+/// Returns the curve of `test` with the deformations `path` and the loads `load`. A tensile test
+/// ends where the returning fabric is slack.
 pub(crate) fn curve(
     test: Test,
     direction: Direction,

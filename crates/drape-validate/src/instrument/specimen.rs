@@ -1,7 +1,7 @@
 //! Specimen: a panel of a fabric in two clamps, at its true size, in a vacuum and without weight.
 //!
-//! Clamps are pins. One stays; the other goes through placements, one in each step, and its load is
-//! recorded.
+//! Clamps are pins. The fixed clamp stays in its place. The moving clamp goes through placements,
+//! one in each step, and its load is recorded.
 
 use std::f64::consts::SQRT_2;
 
@@ -9,7 +9,7 @@ use drape_dynamics::{PinLoad, Simulation};
 use drape_fabric::Fabric;
 use drape_kes::Direction;
 
-use super::placement::{Place, arm, moment};
+use super::placement::{ClampPlacement, lever_arm, pivot_moment};
 use crate::error::ValidationError;
 use crate::setup::{ALONE, scene};
 
@@ -22,30 +22,29 @@ pub(crate) const GAUGE: f64 = 0.05;
 /// Free length in the bending test: 1 cm.
 const BENDING_GAUGE: f64 = 0.01;
 
-/// Time between two points of a curve, in s: as long as an instrument takes, and longer than any
-/// wave.
-const STEP: f64 = 0.1;
-
 /// Specimen, level along x, with the clamp that moves.
 pub(crate) struct Specimen {
-    /// Angle from its length to the weft, in degrees.
+    /// Angle from the length of the specimen to the weft, in degrees.
     grain: f64,
-    /// Spacing of the particles along the yarns, and of the rows across the specimen.
+    /// Distance of the particles along the yarns, in m.
     pub(super) spacing: f64,
+    /// Distance of the rows across the specimen, in m.
     pub(super) row: f64,
     /// Whole rows between the lines of the clamps.
     pub(super) cells: usize,
     /// Rows that the fixed and the moving clamp hold.
     rows: [usize; 2],
-    /// Length of the panel and the middle of it along x; the line of the clamp that stays is at 0.
+    /// Length of the panel, in m.
     length: f64,
+    /// Middle of the panel along x, in m, from the line of the fixed clamp.
     middle: f64,
-    /// Pivot of the moving clamp, along x.
+    /// Pivot of the moving clamp along x, in m, from the line of the fixed clamp.
     pivot: f64,
 }
 
 impl Specimen {
-    /// Returns a specimen between two lines of particles.
+    /// Returns a specimen between two lines of particles that are held. The spacing is the nearest
+    /// to `spacing`, in m, that divides the free length.
     pub(super) fn between_lines(spacing: f64) -> Self {
         let cells = (GAUGE / spacing).round().max(1.0) as usize;
         let spacing = GAUGE / cells as f64;
@@ -61,9 +60,13 @@ impl Specimen {
         }
     }
 
-    /// In clamps that hold the slope too: three rows each, its line midway between the second and
-    /// the third, which bends as the first free cell does. A single cell is bent at the third row
-    /// of both, which the clamp that stays holds. The moving clamp turns about its third row.
+    /// Returns a specimen in clamps that also hold the slope. The spacing is the nearest to
+    /// `spacing`, in m, that divides the free length.
+    ///
+    /// Each clamp holds three rows. The line of a clamp is midway between the second and the third
+    /// row, since the third row bends as the first free cell does. A single cell is bent at the
+    /// third row of both clamps, which the fixed clamp holds. The moving clamp turns about its
+    /// third row.
     pub(super) fn in_clamps(spacing: f64) -> Self {
         let cells = (BENDING_GAUGE / spacing).round().max(1.0) as usize;
         let h = BENDING_GAUGE / cells as f64;
@@ -79,9 +82,10 @@ impl Specimen {
         }
     }
 
-    /// The same on the bias: rows of particles across the specimen are nearer to each other than
-    /// particles along the yarns by a factor of √2, and what a pin takes for two rows are three of
-    /// them.
+    /// Returns a specimen as [`Specimen::in_clamps`] does, cut on the bias.
+    ///
+    /// The distance of rows across the specimen is the distance of particles along the yarns over
+    /// √2. A pin that holds two rows of a straight panel holds three of these rows.
     pub(super) fn on_the_bias(spacing: f64) -> Self {
         let cells = (BENDING_GAUGE * SQRT_2 / spacing).round().max(2.0) as usize;
         let h = BENDING_GAUGE / cells as f64;
@@ -89,35 +93,44 @@ impl Specimen {
         Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
     }
 
-    /// The panel's keys that cut it on the bias from a grid with rows at both ends; a particle in
-    /// its middle is in a row.
+    /// Returns the keys of the panel that cut it on the bias from a grid with rows at both ends. If
+    /// the number of rows is odd, a particle lies in the middle of the panel.
     fn bias_keys(&self) -> String {
-        let odd = (self.length / self.row).round() % 2.0 == 1.0;
-        let grid = if odd { 0.5 * self.spacing } else { 0.0 };
+        let has_odd_cells = (self.length / self.row).round() % 2.0 == 1.0;
+        let grid = if has_odd_cells { 0.5 * self.spacing } else { 0.0 };
         format!("grain = {}\ngrid = [{grid:e}, 0]\n", self.grain)
     }
 
-    /// Moves the clamp from place to place, one in each step, and records what it bears; the moment
-    /// is about its pivot.
+    /// Moves the clamp through `placements`, one in each step, and returns the load of the clamp
+    /// after each step. Moments are about the pivot of the clamp.
     pub(super) fn drive(
         &self,
         fabric: &Fabric,
         direction: Direction,
-        places: &[Place],
+        placements: &[ClampPlacement],
     ) -> Result<Vec<PinLoad>, ValidationError> {
+        /// Time between two points of a curve, in s: as long as an instrument takes, and longer
+        /// than any wave.
+        const STEP: f64 = 0.1;
+
+        // The panel lies along x whatever its direction: a specimen of the warp is turned.
         let Self { grain, spacing, length, middle, pivot, rows: [still, moving], .. } = self;
         let grain = if *grain == 0.0 { String::new() } else { self.bias_keys() };
         let (size, turn, edges) = match direction {
             Direction::Weft => ([*length, WIDTH], [-90, 0, 0], ["left", "right"]),
             Direction::Warp => ([WIDTH, *length], [-90, -90, 0], ["bottom", "top"]),
         };
-        let list = |of: &dyn Fn(&Place) -> String| {
-            let first = of(&Place::default());
-            places.iter().fold(first, |list, place| list + ", " + &of(place))
-        };
-        let times: Vec<f64> = (0..=places.len()).map(|k| k as f64 * STEP).collect();
-        let shifts = list(&|place| format!("{:?}", place.shift));
-        let turns = list(&|place| format!("[0, 0, {:e}]", place.turn.to_degrees()));
+
+        // The motion of the clamp has a key at the start and one at the end of each step.
+        let times: Vec<f64> = (0..=placements.len()).map(|k| k as f64 * STEP).collect();
+        let start = ClampPlacement::default();
+        let (shifts, turns): (Vec<String>, Vec<String>) = std::iter::once(&start)
+            .chain(placements)
+            .map(|placement| {
+                let turn = placement.turn.to_degrees();
+                (format!("{:?}", placement.shift), format!("[0, 0, {turn:e}]"))
+            })
+            .unzip();
         let text = format!(
             "{ALONE}name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
              fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
@@ -125,21 +138,25 @@ impl Specimen {
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {moving}\n\
              [pin.motion]\ntimes = {times:?}\ncenter = [{pivot:e}, 0, 0]\n\
-             shift = [{shifts}]\nturn = [{turns}]\n\
+             shift = [{}]\nturn = [{}]\n\
              [time]\nstep = {STEP}\nend = {:e}\n[output]\nenergy = false\n",
             edges[0],
             edges[1],
-            STEP * places.len() as f64
+            shifts.join(", "),
+            turns.join(", "),
+            STEP * placements.len() as f64
         );
         let scene = scene(text, fabric.to_toml())?;
-        let arm = arm(&scene, *pivot);
+        let arm = lever_arm(&scene, *pivot);
+
         let mut simulation = Simulation::new(scene)?;
-        let mut loads = Vec::with_capacity(places.len());
-        for place in places {
+        let mut loads = Vec::with_capacity(placements.len());
+        for placement in placements {
             simulation.step()?;
             let load = simulation.pin_loads()[1];
             let [x, y, _] = load.moment;
-            loads.push(PinLoad { moment: [x, y, moment(&load, arm, place.turn)], ..load });
+            let moment = pivot_moment(&load, arm, placement.turn);
+            loads.push(PinLoad { moment: [x, y, moment], ..load });
         }
         Ok(loads)
     }

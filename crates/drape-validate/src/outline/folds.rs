@@ -2,20 +2,24 @@
 //!
 //! The prominence of a maximum is its height above the higher of the two minima beside it.
 
-/// Returns the places of the maxima of a closed curve with at least a prominence.
+/// Returns the indices of the maxima of the closed `curve` that have at least `prominence`, in the
+/// unit of `curve`.
 pub(crate) fn maxima(curve: &[f64], prominence: f64) -> Vec<usize> {
     let count = curve.len();
-    let at = |k: usize| curve[k % count];
-    // From a lowest place, so that none is counted across the end.
+    // The search starts at the lowest value, so that no maximum lies across the end.
     let first = (0..count).min_by(|&a, &b| curve[a].total_cmp(&curve[b])).unwrap_or(0);
-    let (mut low, mut high, mut found, mut rising) = (at(first), first, Vec::new(), true);
+    let (mut low, mut high, mut maxima, mut rising) =
+        (curve[first % count], first, Vec::new(), true);
+
+    // `low` is the minimum before the highest value, which has the index `high`. A maximum is
+    // certain where the curve has fallen by `prominence`.
     for k in first..=first + count {
-        let value = at(k);
+        let value = curve[k % count];
         if rising {
-            high = if value > at(high) { k } else { high };
-            if at(high) - value >= prominence {
-                if at(high) - low >= prominence {
-                    found.push(high % count);
+            high = if value > curve[high % count] { k } else { high };
+            if curve[high % count] - value >= prominence {
+                if curve[high % count] - low >= prominence {
+                    maxima.push(high % count);
                 }
                 (low, rising) = (value, false);
             }
@@ -26,7 +30,7 @@ pub(crate) fn maxima(curve: &[f64], prominence: f64) -> Vec<usize> {
             }
         }
     }
-    found
+    maxima
 }
 
 #[cfg(test)]
@@ -47,7 +51,7 @@ mod tests {
                 let angle = TAU * k as f64 / ANGLES as f64;
                 0.1 + amplitude * (count * angle + 0.3).cos() + 1e-3 * (40.0 * angle).cos()
             };
-            let smooth = Harmonics::of(&(0..ANGLES).map(at).collect::<Vec<_>>(), HARMONICS);
+            let smooth = Harmonics::new(&(0..ANGLES).map(at).collect::<Vec<_>>(), HARMONICS);
             maxima(&smooth.curve(ANGLES), PROMINENCE).len()
         };
         assert_eq!([wave(2.0, 0.01), wave(7.0, 0.004), wave(5.0, 0.001)], [2, 7, 0]);

@@ -1,80 +1,92 @@
 //! Section of a draped cloth by a horizontal plane, as a closed polygon.
 //!
-//! The plane meets each triangle in a segment; segments that share an edge of the mesh are joined.
+//! The plane cuts each triangle in a segment. Segments that share an edge of the mesh are joined.
 
 use std::collections::BTreeMap;
 
-/// An edge of the surface, by its ends in rising order.
+/// Edge of the surface, as its two vertices in rising order.
 type Edge = [u32; 2];
 
-/// The longest closed curve in which a surface meets a horizontal plane: places (x, z) in order, in
-/// m. None if there is no closed one.
+/// Returns the longest closed curve in which a surface cuts the horizontal plane at `height`, in m:
+/// points (x, z) in order, in m. `None` if no curve is closed.
+///
+/// `triangles` are triples of vertices. `positions` has three coordinates for each vertex, in m.
 pub(crate) fn section(
     triangles: &[[u32; 3]],
     positions: &[f64],
     height: f64,
 ) -> Option<Vec<[f64; 2]>> {
-    let up = |corner: u32| positions[3 * corner as usize + 1];
-    let mut next: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
+    // Two edges are neighbours if the plane cuts both and they are sides of one triangle.
+    let is_above: Vec<bool> = positions.iter().skip(1).step_by(3).map(|y| *y > height).collect();
+    let mut neighbours: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
     for &[a, b, c] in triangles {
         let sides = [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
-        let met: Vec<Edge> =
-            sides.into_iter().filter(|&[p, q]| (up(p) > height) != (up(q) > height)).collect();
-        if let [from, to] = met[..] {
-            next.entry(from).or_default().push(to);
-            next.entry(to).or_default().push(from);
+        let cut: Vec<Edge> = sides
+            .into_iter()
+            .filter(|&[p, q]| is_above[p as usize] != is_above[q as usize])
+            .collect();
+        if let [from, to] = cut[..] {
+            neighbours.entry(from).or_default().push(to);
+            neighbours.entry(to).or_default().push(from);
         }
     }
-    let place = |&[p, q]: &Edge| {
-        let part = (height - up(p)) / (up(q) - up(p));
-        [0, 2].map(|axis| {
-            let [a, b] = [p, q].map(|corner| positions[3 * corner as usize + axis]);
-            a + part * (b - a)
-        })
-    };
+
+    // Each chain of neighbours is followed to its end, and removed on the way.
     let mut longest: Option<Vec<[f64; 2]>> = None;
-    while let Some((&start, _)) = next.first_key_value() {
-        let mut curve = vec![start];
-        let mut at = start;
-        let mut closed = false;
-        while let Some(ways) = next.remove(&at) {
-            closed = curve.len() > 2 && ways.contains(&start);
-            match ways.into_iter().find(|way| next.contains_key(way)) {
-                Some(way) => {
-                    curve.push(way);
-                    at = way;
+    while let Some((&start, _)) = neighbours.first_key_value() {
+        let mut chain = vec![start];
+        let mut edge = start;
+        let mut is_closed = false;
+        while let Some(beside) = neighbours.remove(&edge) {
+            is_closed = chain.len() > 2 && beside.contains(&start);
+            match beside.into_iter().find(|next| neighbours.contains_key(next)) {
+                Some(next) => {
+                    chain.push(next);
+                    edge = next;
                 }
                 None => break,
             }
         }
-        let curve: Vec<[f64; 2]> = curve.iter().map(place).collect();
-        if closed && longest.as_ref().is_none_or(|longest| length(longest) < length(&curve)) {
+
+        let curve: Vec<[f64; 2]> =
+            chain.iter().map(|edge| crossing(*edge, positions, height)).collect();
+        if is_closed && longest.as_ref().is_none_or(|longest| length(longest) < length(&curve)) {
             longest = Some(curve);
         }
     }
     longest
 }
 
-/// Returns the length of a closed curve.
+/// Returns the point (x, z) at which `edge` crosses `height`.
+fn crossing([p, q]: Edge, positions: &[f64], height: f64) -> [f64; 2] {
+    let [low, high] = [p, q].map(|corner| positions[3 * corner as usize + 1]);
+    let part = (height - low) / (high - low);
+    [0, 2].map(|axis| {
+        let [a, b] = [p, q].map(|corner| positions[3 * corner as usize + axis]);
+        a + part * (b - a)
+    })
+}
+
+/// Returns the length of the closed `curve`, in the unit of its points.
 pub(crate) fn length(curve: &[[f64; 2]]) -> f64 {
     let after = curve.iter().cycle().skip(1);
     curve.iter().zip(after).map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
 }
 
-/// So many places of a closed curve at even distances along it.
+/// Returns `count` points of the closed `curve` at even distances along the curve.
 pub(crate) fn evenly(curve: &[[f64; 2]], count: usize) -> Vec<[f64; 2]> {
     let step = length(curve) / count as f64;
-    let mut places = Vec::with_capacity(count);
-    let mut way = 0.0;
+    let mut points = Vec::with_capacity(count);
+    let mut distance = 0.0;
     for (a, b) in curve.iter().zip(curve.iter().cycle().skip(1)) {
         let side = (b[0] - a[0]).hypot(b[1] - a[1]);
-        while places.len() < count && places.len() as f64 * step <= way + side {
-            let part = (places.len() as f64 * step - way) / side;
-            places.push([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]);
+        while points.len() < count && points.len() as f64 * step <= distance + side {
+            let part = (points.len() as f64 * step - distance) / side;
+            points.push([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]);
         }
-        way += side;
+        distance += side;
     }
-    places
+    points
 }
 
 #[cfg(test)]
@@ -83,8 +95,8 @@ mod tests {
 
     use super::*;
 
-    /// A cone of some sides around the y axis: its tip, a ring of radius 1 at height 0, and one of
-    /// radius 2 at −1.
+    /// Returns triangles and positions of a cone with `sides` sides around the y axis: its tip, a
+    /// ring of radius 1 at height 0, and a ring of radius 2 at height −1.
     fn cone(sides: u32) -> (Vec<[u32; 3]>, Vec<f64>) {
         let ring = |radius: f64, height: f64| {
             (0..sides).flat_map(move |k| {
@@ -121,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_open_is_no_section() {
+    fn an_open_curve_is_no_section() {
         let (mut triangles, positions) = cone(20);
         triangles.retain(|triangle| *triangle != [0, 1, 2]);
         assert_eq!(section(&triangles, &positions, 0.5), None);

@@ -1,14 +1,15 @@
 //! Stiffness of strips cut at an angle to the yarns \[Kil63\]. The case `bias-strip` calls it.
 
-/// Stiffness of a strip cut at an angle (in rad) to its first yarns, in N/m.
+/// Returns the stiffness of a strip cut at `angle` (in rad) to its first yarns, in N/m.
 ///
 /// ```math
 /// \frac1E = \frac{\cos^4\vartheta}{E_1} + \frac{\sin^4\vartheta}{E_2}
 ///   + \frac{\sin^2\vartheta\cos^2\vartheta}{G}
 /// ```
 ///
-/// from the stiffnesses of the two yarn systems and the shear stiffness, for a fabric without
-/// coupling between the yarns \[Kil63\]; it holds for a strip long enough that its ends do not tell.
+/// from the stiffnesses `first` and `second` of the two yarn systems and the stiffness `shear`, all
+/// in N/m, for a fabric without coupling between the yarns \[Kil63\]. The strip must be so long
+/// that its ends do not change its stiffness.
 #[must_use]
 pub fn bias_stiffness(angle: f64, [first, second]: [f64; 2], shear: f64) -> f64 {
     let (s, c) = (angle.sin().powi(2), angle.cos().powi(2));

@@ -3,7 +3,8 @@
 
 use super::root;
 
-/// Sag of an inextensible line of a length between two supports at the same height, over the span.
+/// Returns the sag over the span of an inextensible line between two supports at equal height. The
+/// line is `length_over_span` spans long.
 ///
 /// ```math
 /// L = 2a\sinh\frac{D}{2a},\qquad f = a\left(\cosh\frac{D}{2a} - 1\right)
@@ -14,19 +15,21 @@ pub fn catenary_sag(length_over_span: f64) -> f64 {
     (x.cosh() - 1.0) / (2.0 * x)
 }
 
-/// The shape of the same line: place across and height over its ends, both over the span, at so
-/// many even places.
+/// Returns the shape of the line of [`catenary_sag`]: distance across and height above the
+/// supports, both over the span, at the ends of `parts` equal parts of the span.
 #[must_use]
-pub fn catenary_shape(length_over_span: f64, places: usize) -> Vec<[f64; 2]> {
+pub fn catenary_shape(length_over_span: f64, parts: usize) -> Vec<[f64; 2]> {
     let x = half_angle(length_over_span);
-    let at = |k: usize| {
-        let across = k as f64 / places as f64;
-        [across, ((x * (2.0 * across - 1.0)).cosh() - x.cosh()) / (2.0 * x)]
-    };
-    (0..=places).map(at).collect()
+    (0..=parts)
+        .map(|k| {
+            let across = k as f64 / parts as f64;
+            [across, ((x * (2.0 * across - 1.0)).cosh() - x.cosh()) / (2.0 * x)]
+        })
+        .collect()
 }
 
-/// `$D/2a$`: in it the length over the span is `$\sinh(x)/x$`, which rises from one.
+/// Returns `$x = D/2a$` of the line that is `length_over_span` spans long. The length over the span
+/// is `$\sinh(x)/x$`, which rises from one.
 fn half_angle(length_over_span: f64) -> f64 {
     root(|x| x.sinh() / x - length_over_span, 1e-9, 50.0)
 }

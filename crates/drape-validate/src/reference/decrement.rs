@@ -22,7 +22,7 @@ pub struct DahlStrip {
 /// Deflection of a strip in its first mode, over the deflection of its tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deflection {
-    /// Deflection over that of the tip, a ratio.
+    /// Deflection over the deflection of the tip, a ratio.
     pub deflection: f64,
     /// Curvature over the deflection of the tip, in 1/m².
     pub curvature: f64,
@@ -38,37 +38,38 @@ pub struct CycleLoss {
 }
 
 impl DahlStrip {
-    /// Returns the angular frequency of the first mode without friction, in rad/s, for a mass per
-    /// area in kg/m².
+    /// Returns the angular frequency of the first mode without friction, in rad/s. `density` is the
+    /// mass per area, in kg/m².
     #[must_use]
     pub fn frequency(&self, density: f64) -> f64 {
         (WAVE / self.length).powi(2) * (self.rigidity / density).sqrt()
     }
 
-    /// Deflection in the first mode at a place from the clamp over that at the tip, and curvature
-    /// over the tip's deflection in 1/m².
+    /// Returns the first mode at `distance` from the clamp, in m.
     #[must_use]
-    pub fn mode(&self, place: f64) -> Deflection {
-        let shape = |part: f64| {
+    pub fn mode(&self, distance: f64) -> Deflection {
+        // Deflection and curvature at a part of the length, without a common factor.
+        fn shape(part: f64) -> [f64; 2] {
             let k = WAVE * part;
             let balance = (WAVE.sinh() - WAVE.sin()) / (WAVE.cosh() + WAVE.cos());
             let deflection = k.cosh() - k.cos() - balance * (k.sinh() - k.sin());
             [deflection, k.cosh() + k.cos() - balance * (k.sinh() + k.sin())]
-        };
+        }
+
         let [tip, _] = shape(1.0);
-        let [deflection, bend] = shape(place / self.length);
+        let [deflection, bend] = shape(distance / self.length);
         Deflection {
             deflection: deflection / tip,
             curvature: bend / tip * (WAVE / self.length).powi(2),
         }
     }
 
-    /// Energy per width that a cycle between deflections of the tip of `$\pm a$` loses, in J/m, and
-    /// the logarithmic decrement of free swings of that amplitude.
+    /// Returns the loss of a cycle in which the tip deflects by `$\pm a$`, and the logarithmic
+    /// decrement of free swings with the amplitude `$a$`. `tip` is `$a$`, in m.
     ///
-    /// A steady loop between `$\pm\kappa$` has the area `$4F(\kappa - \ell\tanh\frac\kappa\ell)$`,
-    /// and at its ends the element holds `$\frac12F\ell\tanh^2\frac\kappa\ell$`. Over the
-    /// curvatures of the first mode, which little friction does not change,
+    /// A steady loop between `$\pm\kappa$` has the area `$4F(\kappa - \ell\tanh\frac\kappa\ell)$`.
+    /// At the ends of the loop the element holds `$\frac12F\ell\tanh^2\frac\kappa\ell$`. Small
+    /// friction does not change the curvatures of the first mode, over which
     ///
     /// ```math
     /// \delta = \frac{W}{a\,\mathrm{d}U/\mathrm{d}a},\qquad
@@ -78,11 +79,13 @@ impl DahlStrip {
     #[must_use]
     pub fn decrement(&self, tip: f64) -> CycleLoss {
         let Self { length, rigidity, plateau, sliding } = *self;
+
+        // `growth` is the amplitude times the derivative of the stored energy.
         let (mut lost, mut growth) = (0.0, 0.0);
         for step in 0..=STEPS {
-            // Simpson's weights.
-            let end = step == 0 || step == STEPS;
-            let weight = if end {
+            // Simpson's rule weighs the ends by 1, and the other points by 4 and 2 in turn.
+            let is_end = step == 0 || step == STEPS;
+            let weight = if is_end {
                 1.0
             } else if step % 2 == 1 {
                 4.0
@@ -90,6 +93,7 @@ impl DahlStrip {
                 2.0
             };
             let weight = weight * length / (3.0 * STEPS as f64);
+
             let mode = self.mode(length * step as f64 / STEPS as f64);
             let curvature = (tip * mode.curvature).abs();
             let held = (curvature / sliding).tanh();

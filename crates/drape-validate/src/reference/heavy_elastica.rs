@@ -16,17 +16,18 @@ pub struct Tip {
     pub reach: f64,
 }
 
-/// Returns the tip of a strip clamped level, bent by its own weight and by a load at its tip.
+/// Returns the tip of a strip that is clamped level and bends under its own weight and a load at
+/// its tip. `weight` is `$\lambda = wL^3/B$` and `load` is `$\mu = PL^2/B$`, both ratios.
 ///
-/// With the slope `$\theta$` below the level and the arc length `$\sigma$` from the tip, both over
-/// the length,
+/// With the slope `$\theta$` below the level and the arc length `$\sigma$` from the tip over the
+/// length of the strip,
 ///
 /// ```math
 /// \theta'' = -(\lambda\sigma + \mu)\cos\theta,\qquad \theta'(0) = 0,\qquad \theta(1) = 0
 /// ```
 ///
-/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica \[Bic34\] where `$\mu = 0$`, the
-/// end-loaded cantilever \[BD45\] where `$\lambda = 0$`. Solved by shooting from the tip.
+/// This is the heavy elastica \[Bic34\] where `$\mu = 0$`, and the end-loaded cantilever \[BD45\]
+/// where `$\lambda = 0$`. The equation is solved by shooting from the tip.
 #[must_use]
 pub fn cantilever(weight: f64, load: f64) -> Tip {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
@@ -34,23 +35,25 @@ pub fn cantilever(weight: f64, load: f64) -> Tip {
     Tip { drop, reach }
 }
 
-/// The whole shape of the same strip, from its clamp at (0, 0): reach and drop over the length at
-/// so many even places.
+/// Returns the whole shape of the strip of [`cantilever`], from its clamp at (0, 0): reach and drop
+/// over the length, at the ends of `parts` equal parts of the strip.
 #[must_use]
-pub fn cantilever_shape(weight: f64, load: f64, places: usize) -> Vec<[f64; 2]> {
+pub fn cantilever_shape(weight: f64, load: f64, parts: usize) -> Vec<[f64; 2]> {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
     let shape: Vec<[f64; 4]> = std::iter::once(start)
         .chain(trajectory(elastica(weight, load), start, 1.0, STEPS))
         .collect();
     let [_, _, drop, reach] = shape[STEPS];
-    let at = |k: usize| {
-        let [_, _, down, across] = shape[STEPS - k * STEPS / places];
-        [reach - across, drop - down]
-    };
-    (0..=places).map(at).collect()
+    (0..=parts)
+        .map(|k| {
+            let [_, _, down, across] = shape[STEPS - k * STEPS / parts];
+            [reach - across, drop - down]
+        })
+        .collect()
 }
 
-/// Derivatives of slope, bend, drop and reach along the strip from its tip.
+/// Returns the derivatives of slope, bend, drop and reach along the strip from its tip, for the
+/// ratios `weight` and `load`.
 fn elastica(weight: f64, load: f64) -> impl Fn(f64, [f64; 4]) -> [f64; 4] {
     move |s, [theta, bend, ..]| {
         let pull = -(weight * s + load) * theta.cos();
@@ -58,11 +61,15 @@ fn elastica(weight: f64, load: f64) -> impl Fn(f64, [f64; 4]) -> [f64; 4] {
     }
 }
 
-/// The slope at the tip for which the clamp is level: that at the clamp rises with it from below
-/// nought to above.
+/// Returns the slope at the tip for which the clamp is level, for the ratios `weight` and `load`.
+///
+/// The slope at the clamp rises with the slope at the tip, from below zero to above.
 fn tip_slope(weight: f64, load: f64) -> f64 {
-    let clamp = |tip: f64| march(elastica(weight, load), [tip, 0.0, 0.0, 0.0], 1.0, STEPS)[0];
-    root(clamp, 0.0, std::f64::consts::FRAC_PI_2)
+    root(
+        |tip| march(elastica(weight, load), [tip, 0.0, 0.0, 0.0], 1.0, STEPS)[0],
+        0.0,
+        std::f64::consts::FRAC_PI_2,
+    )
 }
 
 #[cfg(test)]
@@ -73,9 +80,9 @@ mod tests {
     fn a_stiff_strip_sags_as_a_beam() {
         // wL⁴/8B and PL³/3B; the next term is of the third order.
         let small = 1e-3;
-        let (own, end) = (cantilever(small, 0.0), cantilever(0.0, small));
-        assert!((own.drop / (small / 8.0) - 1.0).abs() < 1e-6, "{own:?}");
-        assert!((end.drop / (small / 3.0) - 1.0).abs() < 1e-6, "{end:?}");
+        let (heavy, loaded) = (cantilever(small, 0.0), cantilever(0.0, small));
+        assert!((heavy.drop / (small / 8.0) - 1.0).abs() < 1e-6, "{heavy:?}");
+        assert!((loaded.drop / (small / 3.0) - 1.0).abs() < 1e-6, "{loaded:?}");
     }
 
     #[test]

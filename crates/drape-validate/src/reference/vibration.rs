@@ -1,8 +1,8 @@
 //! Vibrations of hanging strips and pendulums: modes, periods and swings.
 //!
-//! Modes of a chain are zeros of a Bessel function \[Ber38\]; those of a strip with bending rigidity
-//! come from cubic finite elements; the period of a pendulum is an arithmetic–geometric mean
-//! \[Gau99\].
+//! Modes of a chain are zeros of a Bessel function \[Ber38\]. Modes of a strip with bending
+//! rigidity come from cubic finite elements. The period of a pendulum is an arithmetic–geometric
+//! mean \[Gau99\].
 
 use std::f64::consts::TAU;
 
@@ -14,11 +14,11 @@ use super::runge_kutta::trajectory;
 /// over `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` \[Ber38\].
 pub const CHAIN_MODES: [f64; 3] = [1.202_412_778_848, 2.760_039_055_143, 4.326_863_956_455];
 
-/// Elements along the hanging strip: the lowest frequencies are then right to a millionth for a
-/// rigidity of 1e-6 and above.
+/// Elements along the hanging strip. With this number the lowest frequencies are right to a
+/// millionth for a rigidity of 1e-6 and above.
 const ELEMENTS: usize = 60;
 
-/// Places and weights of Gauss's integration on 0 … 1, exact to the seventh power.
+/// Points and weights of Gauss's integration on 0 … 1, exact to the seventh power.
 const GAUSS: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
@@ -26,28 +26,32 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// Angular frequencies, over `$\sqrt{g/L}$`, of a strip that hangs from a clamp and has bending
-/// rigidity.
+/// Returns the `count` lowest angular frequencies, over `$\sqrt{g/L}$`, of a strip that hangs from
+/// a clamp and has bending rigidity. `rigidity` is `$\beta = B/(wL^3)$`, a ratio.
 ///
-/// The lowest modes of
+/// The modes solve
 ///
 /// ```math
 /// \beta\,y'''' - \left((1-x)\,y'\right)' = \omega^2 y,\qquad y(0)=y'(0)=0,\quad y''(1)=y'''(1)=0
 /// ```
 ///
-/// with `$\beta = B/(wL^3)$`, by cubic finite elements.
+/// The equation is discretised by cubic finite elements.
 #[must_use]
 pub fn strip_modes(rigidity: f64, count: usize) -> Vec<f64> {
-    // Shorter towards the clamp, where a limp strip bends within √β of its length.
-    let node = |i: usize| (i as f64 / ELEMENTS as f64).powi(2);
+    // Elements are shorter towards the clamp, where a limp strip bends within √β of its length.
+    fn node(i: usize) -> f64 {
+        (i as f64 / ELEMENTS as f64).powi(2)
+    }
+
+    // The two matrices are integrated element by element.
     let size = 2 * (ELEMENTS + 1);
     let mut stiffness = DMatrix::<f64>::zeros(size, size);
     let mut mass = DMatrix::<f64>::zeros(size, size);
     for element in 0..ELEMENTS {
         let h = node(element + 1) - node(element);
-        for (place, weight) in GAUSS {
-            let tension = 1.0 - node(element) - place * h;
-            let [value, slope, bend] = cubic(place, h);
+        for (part, weight) in GAUSS {
+            let tension = 1.0 - node(element) - part * h;
+            let [value, slope, bend] = cubic(part, h);
             for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
                 let at = (2 * element + i, 2 * element + j);
                 let elastic = rigidity * bend[i] * bend[j] + tension * slope[i] * slope[j];
@@ -56,10 +60,13 @@ pub fn strip_modes(rigidity: f64, count: usize) -> Vec<f64> {
             }
         }
     }
-    // The clamp takes the first deflection and the first slope.
+
+    // The clamp holds the first deflection and the first slope.
     let free = size - 2;
     let stiffness = stiffness.view((2, 2), (free, free)).into_owned();
     let mass = mass.view((2, 2), (free, free)).into_owned();
+
+    // With the factor L of the mass, L⁻¹KL⁻ᵀ is symmetric and has the squares as eigenvalues.
     let lower = mass.cholesky().expect("the mass of elements is positive").l();
     let half = lower.solve_lower_triangular(&stiffness).expect("its diagonal is positive");
     let whole = lower.solve_lower_triangular(&half.transpose()).expect("its diagonal is positive");
@@ -70,7 +77,8 @@ pub fn strip_modes(rigidity: f64, count: usize) -> Vec<f64> {
     squares.into_iter().take(count).map(|square| square.max(0.0).sqrt()).collect()
 }
 
-/// Values, slopes and curvatures of the cubics that belong to deflection and slope of both ends.
+/// Returns values, slopes and curvatures of the cubics that belong to deflection and slope of both
+/// ends of an element of length `h`, at the part `t` of its length.
 fn cubic(t: f64, h: f64) -> [[f64; 4]; 3] {
     let value = [
         (1.0 + 2.0 * t) * (1.0 - t).powi(2),
@@ -93,7 +101,8 @@ fn cubic(t: f64, h: f64) -> [[f64; 4]; 3] {
     [value, slope, bend]
 }
 
-/// Period of a pendulum that swings to an amplitude (in rad), over that of small swings.
+/// Returns the period of a pendulum that swings to `amplitude` (in rad), over the period of small
+/// swings.
 ///
 /// ```math
 /// T/T_0 = 1/\mathrm{agm}\left(1, \cos\tfrac{\alpha}{2}\right)
@@ -109,16 +118,17 @@ pub fn pendulum_period(amplitude: f64) -> f64 {
     1.0 / a
 }
 
-/// The swing of a pendulum let go at an amplitude (in rad): time over that of small swings, and
-/// angle in rad, at so many even times of a number of such periods. By integration of
-/// `$\theta'' = -\sin\theta$`.
+/// Returns the swing of a pendulum that is released at `amplitude` (in rad): time over the period
+/// of small swings, and angle in rad, after each of `steps` equal parts of `periods` such periods.
+///
+/// The swing is an integral of `$\theta'' = -\sin\theta$`.
 #[must_use]
-pub fn pendulum_swing(amplitude: f64, periods: f64, places: usize) -> Vec<[f64; 2]> {
+pub fn pendulum_swing(amplitude: f64, periods: f64, steps: usize) -> Vec<[f64; 2]> {
     let end = periods * TAU;
     let swing =
-        trajectory(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
-    let time = |k: usize| periods * (k + 1) as f64 / places as f64;
-    let later = swing.enumerate().map(|(k, [angle, _])| [time(k), angle]);
+        trajectory(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, steps);
+    let later =
+        swing.enumerate().map(|(k, [angle, _])| [periods * (k + 1) as f64 / steps as f64, angle]);
     std::iter::once([0.0, amplitude]).chain(later).collect()
 }
 

@@ -1,4 +1,4 @@
-//! Shipped fabrics of the suite: what `drape fit` makes of sheets in the folder `fabrics` of the
+//! Shipped fabrics of the suite: results of `drape fit` for sheets in the folder `fabrics` of the
 //! workspace.
 
 use drape_fabric::Fabric;
@@ -12,7 +12,7 @@ pub const CUPRO: &str = include_str!("../../fabrics/cupro-weave.toml");
 /// Matsudaira's fabric A, a cotton broad, from published KES values; its shear is assumed.
 pub const COTTON: &str = include_str!("../../fabrics/matsudaira-a.toml");
 
-/// Matsudaira's fabric B, a wool tropical, likewise.
+/// Matsudaira's fabric B, a wool tropical, from published KES values; its shear is assumed.
 pub const WOOL: &str = include_str!("../../fabrics/matsudaira-b.toml");
 
 /// Cotton of \[THK03\], from its fitted law; its shear is assumed.
@@ -21,14 +21,14 @@ pub const TAGAWA: &str = include_str!("../../fabrics/tagawa-2003.toml");
 /// Stand-in for the stiff cotton of \[BHW94\]: four times as stiff as [`COTTON`], by choice.
 pub const STIFF_COTTON: &str = include_str!("../../fabrics/stiff-cotton-stand-in.toml");
 
-/// Stand-in for the polyester/cotton of \[BHW94\]: [`COTTON`] with a weft of a quarter of its
-/// stiffness, by choice.
+/// Stand-in for the polyester/cotton of \[BHW94\]: [`COTTON`] with a quarter of the stiffness along
+/// the weft, by choice.
 pub const LIMP_WEFT: &str = include_str!("../../fabrics/polyester-cotton-stand-in.toml");
 
-/// Returns a fabric from its text.
+/// Returns the fabric that `text` states as TOML.
 ///
 /// # Errors
-/// A text that is none.
+/// `text` does not state a fabric.
 pub fn fabric(text: &str) -> Result<Fabric, ValidationError> {
     Ok(Fabric::from_document(&Document::new("fabric.toml", text))?)
 }

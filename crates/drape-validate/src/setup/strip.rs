@@ -1,7 +1,8 @@
 //! Strip: a rectangular strip of a fabric with linear laws, held at its left end.
 //!
-//! Exact solutions are those of thin strips, so most cases simulate one. Its weight counts by the
-//! ratio `$wL^3/B$` of its weight per area `$w$`, length `$L$` and bending rigidity `$B$`.
+//! The exact solutions describe thin strips, so most cases simulate a strip. The shape of a strip
+//! depends on the ratio `$wL^3/B$` of its weight per area `$w$`, length `$L$` and bending rigidity
+//! `$B$`.
 
 use drape_dynamics::Simulation;
 use drape_scene::Scene;
@@ -9,7 +10,7 @@ use drape_scene::Scene;
 use super::scene::{ALONE, scene};
 use crate::error::ValidationError;
 
-/// Acceleration of gravity in all scenes here, in m/s².
+/// Acceleration of gravity in all scenes of the suite, in m/s².
 pub const GRAVITY: f64 = 9.81;
 
 /// Hold of the left end of a strip.
@@ -17,10 +18,10 @@ pub const GRAVITY: f64 = 9.81;
 pub enum Hold {
     /// In a clamp: place and slope.
     ///
-    /// It holds three rows of particles, and its line lies midway between the second and the third:
-    /// there the slope is held, and the third row bends as the first free cell of a beam does. (The
-    /// second row of a panel bends for the half cell at its edge as well, so a line next to the
-    /// first row would be a third of a cell off.)
+    /// A clamp holds three rows of particles, and its line lies midway between the second and the
+    /// third row. At this line the slope is held, and the third row bends as the first free cell of
+    /// a beam does. The second row of a panel also bends for the half cell at its edge, so a line
+    /// next to the first row would be wrong by a third of a cell.
     #[default]
     Clamp,
     /// By a hinge: the first row stays in its place and turns.
@@ -71,8 +72,8 @@ pub struct Strip {
 }
 
 impl Default for Strip {
-    /// A strip of 10 × 2 cm of a fabric of 200 g/m² with a bending length of 20 mm, nearly
-    /// inextensible.
+    /// Returns a strip of 10 × 2 cm of a nearly inextensible fabric of 200 g/m² with a bending
+    /// length of 20 mm.
     fn default() -> Self {
         Self {
             length: 0.1,
@@ -89,25 +90,26 @@ impl Default for Strip {
 }
 
 impl Strip {
-    /// Returns the strip with the length at which `$wL^3/B$` is a given ratio, with as many cells.
+    /// Returns the strip with the length at which `$wL^3/B$` is `ratio`. The number of cells stays.
     #[must_use]
-    pub fn of_weight(self, ratio: f64) -> Self {
+    pub fn with_weight(self, ratio: f64) -> Self {
         let length = (ratio * self.rigidity / (self.density * GRAVITY)).cbrt();
         Self { length, width: 0.2 * length, ..self }
     }
 
-    /// Returns the spacing of the particles along the strip, in m.
+    /// Returns the distance of the particles along the strip, in m: `length` over the free cells.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        let held = if self.hold == Hold::Clamp { 0.5 } else { 0.0 };
-        self.length / (self.cells as f64 + held)
+        let half_cell = if self.hold == Hold::Clamp { 0.5 } else { 0.0 };
+        self.length / (self.cells as f64 + half_cell)
     }
 
-    /// Returns the length of the strip inside its clamp, in m.
-    pub(crate) fn beyond(&self) -> f64 {
+    /// Returns the length of the strip inside its clamp, in m: zero without [`Hold::Clamp`].
+    pub(crate) fn clamped_length(&self) -> f64 {
         if self.hold == Hold::Clamp { 1.5 * self.spacing() } else { 0.0 }
     }
 
+    /// Returns the text of the fabric of the strip, with equal laws along warp and weft.
     fn fabric(&self) -> String {
         let Self { density, rigidity, stiffness, friction: Friction { plateau, length }, .. } =
             self;
@@ -116,6 +118,8 @@ impl Strip {
         } else {
             String::new()
         };
+
+        // A toe ratio of one makes the traction linear.
         let direction = format!(
             "traction = {{ primed = {{ stiffness = {stiffness:e}, toe_ratio = 1.0, toe_strain = 0.01, \
              toe_strain_after = 0.01 }} }}\nbending = {{ {friction}rigidity = {rigidity:e} }}\n"
@@ -126,36 +130,42 @@ impl Strip {
         )
     }
 
-    /// Returns a simulation of the strip without air, held at the origin, turned from x about z by
-    /// an angle in degrees.
+    /// Returns a simulation of the strip without air. The strip is held at the origin, and turned
+    /// from x about z by `angle`, in degrees.
     ///
-    /// The text is the rest of the scene: time, further pins, how it is solved.
+    /// `rest` is the rest of the scene as TOML: time, further pins, the solver.
     ///
     /// # Errors
-    /// A scene that cannot be read or prepared.
+    /// The scene cannot be read or prepared.
     pub fn simulation(&self, angle: f64, rest: &str) -> Result<Simulation, ValidationError> {
         Ok(Simulation::new(self.scene(angle, rest)?)?)
     }
 
-    /// Returns the scene of [`Strip::simulation`].
+    /// Returns the scene of [`Strip::simulation`], with the same `angle` and `rest`.
     ///
     /// # Errors
-    /// A scene that cannot be read.
+    /// The scene cannot be read.
     pub fn scene(&self, angle: f64, rest: &str) -> Result<Scene, ValidationError> {
-        let (beyond, width, spacing) = (self.beyond(), self.width, self.spacing());
+        let (clamped, width, spacing) = (self.clamped_length(), self.width, self.spacing());
         let spin = 360.0 * self.spin;
-        let panel = self.length + beyond;
-        let pin =
-            |rows: usize| format!("[[pin]]\npanel = \"strip\"\nedge = \"left\"\nrows = {rows}\n");
-        let pin = match self.hold {
-            Hold::Clamp => pin(3),
-            Hold::Hinge => pin(1),
-            Hold::Free => String::new(),
+        let held_rows = match self.hold {
+            Hold::Clamp => 3,
+            Hold::Hinge => 1,
+            Hold::Free => 0,
         };
+        let pin = if held_rows > 0 {
+            format!("[[pin]]\npanel = \"strip\"\nedge = \"left\"\nrows = {held_rows}\n")
+        } else {
+            String::new()
+        };
+
         // A panel turns about its middle.
-        let middle = 0.5 * panel - beyond;
+        let panel = self.length + clamped;
+        let middle = 0.5 * panel - clamped;
         let (sin, cos) = angle.to_radians().sin_cos();
         let (x, y) = (middle * cos, middle * sin);
+
+        // Keys without a table stand before the tables: `gravity` is the only one in `rest`.
         let text = format!(
             "{ALONE}name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
              fabric.strip.file = \"fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
@@ -167,27 +177,35 @@ impl Strip {
         scene(text, self.fabric())
     }
 
-    /// Returns the points of the middle line of the strip, from its held end on.
+    /// Returns the points of the middle line of the strip in `simulation`, from the held end to the
+    /// free end.
     #[must_use]
     pub fn line(&self, simulation: &Simulation) -> Vec<LinePoint> {
         let coordinates = simulation.coordinates();
         let positions = simulation.frame().positions;
+
+        // The line is the row of particles nearest to the middle, or the lower of two such rows.
         let across = coordinates.iter().map(|c| c[1]).fold(f64::MIN, f64::max);
-        let off = |c: &[f64; 2]| (c[1] - 0.5 * across).abs();
-        let nearest = coordinates.iter().map(off).fold(f64::INFINITY, f64::min);
-        let middle =
-            |c: &[f64; 2]| off(c) <= nearest * (1.0 + 1e-9) + 1e-12 && c[1] <= 0.5 * across + 1e-12;
-        let places = coordinates.iter().zip(positions.chunks_exact(3)).filter(|(c, _)| middle(c));
-        let point = |(c, x): (&[f64; 2], &[f64])| LinePoint {
-            distance: c[0] - self.beyond(),
-            position: [x[0], x[1], x[2]],
-        };
-        let mut line: Vec<LinePoint> = places.map(point).collect();
+        let nearest =
+            coordinates.iter().map(|c| (c[1] - 0.5 * across).abs()).fold(f64::INFINITY, f64::min);
+        let mut line: Vec<LinePoint> = coordinates
+            .iter()
+            .zip(positions.chunks_exact(3))
+            .filter(|(c, _)| {
+                (c[1] - 0.5 * across).abs() <= nearest * (1.0 + 1e-9) + 1e-12
+                    && c[1] <= 0.5 * across + 1e-12
+            })
+            .map(|(c, x)| LinePoint {
+                distance: c[0] - self.clamped_length(),
+                position: [x[0], x[1], x[2]],
+            })
+            .collect();
         line.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         line
     }
 
-    /// Returns the middle of the free end, in m.
+    /// Returns the middle of the free end in `simulation`, in m. Not numbers if the strip has no
+    /// particles.
     #[must_use]
     pub fn tip(&self, simulation: &Simulation) -> [f64; 3] {
         self.line(simulation).last().map_or([f64::NAN; 3], |point| point.position)

@@ -24,7 +24,7 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
     for test in TESTS {
         for direction in DIRECTIONS {
             let comparison =
-                Comparison::of(fabric, test, direction, Resolution { spacing, points: POINTS })
+                Comparison::run(fabric, test, direction, Resolution { spacing, points: POINTS })
                     .map_err(|error| Failure::Solver(error.to_string()))?;
             let tested = TestedLoop { test, direction, comparison };
             if !arguments.json {

@@ -1,4 +1,4 @@
-//! Cloth on a cube: a square metre of cloth let down on a cube of half a metre \[BHW94\].
+//! Cloth on a cube: a square metre of cloth is lowered onto a cube of half a metre \[BHW94\].
 
 use drape_dynamics::{Simulation, Snapshot};
 use drape_fabric::Fabric;
@@ -10,20 +10,7 @@ use crate::setup::{finish_with, simulation};
 /// Half of the cube's side, in m.
 const HALF: f64 = 0.25;
 
-/// Height at which the draped cloth is cut, in m: just above the lowest place of the hem that is no
-/// corner's.
-const CUT: f64 = 0.3;
-
-/// Places of the cut that are looked at.
-const PLACES: usize = 720;
-
-/// Shortest wave of the cut that counts, over the spacing: what the grid can show.
-const SHORTEST_WAVE: f64 = 4.0;
-
-/// How far a billow stands out, in m: in proportion to the cloth what 3 mm are on a drapemeter.
-const PROMINENCE: f64 = 0.01;
-
-/// Which model the cloth is simulated in.
+/// Model in which the cloth is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Model {
     /// The laws of the fabric.
@@ -33,10 +20,10 @@ pub(crate) enum Model {
 }
 
 impl Model {
-    /// Both, in the order of the pictures.
+    /// Both models, in the order of the pictures.
     pub(crate) const ALL: [Self; 2] = [Self::Kes, Self::Breen];
 
-    /// The name in a scene.
+    /// Returns the name of the model in a [`drape_scene::Scene`].
     fn key(self) -> &'static str {
         match self {
             Self::Kes => "kes",
@@ -44,7 +31,7 @@ impl Model {
         }
     }
 
-    /// The name for people.
+    /// Returns the name of the model in a report.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Kes => "laws of the fabric",
@@ -53,32 +40,33 @@ impl Model {
     }
 }
 
-/// A cloth at rest on the cube.
+/// Cloth at rest on the cube.
 #[derive(Debug, Clone)]
-pub(crate) struct Draped {
+pub(crate) struct CubeDrape {
     /// The cloth and the cube.
     pub(crate) snapshot: Snapshot,
-    /// The cut, places (x, z) in m.
+    /// Horizontal cut of the cloth: points (x, z), in m.
     pub(crate) cut: Vec<[f64; 2]>,
-    /// Billows of each corner: places of the cut that stand out from the cube, nearer to the corner
-    /// than to the middle of a side.
+    /// Number of billows at each corner: maxima of the distance of the cut from the cube that lie
+    /// nearer to the corner than to the middle of a side.
     pub(crate) billows: [usize; 4],
-    /// Where the quarter of a side of cloth hangs that lies on no side of the cube: the middle of
-    /// it seen from the cube's edge, along x and along z, in m.
+    /// Middle of each corner of the cloth, seen from the vertical edge of the cube, along x and z,
+    /// in m. A corner is the part of the cloth that would lie beside two sides of the cube.
     pub(crate) corners: [[f64; 2]; 4],
-    /// Time of each step and energy of fabric, weight and contact since the start, in s and J.
+    /// Time of each step, in s, and energy of fabric, weight and contact since the start, in J.
     pub(crate) energy: Vec<[f64; 2]>,
-    /// What the forces lack for balance at rest, over g.
+    /// Imbalance of the forces at rest, over g.
     pub(crate) imbalance: f64,
-    /// Particles in the cube.
+    /// Number of particles in the cube.
     pub(crate) inside: usize,
 }
 
-impl Draped {
-    /// Lets a cloth of particles at a spacing, in m, down on the cube; the seed perturbs its start.
+impl CubeDrape {
+    /// Simulates a cloth of `fabric` that is lowered onto the cube, with particles at `spacing`, in
+    /// m. `seed` perturbs the start.
     ///
     /// The weft lies along x and the warp along z.
-    pub(crate) fn of(
+    pub(crate) fn simulate(
         fabric: &Fabric,
         model: Model,
         spacing: f64,
@@ -95,13 +83,17 @@ impl Draped {
         let mut simulation = simulation(text, fabric.to_toml())?;
         let mut energy = Vec::new();
         finish_with(&mut simulation, |simulation, step| {
-            let held = simulation.energy().unwrap_or_default();
-            energy.push([step.time, held.elastic + held.gravity + held.contact]);
+            let stored = simulation.energy().unwrap_or_default();
+            energy.push([step.time, stored.elastic + stored.gravity + stored.contact]);
         })?;
         Ok(Self::read(&simulation, energy))
     }
 
+    /// Reads the drape from `simulation` at its end. `energy` is the history of the energy.
     fn read(simulation: &Simulation, energy: Vec<[f64; 2]>) -> Self {
+        /// Height of the cut, in m: just above the hem between the corners.
+        const CUT: f64 = 0.3;
+
         let snapshot = simulation.snapshot();
         let summary = simulation.summary();
         let cut = section(&snapshot.triangles, &snapshot.positions, CUT).unwrap_or_default();
@@ -116,18 +108,18 @@ impl Draped {
         }
     }
 
-    /// Directions in which the corners hang, in degrees from the diagonal of the cube; towards the
-    /// sides that the warp hangs down is positive.
+    /// Returns the directions of `corners`, in degrees from the diagonal of the cube. A positive
+    /// lean is towards the sides of the cube on which the warp hangs down.
     pub(crate) fn leans(&self) -> [f64; 4] {
         self.corners.map(|[x, z]| z.atan2(x).to_degrees() - 45.0)
     }
 
-    /// How far the corners hang from the cube's edges on the average, in m.
+    /// Returns the mean distance of `corners` from the vertical edges of the cube, in m.
     pub(crate) fn reach(&self) -> f64 {
         self.corners.iter().map(|[x, z]| x.hypot(*z)).sum::<f64>() / 4.0
     }
 
-    /// Largest rise of the energy in a step, over its fall in all.
+    /// Returns the largest rise of `energy` in a step, over its whole fall.
     pub(crate) fn rise(&self) -> f64 {
         let fall = self.energy.last().map_or(f64::NAN, |[_, last]| -last);
         let before = std::iter::once(0.0).chain(self.energy.iter().map(|[_, energy]| *energy));
@@ -136,23 +128,34 @@ impl Draped {
     }
 }
 
-/// Distance of a place (x, z) from the sides of the cube, below nought inside.
+/// Returns the distance of the point (`x`, `z`) from the sides of the cube, in m. The distance of a
+/// point inside is negative.
 fn distance([x, z]: [f64; 2]) -> f64 {
     let (x, z) = (x.abs() - HALF, z.abs() - HALF);
     x.max(0.0).hypot(z.max(0.0)) + x.max(z).min(0.0)
 }
 
-/// Billows at each corner.
+/// Returns the number of billows of `cut` at each corner, for cloth with particles at `spacing`.
 fn billows(cut: &[[f64; 2]], spacing: f64) -> [usize; 4] {
+    /// Points of the cut at which its distance from the cube is read.
+    const POINTS: usize = 720;
+
+    /// Shortest wave of the cut that a grid can show, over the spacing.
+    const SHORTEST_WAVE: f64 = 4.0;
+
+    /// Prominence of a billow, in m. It is in proportion to the cloth as 3 mm on a drapemeter.
+    const PROMINENCE: f64 = 0.01;
+
     let mut counts = [0; 4];
     if cut.is_empty() {
         return counts;
     }
-    let places = evenly(cut, PLACES);
-    let away: Vec<f64> = places.iter().map(|place| distance(*place)).collect();
+
+    let points = evenly(cut, POINTS);
+    let distances: Vec<f64> = points.iter().map(|point| distance(*point)).collect();
     let harmonics = (length(cut) / (SHORTEST_WAVE * spacing)) as usize;
-    let smooth = Harmonics::of(&away, harmonics).curve(PLACES);
-    for [x, z] in maxima(&smooth, PROMINENCE).into_iter().map(|place| places[place]) {
+    let smooth = Harmonics::new(&distances, harmonics).curve(POINTS);
+    for [x, z] in maxima(&smooth, PROMINENCE).into_iter().map(|index| points[index]) {
         if x.abs().min(z.abs()) > 0.5 * HALF {
             counts[usize::from(x > 0.0) + 2 * usize::from(z > 0.0)] += 1;
         }
@@ -160,15 +163,16 @@ fn billows(cut: &[[f64; 2]], spacing: f64) -> [usize; 4] {
     counts
 }
 
-/// The middle of each corner of the cloth, seen from the nearest edge of the cube.
+/// Returns the middle of each corner of the cloth in `snapshot`, seen from the nearest vertical
+/// edge of the cube, along x and z, in m.
 fn corners(snapshot: &Snapshot) -> [[f64; 2]; 4] {
     let mut sums = [[0.0; 3]; 4];
-    let places = snapshot.coordinates.iter().zip(snapshot.positions.chunks_exact(3));
-    for ([u, v], x) in places {
+    let particles = snapshot.coordinates.iter().zip(snapshot.positions.chunks_exact(3));
+    for ([u, v], x) in particles {
         let (u, v) = (u - 0.5, v - 0.5);
         if u.abs().min(v.abs()) >= HALF - 1e-9 {
             let sum = &mut sums[usize::from(u > 0.0) + 2 * usize::from(v > 0.0)];
-            // A panel's warp runs against z when it lies.
+            // The warp of a lying panel runs against z.
             sum[0] += x[0] * u.signum() - HALF;
             sum[1] += -x[2] * v.signum() - HALF;
             sum[2] += 1.0;
@@ -183,7 +187,7 @@ mod tests {
 
     use super::*;
 
-    /// A cut around the cube with so many waves at each corner.
+    /// Returns a cut around the cube with the number `waves` of waves at each corner.
     fn wavy(waves: f64) -> Vec<[f64; 2]> {
         let at = |k: usize| {
             let angle = TAU * k as f64 / 2000.0;

@@ -1,5 +1,6 @@
 //! Cases `grid-cotton` and `grid-wool`: drape coefficients on a finer grid and on a turned one.
 
+use super::super::figure_name;
 use super::{STARTS, points, spacing};
 use crate::drapemeter::{Drapemeter, Protocol, Sampling};
 use crate::error::ValidationError;
@@ -7,43 +8,46 @@ use crate::findings::{Check, Findings};
 use crate::progress::Progress;
 use crate::setup::fabrics::{COTTON, WOOL, fabric};
 
-const CONVERGENCE: f64 = 2.0;
-
-/// The finer spacing, over the one that the fabric asks for; and that of the table of what matters,
-/// which is of changes and takes a hundred specimens, at most 5 mm too.
-const FINER: f64 = 0.7;
-
-/// The cotton on a finer grid, and on a turned one.
+/// Compares the cotton on a finer grid and on a turned grid. Calls `progress` after each start.
 pub(crate) fn grid_of_cotton(progress: &Progress<'_>) -> Result<Findings, ValidationError> {
     grid(COTTON, progress)
 }
 
-/// The wool on a finer grid, and on a turned one.
+/// Compares the wool on a finer grid and on a turned grid. Calls `progress` after each start.
 pub(crate) fn grid_of_wool(progress: &Progress<'_>) -> Result<Findings, ValidationError> {
     grid(WOOL, progress)
 }
 
+/// Compares the drape coefficient of the fabric in `text` on a finer grid and on a turned grid.
 fn grid(text: &str, progress: &Progress<'_>) -> Result<Findings, ValidationError> {
+    /// Largest change of the drape coefficient, in points.
+    const CONVERGENCE: f64 = 2.0;
+
+    /// Finer spacing, over the spacing that the fabric needs.
+    const FINER: f64 = 0.7;
+
     let fabric = fabric(text)?;
     let meter = Drapemeter::frl();
     let turned = Drapemeter { protocol: Protocol { turn: 45.0, ..meter.protocol }, ..meter };
     let spacing = spacing(&fabric, 1.0);
-    let done = || progress(3 * STARTS);
-    let study = |meter: &Drapemeter, spacing: f64| {
-        meter.study(&fabric, Sampling { spacing, starts: STARTS }, &done)
-    };
-    let asked = study(&meter, spacing)?;
-    let what = |what: &str| format!("{}: {what}", fabric.name);
+
+    let mut coefficients = Vec::new();
+    for (meter, spacing) in [(&meter, spacing), (&meter, FINER * spacing), (&turned, spacing)] {
+        let sampling = Sampling { spacing, starts: STARTS };
+        let study = meter.study(&fabric, sampling, &|| progress(3 * STARTS))?;
+        coefficients.push(points(&study));
+    }
+
+    let coefficient = coefficients[0];
     let mut checks = vec![
-        Check::reported(what("spacing, mm"), 1e3 * spacing),
-        Check::reported(what("drape coefficient, %"), points(&asked)),
+        Check::reported(figure_name(&fabric.name, "spacing, mm"), 1e3 * spacing),
+        Check::reported(figure_name(&fabric.name, "drape coefficient, %"), coefficient),
     ];
-    for (other, at) in [
-        (study(&meter, FINER * spacing)?, "change at 0.7 of the spacing, points"),
-        (study(&turned, spacing)?, "change with the grid turned by 45°, points"),
-    ] {
-        let change = (points(&other) - points(&asked)).abs();
-        checks.push(Check::at_most(what(at), change, CONVERGENCE));
+    let changes =
+        ["change at 0.7 of the spacing, points", "change with the grid turned by 45°, points"];
+    for (what, changed) in changes.into_iter().zip(&coefficients[1..]) {
+        let change = (changed - coefficient).abs();
+        checks.push(Check::at_most(figure_name(&fabric.name, what), change, CONVERGENCE));
     }
     Ok(checks.into())
 }

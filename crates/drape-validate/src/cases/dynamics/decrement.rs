@@ -1,32 +1,34 @@
 //! Case `decrement`: the swings of a strip with friction against the area of its loop.
 //!
-//! The logarithmic decrement is that of [`crate::reference::DahlStrip`] \[Dahl68\].
+//! The reference is the logarithmic decrement of [`crate::reference::DahlStrip`] \[Dahl68\].
 
 use std::f64::consts::TAU;
 
 use drape_dynamics::Simulation;
 
-use super::history::motion;
+use super::super::figure_name;
+use super::history::time_and_solver;
 use crate::error::ValidationError;
 use crate::findings::{Check, Findings};
 use crate::reference::{CycleLoss, DahlStrip};
 use crate::setup::{Friction, Strip};
 
-/// The strip: friction so little that it swings in the mode of an elastic one.
+/// Strip with so little friction that it swings in the mode of an elastic strip.
 const STRIP: DahlStrip =
     DahlStrip { length: 0.05, rigidity: 1.6e-5, plateau: 3.2e-7, sliding: 1.0 };
 
-/// Curvature at the clamp at first, in 1/m: twice the length of the friction.
-const CURVATURE: f64 = 2.0;
-
-/// Swings to one side, and steps in a period.
-const SWINGS: usize = 6;
-
-const STEPS: f64 = 250.0;
-
-/// Largest deflections of the tip to one side, in m, each with what the friction has taken until
-/// then, in J/m.
+/// Returns the largest deflections of the tip to one side, in m. Each comes with the energy that
+/// friction has dissipated until then, in J/m. Without `friction` the strip is elastic.
 fn swings(friction: bool) -> Result<Vec<[f64; 2]>, ValidationError> {
+    /// Largest curvature at the clamp in the first swing, in 1/m: twice the length of the friction.
+    const CURVATURE: f64 = 2.0;
+
+    /// Swings to one side.
+    const SWINGS: usize = 6;
+
+    /// Steps in a period.
+    const STEPS: f64 = 250.0;
+
     let plateau = if friction { STRIP.plateau } else { 0.0 };
     let strip = Strip {
         length: STRIP.length,
@@ -39,18 +41,21 @@ fn swings(friction: bool) -> Result<Vec<[f64; 2]>, ValidationError> {
     let frequency = STRIP.frequency(strip.density);
     let period = TAU / frequency;
     let bend = STRIP.mode(0.0).curvature;
-    let rest =
-        format!("gravity = [0, 0, 0]\n{}", motion(period / STEPS, (SWINGS as f64 + 0.5) * period));
+    let time = time_and_solver(period / STEPS, (SWINGS as f64 + 0.5) * period);
+    let rest = format!("gravity = [0, 0, 0]\n{time}");
     let mut scene = strip.scene(0.0, &rest.replace("energy = false", "energy = true"))?;
-    // Flat and fast in the first mode: no yarn is strained, and none has slid.
+
+    // The strip starts flat with the velocities of the first mode: no yarn is strained, and no
+    // element has slid.
     let held = scene.held_particles();
     let speeds = scene.start.velocities.chunks_exact_mut(3).zip(scene.cloth.coordinates());
     for ((speed, [u, _]), held) in speeds.zip(held) {
-        let deflection = STRIP.mode(u - strip.beyond()).deflection;
+        let deflection = STRIP.mode(u - strip.clamped_length()).deflection;
         speed[1] = if held { 0.0 } else { frequency * CURVATURE / bend * deflection };
     }
+
     let mut simulation = Simulation::new(scene)?;
-    let (mut tips, mut found) = (vec![[0.0; 2]], Vec::new());
+    let (mut tips, mut maxima) = (vec![[0.0; 2]], Vec::new());
     loop {
         let finished = simulation.step()?.finished;
         let energy = simulation.energy().unwrap_or_default();
@@ -60,43 +65,40 @@ fn swings(friction: bool) -> Result<Vec<[f64; 2]>, ValidationError> {
             && b >= c
             && b > 0.0
         {
-            // The top of the parabola through three deflections.
-            found.push([b + (a - c).powi(2) / (8.0 * (2.0 * b - a - c)), lost]);
+            // The maximum is the top of the parabola through three deflections.
+            maxima.push([b + (a - c).powi(2) / (8.0 * (2.0 * b - a - c)), lost]);
         }
         if finished {
-            return Ok(found);
+            return Ok(maxima);
         }
     }
 }
 
-/// The decrement of free swings against the area of the loop.
+/// Compares the decrement of free swings with the area of the loop.
 pub(crate) fn decrement() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
-    let found = swings(true)?;
-    // The first swing begins without a past, in no loop.
-    for (number, pair) in found.windows(2).enumerate().skip(1).step_by(2) {
+    let rubbing = swings(true)?;
+
+    // The first swing starts without slip, so its loop is not steady.
+    for (number, pair) in rubbing.windows(2).enumerate().skip(1).step_by(2) {
         let ([first, before], [second, after]) = (pair[0], pair[1]);
         let CycleLoss { energy: lost, decrement } = STRIP.decrement((first * second).sqrt());
-        let what = |what: &str| format!("swing {}: {what}", number + 1);
-        checks.push(Check::within(
-            what("logarithmic decrement"),
-            (first / second).ln(),
-            decrement,
-            0.02,
-        ));
-        let taken = 1e9 * (after - before);
-        checks.push(Check::within(
-            what("energy that friction takes, nJ/m"),
-            taken,
-            1e9 * lost,
-            0.02,
-        ));
+        let swing = format!("swing {}", number + 1);
+        let what = figure_name(&swing, "logarithmic decrement");
+        checks.push(Check::within(what, (first / second).ln(), decrement, 0.02));
+        let dissipated = 1e9 * (after - before);
+        let what = figure_name(&swing, "energy that friction takes, nJ/m");
+        checks.push(Check::within(what, dissipated, 1e9 * lost, 0.02));
     }
+
+    // The time integration alone must damp the swings far less than friction does.
     let elastic = swings(false)?;
-    if let ([[first, _], .., [last, _]], [[begun, _], .., [ended, _]]) = (&elastic[..], &found[..])
+    if let ([[first, _], .., [last, _]], [[rubbing_first, _], .., [rubbing_last, _]]) =
+        (&elastic[..], &rubbing[..])
     {
         let what = "decrement of the formula, without friction, over that with friction";
-        checks.push(Check::at_most(what, (first / last).ln() / (begun / ended).ln(), 0.02));
+        let ratio = (first / last).ln() / (rubbing_first / rubbing_last).ln();
+        checks.push(Check::at_most(what, ratio, 0.02));
     }
     Ok(checks.into())
 }

@@ -1,7 +1,7 @@
 //! Case `bias-rim`: bending specimens cut on the bias, as a grid and as a grid with a rim of
 //! triangles.
 //!
-//! Both are compared with the moment of the laws, and with each other.
+//! Both specimens are compared with the moment of the laws, and with each other.
 
 use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
@@ -14,73 +14,82 @@ use crate::instrument::on_the_bias_along;
 use crate::setup::ALONE;
 use crate::setup::fabrics::{COTTON, CUPRO, fabric};
 
-/// Width of a specimen, its length between the clamps and in each of them, in m.
+/// Width of a specimen, in m.
 const WIDTH: f64 = 0.2;
 
+/// Length of a specimen between the clamps, in m.
 const GAUGE: f64 = 0.03;
 
+/// Length of a specimen in each clamp, in m.
 const CLAMPED: f64 = 0.01;
 
-/// Part of the width in which curvatures are read: particles of ragged sides are not on the
-/// cylinder.
-const MIDDLE: f64 = 0.8;
-
-/// Spacing of the particles along the yarns, in m.
-const SPACING: f64 = 0.0025;
-
-/// Curvature up to which it is bent, in 1/m: where the shear of folded cells adds half a per cent
-/// at most.
+/// Largest curvature of a specimen, in 1/m. The shear of folded cells adds at most half a per cent
+/// to the moment.
 const LARGEST: f64 = 40.0;
 
-/// Steps in which it is, and how long each takes, in s.
+/// Steps in which a specimen is bent.
 const STEPS: usize = 20;
 
-const STEP: f64 = 0.1;
-
-/// Distance of the places that a clamp is told to hold, in m, and how far around them it does.
-const GRIP: f64 = 1e-3;
-
-const REACH: f64 = 0.75e-3;
-
-/// How the specimen is made.
+/// Mesh of a specimen.
 #[derive(Clone, Copy, PartialEq)]
-enum Making {
+enum Mesh {
     /// A rectangle whose cells at the sides are cut.
     Grid,
-    /// A pattern that is cut, with triangles between the full cells and the sides.
+    /// A cut pattern, with triangles between the full cells and the sides.
     Rim,
 }
 
-/// The places of a panel that a clamp holds, which begins so far from the panel's left end, in m.
-fn held(start: f64) -> String {
-    let count = |length: f64| (length / GRIP).round() as usize;
-    let places = (0..=count(CLAMPED)).flat_map(|along| {
-        (0..=count(WIDTH)).map(move |across| [start + along as f64 * GRIP, across as f64 * GRIP])
+/// Returns the points of the panel that a clamp holds, as a list in TOML. The clamp begins at the
+/// distance `start`, in m, from the left end of the panel.
+fn clamped_points(start: f64) -> String {
+    /// Distance of the points, in m.
+    const GRIP: f64 = 1e-3;
+
+    let [along, across] = [CLAMPED, WIDTH].map(|length| (length / GRIP).round() as usize);
+    let points = (0..=along).flat_map(|along| {
+        (0..=across).map(move |across| [start + along as f64 * GRIP, across as f64 * GRIP])
     });
-    places.map(|[x, y]| format!("[{x:.4}, {y:.4}], ")).collect()
+    points.map(|[x, y]| format!("[{x:.4}, {y:.4}], ")).collect()
 }
 
-fn specimen(making: Making, fabric: &Fabric) -> Result<Scene, ValidationError> {
-    let length = GAUGE + 2.0 * CLAMPED;
-    let list = |of: &dyn Fn(f64) -> String| -> String {
-        (0..=STEPS).map(|k| of(LARGEST * k as f64 / STEPS as f64) + ", ").collect()
-    };
-    let shifts = list(&|curvature| match curvature * GAUGE {
+/// Returns the shift of the moving clamp that bends the specimen to `curvature`, in 1/m, as TOML.
+fn clamp_shift(curvature: f64) -> String {
+    match curvature * GAUGE {
         0.0 => "[0, 0, 0]".to_owned(),
         turn => {
             let [along, up] = [turn.sin() / curvature - GAUGE, (1.0 - turn.cos()) / curvature];
             format!("[{along:e}, {up:e}, 0]")
         }
-    });
-    let turns = list(&|curvature| format!("[0, 0, {:e}]", (curvature * GAUGE).to_degrees()));
+    }
+}
+
+/// Returns the scene of a specimen of `fabric` with `mesh`, which is bent step by step.
+fn specimen(mesh: Mesh, fabric: &Fabric) -> Result<Scene, ValidationError> {
+    /// Distance of the particles along the yarns, in m.
+    const SPACING: f64 = 0.0025;
+
+    /// Length of a step, in s.
+    const STEP: f64 = 0.1;
+
+    /// Distance from a point of a clamp within which particles are held, in m.
+    const REACH: f64 = 0.75e-3;
+
+    // The moving clamp follows an arc of constant length.
+    let length = GAUGE + 2.0 * CLAMPED;
+    let curvatures: Vec<f64> = (0..=STEPS).map(|k| LARGEST * k as f64 / STEPS as f64).collect();
+    let shifts: String = curvatures.iter().map(|&k| clamp_shift(k) + ", ").collect();
+    let turns: String =
+        curvatures.iter().map(|k| format!("[0, 0, {:e}], ", (k * GAUGE).to_degrees())).collect();
     let times: Vec<f64> = (0..=STEPS).map(|k| k as f64 * STEP).collect();
-    let panel = match making {
-        Making::Grid => format!(
+
+    // A panel of a scene is a grid. A panel of a pattern has a rim.
+    let panel = match mesh {
+        Mesh::Grid => format!(
             "[[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\nrectangle = [{length}, {WIDTH}]\ngrain = 45\n\
              center = [{}, 0, 0]\nturn = [-90, 0, 0]\n",
             0.5 * GAUGE
         ),
-        Making::Rim => "[[garment]]\npattern = \"specimen.toml\"\nfabric = \"specimen\"\n".into(),
+        Mesh::Rim => "[[garment]]\npattern = \"specimen.toml\"\nfabric = \"specimen\"\n".into(),
     };
     let pattern = format!(
         "length = \"m\"\n[panel.specimen]\ngrain = 45\nrectangle = [{length}, {WIDTH}]\n\
@@ -95,36 +104,49 @@ fn specimen(making: Making, fabric: &Fabric) -> Result<Scene, ValidationError> {
          [[pin]]\npanel = \"specimen\"\nradius = {REACH:e}\npoints = [{}]\n\
          [pin.motion]\ntimes = {times:?}\ncenter = [{GAUGE:e}, 0, 0]\nshift = [{shifts}]\nturn = [{turns}]\n\
          [time]\nstep = {STEP}\nend = {:e}\n[output]\nenergy = false\n",
-        held(0.0),
-        held(CLAMPED + GAUGE),
+        clamped_points(0.0),
+        clamped_points(CLAMPED + GAUGE),
         STEP * STEPS as f64
     );
+
     let fabric = Document::new("fabric.toml", fabric.to_toml());
     let pattern = Document::new("specimen.toml", pattern);
     Ok(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric, pattern])?)
 }
 
-/// Curvatures in the middle half of a specimen's length, in 1/m, and the moments per width there,
-/// in N, step by step.
-fn bend(making: Making, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationError> {
-    let scene = specimen(making, fabric)?;
+/// Bends a specimen of `fabric` with `mesh`. Returns the curvatures in the middle half of its
+/// length, in 1/m, and the moments per width there, in N, after each step.
+fn bend(mesh: Mesh, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationError> {
+    /// Part of the width in which curvatures are read: particles at ragged sides do not lie on the
+    /// cylinder.
+    const MIDDLE: f64 = 0.8;
+
+    let scene = specimen(mesh, fabric)?;
     let particles = scene.pins[1].particles.clone();
     let starts: Vec<f64> = scene.start.positions.iter().step_by(3).copied().collect();
     let mut simulation = Simulation::new(scene)?;
     let [mut curvatures, mut moments] = [Vec::new(), Vec::new()];
     for _ in 0..STEPS {
         simulation.step()?;
-        let places = simulation.frame().positions;
-        let places = places.as_chunks::<3>().0;
-        let middle = starts.iter().zip(places).filter(|(start, place)| {
-            (*start / GAUGE - 0.5).abs() < 0.25 && place[2].abs() < 0.5 * MIDDLE * WIDTH
-        });
-        let middle: Vec<[f64; 2]> = middle.map(|(_, &[x, y, _])| [x, y]).collect();
+        let frame = simulation.frame().positions;
+        let positions = frame.as_chunks::<3>().0;
+
+        // Middles of the measured particles and of the particles in the clamp.
+        let middle: Vec<[f64; 2]> = starts
+            .iter()
+            .zip(positions)
+            .filter(|(start, [_, _, z])| {
+                (*start / GAUGE - 0.5).abs() < 0.25 && z.abs() < 0.5 * MIDDLE * WIDTH
+            })
+            .map(|(_, &[x, y, _])| [x, y])
+            .collect();
         let count = middle.len() as f64;
         let [x, y] = [0, 1].map(|axis| middle.iter().map(|p| p[axis]).sum::<f64>() / count);
         let held = [0, 1].map(|axis| {
-            particles.iter().map(|&p| places[p][axis]).sum::<f64>() / particles.len() as f64
+            particles.iter().map(|&p| positions[p][axis]).sum::<f64>() / particles.len() as f64
         });
+
+        // The moment in the middle is the moment of the clamp and the moment of its force.
         let load = simulation.pin_loads()[1];
         let moment = load.moment[2] + (held[0] - x) * load.force[1] - (held[1] - y) * load.force[0];
         curvatures.push(curvature(&middle));
@@ -133,7 +155,8 @@ fn bend(making: Making, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationErro
     Ok([curvatures, moments])
 }
 
-/// Curvature of the circle through points of a plane, by least squares of their powers \[Kas76\].
+/// Returns the curvature of the circle through `points`, by least squares of their powers
+/// \[Kas76\].
 fn curvature(points: &[[f64; 2]]) -> f64 {
     let mut normal = nalgebra::SMatrix::<f64, 3, 3>::zeros();
     let mut right = nalgebra::SVector::<f64, 3>::zeros();
@@ -142,24 +165,27 @@ fn curvature(points: &[[f64; 2]]) -> f64 {
         normal += row * row.transpose();
         right += row * (x * x + y * y);
     }
-    // The power of a point is that of its place less twice the middle's part and a constant.
-    normal.lu().solve(&right).map_or(f64::NAN, |found| {
-        let [a, b] = [0.5 * found[0], 0.5 * found[1]];
-        1.0 / (found[2] + a * a + b * b).sqrt()
+    // The power of the point (x, y) is x² + y² − 2ax − 2by − c, with the middle (a, b) of the
+    // circle.
+    normal.lu().solve(&right).map_or(f64::NAN, |solution| {
+        let [a, b] = [0.5 * solution[0], 0.5 * solution[1]];
+        1.0 / (solution[2] + a * a + b * b).sqrt()
     })
 }
 
-/// Both makings of two fabrics, against the laws and against each other.
+/// Compares specimens of two fabrics with both meshes with the laws and with each other.
 ///
-/// Where the clamps end among the particles of a rim is known to half a spacing; so the curvature
-/// is read in the middle, where the moment is the clamp's less what its force has for an arm.
+/// The end of a clamp among the particles of a rim is known only to half a spacing. So the
+/// curvature is read in the middle of the specimen. The moment there is the moment of the clamp
+/// less the moment of its force.
 pub(crate) fn bias_rim() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     for text in [CUPRO, COTTON] {
         let fabric = fabric(text)?;
         let mut ratios = Vec::new();
-        for (making, name) in [(Making::Grid, "grid"), (Making::Rim, "rim")] {
-            let [curvatures, moments] = bend(making, &fabric)?;
+
+        for (mesh, name) in [(Mesh::Grid, "grid"), (Mesh::Rim, "rim")] {
+            let [curvatures, moments] = bend(mesh, &fabric)?;
             let ideal = on_the_bias_along(&fabric, &curvatures);
             let ratio = moments[STEPS - 1] / ideal[STEPS - 1];
             let what = format!(
@@ -170,6 +196,7 @@ pub(crate) fn bias_rim() -> Result<Findings, ValidationError> {
             checks.push(Check::within(what, ratio, 1.0, 0.03));
             ratios.push(ratio);
         }
+
         let what = format!("{}: rim over grid", fabric.name);
         checks.push(Check::within(what, ratios[1] / ratios[0], 1.0, 0.03));
     }

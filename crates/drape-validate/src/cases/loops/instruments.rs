@@ -1,7 +1,7 @@
 //! Case `instruments`: specimens along the yarns in every simulated instrument.
 //!
-//! Loops at three spacings are compared with those of the laws; at 5 mm the KES values are read
-//! from both.
+//! Loops at three spacings are compared with the loops of the laws. At 5 mm the KES values of both
+//! loops are compared too.
 
 use drape_kes::{Direction, Test};
 
@@ -12,10 +12,7 @@ use crate::findings::{Check, Findings, Graph, Source};
 use crate::instrument::{Comparison, Resolution};
 use crate::setup::fabrics::{COTTON, CUPRO, fabric};
 
-/// Points of a branch of a loop.
-const POINTS: usize = 50;
-
-/// Spacings, in m, with how far the loop may be off, root mean square over its range.
+/// Spacings, with the limits of the distance of a loop from the loop of the laws.
 const SPACINGS: [Limit; 3] = [
     Limit { spacing: 0.01, distance: 0.02 },
     Limit { spacing: 0.005, distance: 0.01 },
@@ -30,8 +27,12 @@ struct Limit {
     distance: f64,
 }
 
-/// Every test of two fabrics, along both yarns; at 5 mm with the KES values read from the loops.
+/// Compares every test of two fabrics, along both yarns, with the laws. At 5 mm the KES values of
+/// the loops are compared too.
 pub(crate) fn instruments() -> Result<Findings, ValidationError> {
+    /// Points of a branch of a loop.
+    const POINTS: usize = 50;
+
     let mut findings = Findings::default();
     let Findings { checks, graphs, .. } = &mut findings;
     for text in [CUPRO, COTTON] {
@@ -40,23 +41,23 @@ pub(crate) fn instruments() -> Result<Findings, ValidationError> {
             let mut graph = Graph::new(format!("{}, {}", fabric.name, test.name()), axes(test));
             for direction in [Direction::Warp, Direction::Weft] {
                 let what = format!("{}, {} {}", fabric.name, test.name(), direction.name());
+
                 for Limit { spacing, distance: limit } in SPACINGS {
-                    let found = Comparison::of(
-                        &fabric,
-                        test,
-                        direction,
-                        Resolution { spacing, points: POINTS },
-                    )?;
+                    let resolution = Resolution { spacing, points: POINTS };
+                    let comparison = Comparison::run(&fabric, test, direction, resolution)?;
                     let millimetres = 1e3 * spacing;
                     let distance = format!("{what}, {millimetres} mm: distance of the loops");
-                    checks.push(Check::at_most(distance, found.distance(), limit));
+                    checks.push(Check::at_most(distance, comparison.distance(), limit));
+
+                    // One spacing of three is drawn and evaluated.
                     if spacing == 0.005 {
                         let label = format!("specimen, {}", direction.name());
-                        graph.add(Source::Simulated, label, points(&found.measured));
-                        graph.add(Source::Reference, "law", points(&found.ideal));
-                        checks.extend(found.values().into_iter().map(|(symbol, [a, b])| {
+                        graph.add(Source::Simulated, label, points(&comparison.measured));
+                        graph.add(Source::Reference, "law", points(&comparison.ideal));
+                        let values = comparison.values().into_iter();
+                        checks.extend(values.map(|(symbol, [measured, ideal])| {
                             let what = format!("{what}: {} {}", symbol.name(), symbol.unit());
-                            Check::within(what, a, b, VALUE_LIMIT)
+                            Check::within(what, measured, ideal, VALUE_LIMIT)
                         }));
                     }
                 }

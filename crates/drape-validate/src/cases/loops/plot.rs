@@ -4,7 +4,7 @@ use drape_kes::{Curve, Test};
 
 use crate::findings::Axis;
 
-/// Deformation and load of a test, as laboratories plot them.
+/// Returns the axes of deformation and load of `test`, in the units of laboratories.
 pub(super) fn axes(test: Test) -> [Axis; 2] {
     match test {
         Test::Tensile => [Axis::new("strain", "%", 0.01), Axis::new("tension", "N/m", 1.0)],
@@ -17,7 +17,7 @@ pub(super) fn axes(test: Test) -> [Axis; 2] {
     }
 }
 
-/// The points of a curve.
+/// Returns the points of `curve`: deformation and load, in SI.
 pub(super) fn points(curve: &Curve) -> Vec<[f64; 2]> {
     curve.deformation().iter().zip(curve.load()).map(|(&q, &load)| [q, load]).collect()
 }

@@ -26,10 +26,10 @@ const GAUGE: std::ops::Range<f64> = 0.5..3.0;
 /// The middle part of the width in which it is.
 const MIDDLE: f64 = 0.6;
 
-/// Tensile stiffness of warp and weft, and shear stiffness, in N/m: those of a shirting, without a
-/// toe.
+/// Tensile stiffness of warp and weft of a shirting without a toe, in N/m.
 const YARNS: [f64; 2] = [4000.0, 2500.0];
 
+/// Shear stiffness of the shirting, in N/m.
 const SHEAR: f64 = 30.0;
 
 /// Mass per area in kg/m², and a gravity in m/s² that stretches the strip by less than a part in a
@@ -43,12 +43,13 @@ const CELLS: usize = 10;
 
 const FEW_CELLS: usize = 4;
 
-/// Stiffness of a strip whose warp is at an angle, in degrees, from its length, in N/m.
+/// Returns the stiffness of a strip with `cells` cells across, in N/m. The warp is at `angle`, in
+/// degrees, to the length of the strip.
 ///
-/// The strip hangs from a clamp under its own weight, which it also leans and narrows under. Away
-/// from the clamp the stress at a height `$y$` above the free end is `$\sigma = \rho g y$` along
-/// the strip, whatever the grain; so the displacement along it is `$\sigma y/2E$`, a turn, and a
-/// square of the place across.
+/// The strip hangs from a clamp, and leans and narrows under its own weight. Away from the clamp
+/// the stress along the strip is `$\sigma = \rho g y$` at a height `$y$` above the free end,
+/// whatever the grain. So the displacement along the strip is the sum of `$\sigma y/2E$`, a
+/// rotation, and a term with the square of the distance from the middle line.
 fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
     let yarns = YARNS.map(|stiffness| {
         format!(
@@ -70,6 +71,7 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
         WIDTH / cells as f64,
         LENGTH * WIDTH
     );
+
     let scene = scene(text, fabric)?;
     let places = scene.panels[0].lattice.panel_coordinates();
     let starts: Vec<f64> = scene.start.positions.chunks_exact(3).map(|place| place[1]).collect();
@@ -77,6 +79,8 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
     finish(&mut simulation)?;
     let ends = simulation.frame().positions;
     let moved = starts.iter().zip(ends.chunks_exact(3)).map(|(start, end)| end[1] - start);
+
+    // Least squares of the displacements over the four terms. The first term gives 1/E.
     let weight = DENSITY * GRAVITY;
     let (mut normal, mut right) = (SMatrix::<f64, 4, 4>::zeros(), SVector::<f64, 4>::zeros());
     for ([x, y], moved) in places.into_iter().zip(moved) {
@@ -92,7 +96,8 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
     Ok(solution.map_or(f64::NAN, |solution| 1.0 / solution[0]))
 }
 
-/// Strips at every 15° from the warp to the weft, and what their ragged sides cost.
+/// Compares strips at every 15° from the warp to the weft with [`bias_stiffness`], and checks the
+/// error from their ragged sides.
 pub(crate) fn bias_strip() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     let (mut coarse, mut fine) = (0.0, 0.0);

@@ -10,19 +10,22 @@ use crate::findings::{Check, Findings};
 use crate::reference;
 use crate::setup::{GRAVITY, Strip, finish};
 
-/// An upright strip leans the more the nearer its weight is to the critical one \[Sou32\].
+/// Returns the lean of an upright strip with the ratio `weight`: deflection of the tip over length.
+fn lean(weight: f64) -> Result<f64, ValidationError> {
+    let strip = Strip::default().with_weight(weight);
+    // A slant of gravity by a part in a thousand pushes sideways in proportion to the weight.
+    let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n{REST}", 1e-3 * GRAVITY);
+    let rest = rest.replace("residual = 1e-5\nspeed = 1e-5", "residual = 1e-6\nspeed = 1e-6");
+    let rest = rest.replace("tolerance = 1e-7", "tolerance = 1e-6");
+    let mut simulation = strip.simulation(90.0, &rest)?;
+    finish(&mut simulation)?;
+    Ok(strip.tip(&simulation)[0].abs() / strip.length)
+}
+
+/// Compares the critical weight of an upright strip, found from two leans \[Sou32\], with
+/// [`reference::SELF_WEIGHT_BUCKLING`].
 pub(crate) fn column() -> Result<Findings, ValidationError> {
-    let lean = |weight: f64| -> Result<f64, ValidationError> {
-        let strip = Strip::default().of_weight(weight);
-        // A slant of gravity by a part in a thousand pushes sideways in proportion to the weight.
-        let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n{REST}", 1e-3 * GRAVITY);
-        let rest = rest.replace("residual = 1e-5\nspeed = 1e-5", "residual = 1e-6\nspeed = 1e-6");
-        let rest = rest.replace("tolerance = 1e-7", "tolerance = 1e-6");
-        let mut simulation = strip.simulation(90.0, &rest)?;
-        finish(&mut simulation)?;
-        Ok(strip.tip(&simulation)[0].abs() / strip.length)
-    };
-    // δ (λc − λ)/λ is the same for both weights.
+    // δ (λc − λ)/λ is equal for both weights.
     let [low, high] = [6.0, 7.0];
     let (first, second) = (lean(low)? / low, lean(high)? / high);
     let critical = (second * high - first * low) / (second - first);

@@ -6,32 +6,35 @@ use crate::findings::{Axis, Check, Findings, Graph, Source};
 use crate::reference;
 use crate::setup::{Strip, finish};
 
-/// A strip without weight whose tip a pin holds at a drop, and at the reach where it pulls straight
-/// down.
-///
-/// The pin's horizontal force is found to be nought by two trials: it is linear in the reach, and
-/// steep, because a strip hardly stretches.
-pub(crate) fn end_loaded_cantilever() -> Result<Findings, ValidationError> {
+/// Returns the force across and down of a pin that holds the tip of a strip without weight, as
+/// ratios `$PL^2/B$`. `drop` and `reach` of the tip are over the length.
+fn pin_force(drop: f64, reach: f64) -> Result<[f64; 2], ValidationError> {
     let strip = Strip::default();
-    let hold = |drop: f64, reach: f64| -> Result<[f64; 2], ValidationError> {
-        let shift = [(reach - 1.0) * strip.length, -drop * strip.length, 0.0];
-        let rest = format!(
-            "gravity = [0, 0, 0]\n[[pin]]\npanel = \"strip\"\nedge = \"right\"\n[pin.motion]\n\
-             times = [0, 1]\nshift = [[0, 0, 0], {shift:?}]\n{REST}"
-        );
-        // Rest is only looked for when the pin has arrived.
-        let rest = rest.replace("step = 0.002", "step = 0.002\nramp = 1.0");
-        let mut simulation = strip.simulation(0.0, &rest)?;
-        finish(&mut simulation)?;
-        let [x, y, _] = simulation.pin_loads()[1].force;
-        Ok([x, y].map(|force| force / strip.width * strip.length.powi(2) / strip.rigidity))
-    };
+    let shift = [(reach - 1.0) * strip.length, -drop * strip.length, 0.0];
+    let rest = format!(
+        "gravity = [0, 0, 0]\n[[pin]]\npanel = \"strip\"\nedge = \"right\"\n[pin.motion]\n\
+         times = [0, 1]\nshift = [[0, 0, 0], {shift:?}]\n{REST}"
+    );
+    // Rest is tested only after the pin has arrived.
+    let rest = rest.replace("step = 0.002", "step = 0.002\nramp = 1.0");
+    let mut simulation = strip.simulation(0.0, &rest)?;
+    finish(&mut simulation)?;
+    let [x, y, _] = simulation.pin_loads()[1].force;
+    Ok([x, y].map(|force| force / strip.width * strip.length.powi(2) / strip.rigidity))
+}
+
+/// Compares a strip without weight, whose tip a pin pulls straight down, with
+/// [`reference::cantilever`].
+///
+/// Two trials give the reach at which the pin's horizontal force is zero. This force is linear in
+/// the reach, and steep, because a strip hardly stretches.
+pub(crate) fn end_loaded_cantilever() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
-    let mut found = [Vec::new(), Vec::new()];
+    let mut simulated = [Vec::new(), Vec::new()];
     for ratio in [1.0, 4.0] {
         let exact = reference::cantilever(0.0, ratio);
         let trials = [exact.reach, exact.reach - 1e-4];
-        let [first, second] = trials.map(|reach| hold(exact.drop, reach));
+        let [first, second] = trials.map(|reach| pin_force(exact.drop, reach));
         let (first, second) = (first?, second?);
         let part = first[0] / (first[0] - second[0]);
         let load = first[1] + part * (second[1] - first[1]);
@@ -40,18 +43,19 @@ pub(crate) fn end_loaded_cantilever() -> Result<Findings, ValidationError> {
         checks.push(Check::within(what, load, ratio, 0.01));
         let what = format!("reach over length for the drop of {ratio}");
         checks.push(Check::within(what, reach, exact.reach, 0.01));
-        found[0].push([load, exact.drop]);
-        found[1].push([load, reach]);
+        simulated[0].push([load, exact.drop]);
+        simulated[1].push([load, reach]);
     }
+
     let axes = [Axis::ratio("end load PL²/B"), Axis::ratio("over the length")];
     let mut graph = Graph::new("place of the tip of a strip with a load", axes);
     let loads = (1..=50).map(|k| 0.1 * f64::from(k));
     let tips: Vec<_> = loads.map(|load| (load, reference::cantilever(0.0, load))).collect();
-    for (label, found) in ["drop", "reach"].into_iter().zip(found) {
+    for (label, points) in ["drop", "reach"].into_iter().zip(simulated) {
         let along = tips
             .iter()
             .map(|(load, tip)| [*load, if label == "drop" { tip.drop } else { tip.reach }]);
-        graph.add(Source::Simulated, label, found);
+        graph.add(Source::Simulated, label, points);
         graph.add(Source::Reference, "end-loaded elastica", along.collect());
     }
     Ok(Findings { checks, graphs: vec![graph], ..Findings::default() })

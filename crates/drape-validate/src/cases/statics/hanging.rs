@@ -7,7 +7,7 @@ use crate::findings::{Axis, Check, Findings, Graph, Layout, Source};
 use crate::reference;
 use crate::setup::{GRAVITY, Hold, Strip, finish};
 
-/// A long limp strip between two hinges at the same height.
+/// Compares a long limp strip between two hinges at equal height with [`reference::catenary_sag`].
 pub(crate) fn catenary() -> Result<Findings, ValidationError> {
     let strip = Strip {
         length: 0.5,
@@ -29,6 +29,7 @@ pub(crate) fn catenary() -> Result<Findings, ValidationError> {
         );
         let mut simulation = strip.simulation(0.0, &rest)?;
         finish(&mut simulation)?;
+
         let line = strip.line(&simulation);
         let lowest = line.iter().map(|point| -point.position[1]).fold(0.0, f64::max);
         let shape =

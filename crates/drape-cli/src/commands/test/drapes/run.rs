@@ -54,7 +54,7 @@ impl Specimens<'_> {
     /// Returns the number of specimens: `starts` for the fabric, for the fabric without friction
     /// and for each end of each open parameter, and one for the picture.
     fn count(&self) -> u64 {
-        let studies = 1 + Prediction::studies(self.fabric);
+        let studies = 1 + Prediction::study_count(self.fabric);
         self.request.starts * studies + u64::from(self.has_picture)
     }
 
@@ -83,7 +83,7 @@ impl Specimens<'_> {
         let bar = progress::bar(self.count(), "{pos}/{len} specimens, {eta} left");
         let sampling = Sampling { spacing: *spacing, starts: request.starts };
         let meter = &request.meter;
-        let prediction = Prediction::of(meter, fabric, sampling, &|| bar.inc(1)).map_err(failed)?;
+        let prediction = Prediction::run(meter, fabric, sampling, &|| bar.inc(1)).map_err(failed)?;
         let without_friction = fabric.without_friction();
         let elastic = meter.study(&without_friction, sampling, &|| bar.inc(1)).map_err(failed)?;
 
