@@ -28,7 +28,7 @@ pub enum Error {
         surface: String,
         /// The list, in words.
         what: &'static str,
-        /// Its length.
+        /// Length of the list.
         length: usize,
         /// Expected length, in words.
         expected: String,
@@ -67,7 +67,7 @@ pub enum Error {
     OutOfRange {
         /// The quantity, in words.
         what: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
         /// The range, in words.
         range: &'static str,
@@ -76,20 +76,20 @@ pub enum Error {
     /// A scale of colours has no range.
     #[error("the range from {low} to {high} has no width; give a lower end and a higher one")]
     NoRange {
-        /// Its lower end.
+        /// Lower end of the range.
         low: f64,
-        /// Its upper end.
+        /// Upper end of the range.
         high: f64,
     },
 
-    /// The pictures of an animation are none, or differ in size.
+    /// An animation has no picture, or a picture with another size than the animation.
     #[error("an animation of {frames} pictures of {} x {} pixels got one of {} x {}", size[0], size[1], found[0], found[1])]
     BadAnimation {
-        /// Number of pictures that it has.
+        /// Number of pictures of the animation.
         frames: u32,
-        /// Width and height of its pictures, in pixels.
+        /// Width and height of the animation, in pixels.
         size: [u32; 2],
-        /// Width and height of the picture that does not fit.
+        /// Width and height of the picture that does not fit, in pixels.
         found: [u32; 2],
     },
 
@@ -114,7 +114,7 @@ pub enum Error {
     NotFinite {
         /// The quantity, in words.
         what: String,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
     },
 
@@ -125,9 +125,9 @@ pub enum Error {
     BadMatrix {
         /// Number of names.
         names: usize,
-        /// Number of the row, from 0; the number of rows where that is wrong.
+        /// Number of the row, from 0. Where the number of rows is wrong, the number of rows.
         row: usize,
-        /// Its length.
+        /// Length of the row.
         length: usize,
     },
 

@@ -2,11 +2,11 @@
 //!
 //! # Tour
 //!
-//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`];
-//! [`LitShapes`] draw several of the same shapes. The
-//! functions of [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`],
-//! [`ComparePage`], [`CustomerPage`], [`ValidationPage`] and [`StudyPage`] are reports that become HTML pages and text; a
-//! [`Parameter`] is a number with its [`Units`] and its [`Interval`].
+//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`].
+//! [`LitShapes`] draw the same shapes several times. The functions of [`plot`] draw SVG figures of
+//! measured and fitted curves. [`FitPage`], [`ComparePage`], [`CustomerPage`], [`ValidationPage`]
+//! and [`StudyPage`] are reports that become HTML pages and text. A [`Parameter`] is a number with
+//! its [`Units`] and its [`Interval`].
 //!
 //! Layers, lowest first: `error`, `check`, `text`, `parameter`, `picture`; the chapters `render`
 //! and `plot`; `page`.

@@ -1,10 +1,11 @@
 //! Pages: the reports of a fit, of a comparison, to a customer, of a validation and of a study.
 //!
 //! A report is plain data in SI: [`FitPage`] with a [`LawReport`] for each law, [`ComparePage`],
-//! [`CustomerPage`], [`ValidationPage`], [`StudyPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or
-//! a text for the terminal; serialised, it is the report for programs. `shown` rounds quantities
-//! and writes them in both units, `assets` holds the style and the script, the templates are in
-//! `templates/page`. The chapter takes figures from `plot` and pictures from `render`.
+//! [`CustomerPage`], [`ValidationPage`], [`StudyPage`]. A report checks its numbers and texts, and
+//! becomes one self-contained HTML page or a text for the terminal. Serialised, the data is the
+//! report for programs. `shown` rounds quantities and writes them in both units, `assets` holds the
+//! style and the script, and the templates are in `templates/page`. The chapter takes figures from
+//! `plot` and pictures from `render`.
 
 mod assets;
 mod compare_page;

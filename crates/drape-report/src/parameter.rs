@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::check;
 use crate::error::Error;
 
-/// Unit in which numbers are also shown.
+/// Unit of the laboratory, in which numbers are shown in addition to SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Unit {
     /// Name, as in "gf·cm²/cm".
@@ -14,7 +14,7 @@ pub struct Unit {
     pub in_si: f64,
 }
 
-/// Units of a quantity: SI, and the laboratory's where there is one.
+/// Units of a quantity: SI, and the unit of the laboratory where there is one.
 ///
 /// ```
 /// use drape_report::Units;
@@ -24,38 +24,38 @@ pub struct Unit {
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Units {
-    /// Name of the SI unit, as in "N·m"; empty for a ratio.
+    /// Name of the SI unit, as in "N·m". Empty for a ratio.
     pub si: String,
     /// Unit of the laboratory.
     pub kes: Option<Unit>,
 }
 
 impl Units {
-    /// Returns the units of a quantity without a unit of the laboratory.
+    /// Returns the units of a quantity with the SI unit `name`, without a unit of the laboratory.
     #[must_use]
     pub fn si(name: &str) -> Units {
         Units { si: name.to_owned(), kes: None }
     }
 
-    /// Returns the units with the laboratory's unit, which is `in_si` SI units.
+    /// Returns the units with the unit `name` of the laboratory, which is `in_si` SI units.
     #[must_use]
     pub fn with_kes(self, name: &str, in_si: f64) -> Units {
         let kes = Some(Unit { name: name.to_owned(), in_si });
         Units { kes, ..self }
     }
 
-    /// Returns the name and the size, in SI units, of the unit of the laboratory, or of the SI unit
-    /// where there is none.
+    /// Returns the name and the size, in SI units, of the unit of the laboratory (`kes`), or of the
+    /// SI unit where there is none.
     pub(crate) fn first(&self) -> (&str, f64) {
         self.kes.as_ref().map_or((&self.si, 1.0), |unit| (&unit.name, unit.in_si))
     }
 
-    /// Returns the name of the SI unit where the first unit is another.
+    /// Returns the name of the SI unit where [`Units::first`] is another unit.
     pub(crate) fn second(&self) -> Option<&str> {
         self.kes.as_ref().map(|_| self.si.as_str())
     }
 
-    /// Refuses names that cannot be shown and a size out of range.
+    /// Refuses names that cannot be shown and a size out of range, as [`Error`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         check::text("the name of a unit", &self.si)?;
         self.kes.as_ref().map_or(Ok(()), |unit| {
@@ -76,14 +76,14 @@ pub enum Interval {
         /// Upper end.
         upper: f64,
     },
-    /// Above a lower end; the data give no upper one.
+    /// Above a lower end. The data give no upper end.
     Above {
         /// Lower end.
         lower: f64,
         /// Reason why there is no upper end.
         reason: String,
     },
-    /// Below an upper end; the data give no lower one.
+    /// Below an upper end. The data give no lower end.
     Below {
         /// Upper end.
         upper: f64,
@@ -97,27 +97,30 @@ pub enum Interval {
     },
     /// Not fitted.
     Fixed {
-        /// Reason: set by hand, tied to another parameter; may be empty.
+        /// Reason: set by hand, tied to another parameter. The text may be empty.
         reason: String,
     },
 }
 
 impl Interval {
-    /// Ratio of the ends of an interval beyond which the data do not determine a positive number.
+    /// Largest ratio of the ends of an interval. With a larger ratio the data do not determine a
+    /// positive number.
     pub const VAGUE: f64 = 10.0;
 
-    /// Returns whether the interval is one of a positive number whose upper end is more than
+    /// Returns whether both ends of the interval are positive and the upper end is more than
     /// [`Interval::VAGUE`] times the lower end.
     #[must_use]
     pub fn is_vague(&self) -> bool {
         matches!(*self, Self::Between { lower, upper } if lower > 0.0 && upper > Self::VAGUE * lower)
     }
 
-    /// Refuses ends that are not finite or exchanged, and a reason that cannot be shown.
+    /// Refuses ends that are not finite or exchanged, and a reason that cannot be shown. The error
+    /// names the interval by `name`.
     pub(crate) fn check(&self, name: &str) -> Result<(), Error> {
         if let Some(reason) = self.reason() {
             check::text("the reason for a missing interval", reason)?;
         }
+
         let bound = |value: f64| check::number(|| format!("the interval of {name}"), value);
         match *self {
             Self::Between { lower, upper } => {
@@ -138,7 +141,7 @@ impl Interval {
         }
     }
 
-    /// Returns the reason why an end or the whole interval is missing.
+    /// Returns the `reason` why an end or the whole interval is missing.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match self {
@@ -172,23 +175,24 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Returns the standard error over the magnitude of the value, a ratio; `None` where one is
-    /// missing or zero.
+    /// Returns the `standard_error` over the magnitude of the `value`, a ratio. Returns `None`
+    /// where the error is missing or the value is zero.
     #[must_use]
     pub fn relative_error(&self) -> Option<f64> {
         let size = self.value.abs();
         self.standard_error.map(|error| error / size).filter(|ratio| ratio.is_finite())
     }
 
-    /// Returns whether the parameter was fitted and the data do not give all of its interval.
+    /// Returns whether the parameter was fitted and the data do not give both ends of its
+    /// `interval`.
     #[must_use]
     pub fn is_undetermined(&self) -> bool {
         let fixed = matches!(self.interval, Interval::Fixed { .. });
         !fixed && self.interval.reason().is_some()
     }
 
-    /// Refuses numbers that are not finite, a negative standard error, an interval with exchanged
-    /// ends.
+    /// Refuses numbers that are not finite, a negative `standard_error` and an `interval` with
+    /// exchanged ends.
     ///
     /// # Errors
     /// The first fault.

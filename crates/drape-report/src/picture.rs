@@ -1,9 +1,8 @@
-//! Pictures: pixels in sRGB, and what is put on them.
-//!
-//! [`pixels`] holds the rows of a picture and writes PNG, `animation` writes pictures that follow each
-//! other. `colour` converts sRGB and linear light, `scale` has the colours of values; `lettering`
-//! writes on a picture, `legend` draws a scale of colours below it, `swatches` colours with their names. The chapter knows nothing of
-//! scenes, plots or pages.
+//! Pictures: pixels in sRGB, and legends, letters and animations of pictures.
+//! [`pixels`] holds the rows of a picture and writes PNG, `animation` writes successive pictures.
+//! `colour` converts sRGB and linear light, `scale` has the colours of values. `lettering` writes
+//! on a picture, `legend` draws a scale of colours below it, and `swatches` draws colours with
+//! their names below it. The chapter knows nothing of scenes, plots or pages.
 
 mod animation;
 mod colour;

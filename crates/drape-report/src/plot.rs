@@ -1,14 +1,14 @@
 //! Plots as SVG: self-contained, sharp in print.
 //!
 //! Each `…_svg` function takes plain data in SI, checks it, and returns the text of one SVG file,
-//! dark on white. The pages hold the same figures, where they follow the light or dark colours of
-//! the page.
+//! dark on white. The pages contain these figures in the light or dark colours of the page.
 //!
-//! `axis` and `scale` map values to pixels, `legend` and `chart` are the parts that all
-//! plots over two axes share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`,
-//! `uncertainty`, `strain_map`, `seam_key` and `shadow` have layouts of their own. `svg` writes path data, `style` holds
-//! the style sheet. The templates are in `templates/plot`: pixel coordinates fill them, since plots
-//! need fractions of a pixel in print and classes that follow the colours of the page.
+//! `axis` and `scale` map values to pixels. `legend` and `chart` are the parts that all plots over
+//! two axes share, which are `loop_plot`, `graph` and `overlay`. `correlation`, `uncertainty`,
+//! `strain_map`, `seam_key` and `shadow` have other layouts. `svg` writes path data, `style` holds
+//! the style sheet. The templates are in `templates/plot`. Pixel coordinates fill the templates,
+//! because plots need fractions of a pixel in print and classes that follow the colours of the
+//! page.
 
 mod axis;
 mod chart;

@@ -1,17 +1,17 @@
 //! Pictures of cloth: a software rasterizer with soft shadows.
 //!
-//! [`render`] draws a [`Scene`] for a [`View`]; [`LitShapes`] draw pictures of the same shapes, each
-//! for a [`Camera`]:
+//! [`render`] draws a [`Scene`] for a [`View`]. [`LitShapes`] draw several pictures of the same
+//! shapes, each for a [`Camera`]:
 //! 1. `tessellation` subdivides the surfaces of the scene into facets with smooth normals
-//!    (`smooth`); `rim` adds a band along each hem.
-//! 2. `sky` is the light of a uniform sky on them and on the floor (`floor`).
+//! (`smooth`). `rim` adds a band along each hem.
+//! 2. `sky` is the light of a uniform sky on the facets and on the floor (`floor`).
 //! 3. `camera` frames the scene, alone or as pictures that can be compared.
 //! 4. `shade` prepares the key light, with a shadow map (`shadow_map`).
-//! 5. `screen` projects the facets; `raster` resolves visibility with a depth buffer of 4 × 4
+//! 5. `screen` projects the facets. `raster` resolves visibility with a depth buffer of 4 × 4
 //!    samples a pixel, band by band in parallel, and shades each visible facet once per pixel.
 //!
-//! `triangle` and `vector` are the arithmetic below. The chapter knows nothing of plots or pages.
-//! Its result does not depend on the number of threads.
+//! `triangle` and `vector` are the arithmetic of all of them. The chapter knows nothing of plots or
+//! pages. Its result does not depend on the number of threads.
 
 mod camera;
 mod floor;
@@ -41,17 +41,17 @@ use shade::{Lit, Shader};
 use sky::SkyLight;
 use tessellation::Tessellation;
 
-/// Draws a scene so that it fills the picture.
+/// Draws a `scene` for a `view` so that the scene fills the picture.
 ///
 /// Cloth is lit on both sides by a uniform sky and one key light with soft shadows. Front, back,
-/// warp lines (blue), weft lines (red), hem and seams differ in colour. The same input gives the
-/// same bytes, with any number of threads.
+/// warp lines (blue), weft lines (red), hem and seams differ in colour. Equal input gives equal
+/// bytes, with any number of threads.
 ///
-/// The rasterizer is part of this crate: no maintained one that works without a graphics card was
-/// found.
+/// The rasterizer is part of this crate, because no maintained rasterizer was found that works
+/// without a graphics card.
 ///
 /// # Errors
-/// A scene without triangles, bad lists or coordinates, a number of the view out of range.
+/// A scene without triangles, bad lists or coordinates, or a number of the view out of range.
 pub fn render(scene: &Scene, view: &View) -> Result<Picture, Error> {
     let camera = view.camera(scene)?;
     LitShapes::new(scene)?.draw(scene, &camera)
@@ -83,10 +83,10 @@ pub struct LitShapes {
 }
 
 impl LitShapes {
-    /// Computes the light on the shapes of a scene.
+    /// Computes the light on the shapes of a `scene`.
     ///
     /// # Errors
-    /// A scene without triangles, bad lists or coordinates.
+    /// A scene without triangles, or bad lists or coordinates.
     pub fn new(scene: &Scene) -> Result<LitShapes, Error> {
         scene.check()?;
         let mut tessellation = Tessellation::new(scene);
@@ -96,10 +96,10 @@ impl LitShapes {
         Ok(LitShapes { tessellation, floor, sky, counts: counts(scene) })
     }
 
-    /// Draws the shapes in the colours of a scene that has them too.
+    /// Draws the shapes in the colours of a `scene` with the same shapes.
     ///
     /// # Errors
-    /// A scene that cannot be drawn, or of other shapes.
+    /// A scene that cannot be drawn, or that has other shapes.
     pub fn draw(&self, scene: &Scene, camera: &Camera) -> Result<Picture, Error> {
         scene.check()?;
         if counts(scene) != self.counts {
@@ -118,7 +118,7 @@ impl LitShapes {
     }
 }
 
-/// Returns the numbers of vertices and triangles of the surfaces of a scene.
+/// Returns the numbers of coordinates and triangles of the surfaces of a `scene`.
 fn counts(scene: &Scene) -> Vec<[usize; 2]> {
     let surfaces = scene.cloths.iter().chain(&scene.bodies);
     surfaces.map(|surface| [surface.positions.len(), surface.triangles.len()]).collect()

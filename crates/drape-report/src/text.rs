@@ -1,7 +1,7 @@
 //! Numbers, symbols, tables and bytes as text.
 //!
 //! `number` rounds and typesets, `symbol` splits the index off a symbol, `table` aligns columns,
-//! `base64` encodes pictures for pages. `plot` and `page` use them.
+//! and `base64` encodes pictures for pages. `plot` and `page` use these modules.
 
 pub(crate) mod base64;
 pub(crate) mod number;

@@ -1,4 +1,4 @@
-//! Files that are written complete or not at all, and what kind a file is.
+//! Files that are written completely or not at all, and the kinds of files.
 
 mod kind;
 
@@ -28,7 +28,7 @@ pub enum Error {
         /// Reason, in words.
         reason: String,
     },
-    /// The file is there already: allow it to be replaced.
+    /// The file exists already: allow it to be replaced.
     #[error("{} exists; {help}", path.display())]
     Exists {
         /// The file.
@@ -38,7 +38,8 @@ pub enum Error {
     },
 }
 
-/// Writes a file, through a temporary one so that no reader sees half of it; creates its folder.
+/// Writes `content` to the file at `path` and creates its folder. A temporary file ensures that no
+/// reader sees half of the content.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -46,15 +47,15 @@ pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Error> {
     write_by(path, |to| to.write_all(content.as_ref()).map_err(|error| failed(path, &error)))
 }
 
-/// Returns the error of a file that cannot be written.
+/// Returns the `error` of a file at `path` that cannot be written.
 fn failed(path: &Path, error: &std::io::Error) -> Error {
     Error::Write { path: path.to_owned(), reason: error.to_string() }
 }
 
-/// Writes a file likewise, whose content is made as it is written.
+/// Writes a file as [`write()`] does. The closure `content` writes the content.
 ///
 /// # Errors
-/// A file that cannot be written, or the error of what makes its content.
+/// A file that cannot be written, or the error of `content`.
 pub fn write_by<E: From<Error>>(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
@@ -71,14 +72,15 @@ pub fn write_by<E: From<Error>>(
         Ok(())
     });
     if written.is_err() {
-        // What is left of it is of no use; the failure is told, not that of its removal.
+        // The incomplete file is of no use. The first failure is reported, not a failure of the
+        // removal.
         let _ = std::fs::remove_file(&temporary);
     }
     written
 }
 
-/// Creates a file that is not there; what is there is removed first, a link itself and not what it
-/// leads to.
+/// Creates a new file at `path`. An existing file is removed first. A link is removed itself, and
+/// not the file to which it leads.
 fn create_anew(path: &Path) -> std::io::Result<File> {
     match std::fs::remove_file(path) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
@@ -86,17 +88,18 @@ fn create_anew(path: &Path) -> std::io::Result<File> {
     }
 }
 
-/// Refuses to put a file in the place of a folder, a pipe or a device.
+/// Refuses to replace a folder, a pipe or a device at `path` by a file.
 fn refuse_irregular(path: &Path) -> Result<(), Error> {
     match std::fs::metadata(path) {
-        Ok(found) if !found.is_file() => {
+        Ok(metadata) if !metadata.is_file() => {
             Err(Error::Write { path: path.to_owned(), reason: "it is there and is no file".into() })
         }
         _ => Ok(()),
     }
 }
 
-/// Removes the files of a numbered sequence that are there, up to the first that is not.
+/// Removes the existing files of the numbered sequence `paths`, up to the first file that does not
+/// exist.
 ///
 /// # Errors
 /// A file that cannot be removed.
@@ -108,10 +111,11 @@ pub fn remove_following(paths: impl IntoIterator<Item = PathBuf>) -> Result<(), 
     Ok(())
 }
 
-/// Refuses to replace a file that is there already, unless that is allowed, with a remedy.
+/// Refuses to replace an existing file at `path`, unless `force` allows it. The error contains the
+/// remedy `help`.
 ///
 /// # Errors
-/// The file is there, and may not be replaced.
+/// The file exists, and may not be replaced.
 pub fn refuse_existing(path: &Path, force: bool, help: &str) -> Result<(), Error> {
     if path.exists() && !force {
         return Err(Error::Exists { path: path.to_owned(), help: help.into() });

@@ -1,9 +1,9 @@
-//! Runs in folders: their results, and the checkpoints from which they go on.
+//! Runs in folders: their results, and the checkpoints from which they continue.
 //!
 //! A [`FolderRun`] writes frames and a summary. Beside them it writes `run.json` ([`RunRequest`]),
-//! `status.json` (its progress), two checkpoints, and the file of its lock. The run ends at the
-//! end of its scene, at its [`Limits`], or when its [`Watcher`] asks for it. A [`ResumableRun`]
-//! goes on from the last checkpoint.
+//! `status.json` (its progress), two checkpoints, and a lock file. The run ends at the end of its
+//! scene, at its [`Limits`], or when its [`Watcher`] asks for it. A [`ResumableRun`] continues from
+//! the last checkpoint.
 
 mod checkpoint_writer;
 mod error;

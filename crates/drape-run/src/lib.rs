@@ -3,7 +3,7 @@
 pub mod file;
 pub mod reports;
 
-// A folder has locks and limits of its system, which a browser does not have.
+// A folder has locks and limits of the operating system, which a browser does not have.
 #[cfg(not(target_family = "wasm"))]
 mod folder;
 mod scene_fabric;

@@ -1,8 +1,9 @@
 //! Pages of fits, fabrics, instruments and runs: results as the crate `drape-report` shows them.
 //!
-//! Each module fills in a type of [`report`](drape_report) or [`export`](drape_export), which
-//! draws it; the numbers are not computed again here. `quantity` has the name, the symbol and the
-//! units of every number, `kes_value` those of KES values. Nothing here writes a file.
+//! Each module fills in a type of [`report`](drape_report) or [`export`](drape_export), which draws
+//! it. The numbers are not computed again here. `quantity` has the name, the symbol and the units
+//! of every parameter, `kes_value` has the name and the units of every KES value. Nothing here
+//! writes a file.
 
 mod compared;
 mod customer;

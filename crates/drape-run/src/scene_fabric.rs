@@ -1,5 +1,5 @@
-//! Fabrics of a scene, from files of fabrics or fitted to sheets: here the fit and the simulation
-//! meet, which do not know each other.
+//! Fabrics of a scene, read from files of fabrics or fitted to sheets. Fit and simulation do not
+//! know each other and meet here.
 
 mod mistake;
 
@@ -15,32 +15,33 @@ use crate::file::FileKind;
 
 pub use mistake::{NamedCurve, fit_mistake};
 
-/// Kinds of files that give a fabric.
+/// Kinds of files that define a fabric.
 const FABRICS: [FileKind; 2] = [FileKind::Fabric, FileKind::Sheet];
 
-/// Reads a scene whose fabrics are files of fabrics, or sheets of measurements, which are fitted.
+/// Reads the scene at `path`. Its fabrics are files of fabrics, or sheets of measurements to which
+/// fabrics are fitted.
 ///
 /// # Errors
-/// As for [`Scene::read`], with the mistakes of the sheets.
+/// Errors of [`Scene::read`], and the mistakes of the sheets.
 pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
     FileKind::expect(path.as_ref(), &[FileKind::Scene])?;
     Scene::read_with(path, &scene_fabric)
 }
 
-/// Makes a scene of a document, as [`read_scene`] does of a file.
+/// Returns the scene of a `document`, as [`read_scene`] does for a file.
 ///
 /// # Errors
-/// As for [`read_scene`].
+/// Errors of [`read_scene`].
 pub fn scene_of(document: &Document) -> Result<Scene, drape_scene::Error> {
     FileKind::expect_document(document, &[FileKind::Scene])?;
     Scene::from_document(document, &scene_fabric)
 }
 
-/// Makes a scene of a document, as [`scene_of`] does, whose fabrics, patterns and meshes are taken from
-/// other documents where it names their paths.
+/// Returns the scene of a `document`, as [`scene_of`] does. Fabrics, patterns and meshes are taken
+/// from `others` where their paths match.
 ///
 /// # Errors
-/// As for [`read_scene`].
+/// Errors of [`read_scene`].
 pub fn scene_of_documents(
     document: &Document,
     others: &[Document],
@@ -49,10 +50,10 @@ pub fn scene_of_documents(
     Scene::from_documents_with(document, others, &scene_fabric)
 }
 
-/// Makes a scene of a document, as [`scene_of`] does; what is refused has the scene beside its mistakes
-/// where it could be made, to be shown.
+/// Returns the scene of a `document`, as [`scene_of`] does. A refusal contains the mistakes, and
+/// the scene if it could be created, to be shown.
 ///
-/// # Errors
+/// Errors of [`read_scene`].
 /// As for [`read_scene`].
 pub fn scene_or_refused(document: &Document) -> Result<Scene, Box<Refused>> {
     Scene::from_documents_or_refused(document, &[], &scene_fabric)
@@ -60,8 +61,8 @@ pub fn scene_or_refused(document: &Document) -> Result<Scene, Box<Refused>> {
 
 /// Reads a `fabric.toml`, or fits a fabric to a `sheet.toml`.
 ///
-/// The laws are those of the model of the scene: Breen's are fitted to the first branches of the
-/// curves.
+/// The laws belong to the model of the scene. The laws of Breen are fitted to the first branches of
+/// the curves.
 ///
 /// # Errors
 /// The mistakes of the file, or the reason why a sheet gives no fabric.
@@ -70,10 +71,11 @@ pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
     fabric_of(&Document::read(request.file)?.allowing(request.allowed), request.model)
 }
 
-/// Makes the fabric of a document: of a `fabric.toml`, or fitted to a `sheet.toml`.
+/// Returns the fabric of a `document`: a `fabric.toml`, or a `sheet.toml` to which it is fitted for
+/// a `model`.
 ///
 /// # Errors
-/// As for [`scene_fabric`].
+/// Errors of [`scene_fabric`].
 pub fn fabric_of(document: &Document, model: Model) -> Result<Fabric, Diagnostics> {
     FileKind::expect_document(document, &FABRICS)?;
     if is_fabric(document) {

@@ -12,8 +12,8 @@ use crate::plot::{COLOURS, OverlayPlot, Placement, STYLE, overlay_figure};
 use crate::text::number::{percent, signed_percent};
 use crate::text::table::Table;
 
-/// Comparison of fabrics: their curves overlaid, what was measured and the laws beside it, with the
-/// differences from the first fabric.
+/// Comparison of fabrics: their overlaid curves, their measured values and the values of their
+/// laws, with the differences from the first fabric.
 ///
 /// ```
 /// use drape_report::{ComparePage, ComparedNumber, ComparedValue, FabricName, Units};
@@ -27,8 +27,13 @@ use crate::text::table::Table;
 ///     numbers: vec![law(0.1), law(0.23)],
 ///     is_comparable: true,
 /// };
-/// let fabrics = ["thin", "thick"].map(|name| FabricName { name: name.to_owned(), ..FabricName::default() });
-/// let page = ComparePage { fabrics: fabrics.into(), values: vec![mass], ..ComparePage::default() };
+/// let fabrics = ["thin", "thick"]
+///     .map(|name| FabricName { name: name.to_owned(), ..FabricName::default() });
+/// let page = ComparePage {
+///     fabrics: fabrics.into(),
+///     values: vec![mass],
+///     ..ComparePage::default()
+/// };
 /// assert!(page.to_text()?.contains("W  mass per area  mg/cm²  10.00  23.00  +130 %  !"));
 /// # Ok::<(), drape_report::Error>(())
 /// ```
@@ -40,22 +45,23 @@ pub struct ComparePage {
     pub version: String,
     /// Curves, test by test.
     pub overlays: Vec<OverlayPlot>,
-    /// Values in order, with a number of each fabric.
+    /// Values in the order of the page. Each value has one number for each fabric.
     pub values: Vec<ComparedValue>,
     /// Notes for the reader: assumed numbers, curves that only one fabric has.
     pub notes: Vec<String>,
-    /// Relative difference above which values are marked, as a ratio of the first.
+    /// Relative difference above which values are marked, as a ratio of the value of the first
+    /// fabric.
     pub limit: f64,
 }
 
 /// Relative difference of two fabrics above which values are marked, as a ratio.
 ///
-/// With a lower limit the scatter of repeated tests would be marked, with a higher one real
-/// differences would not.
+/// A lower limit would mark the scatter of repeated tests. A higher limit would not mark real
+/// differences.
 const LIMIT: f64 = 0.25;
 
 impl Default for ComparePage {
-    /// Returns an empty comparison with the usual limit.
+    /// Returns an empty comparison with the usual `limit`.
     fn default() -> ComparePage {
         ComparePage {
             fabrics: Vec::new(),
@@ -77,6 +83,7 @@ pub struct FabricName {
     pub source: String,
 }
 
+/// What the HTML template shows.
 #[derive(Template)]
 #[template(path = "page/compare.html")]
 struct View<'a> {
@@ -93,6 +100,7 @@ struct View<'a> {
     limit: String,
 }
 
+/// Row of the table of values.
 struct Row<'a> {
     value: &'a ComparedValue,
     cells: Vec<Cell>,
@@ -100,7 +108,7 @@ struct Row<'a> {
     si_unit: Option<&'a str>,
 }
 
-/// Numbers of a fabric, and how far they are from those of the first.
+/// Numbers of one fabric, and their difference from the numbers of the first fabric.
 struct Cell {
     measured: Option<ShownValue>,
     law: Option<ShownValue>,
@@ -110,7 +118,8 @@ struct Cell {
 }
 
 impl ComparePage {
-    /// Refuses an empty comparison, numbers that are not finite and texts that cannot be shown.
+    /// Refuses an empty comparison, numbers that are not finite and texts that cannot be shown, as
+    /// [`Error`].
     ///
     /// # Errors
     /// The first fault.
@@ -132,7 +141,7 @@ impl ComparePage {
         Ok(())
     }
 
-    /// Returns the names of the fabrics as a title.
+    /// Returns the names of the `fabrics` as a title.
     fn title(&self) -> String {
         let names: Vec<&str> = self.fabrics.iter().map(|fabric| fabric.name.as_str()).collect();
         match names.split_last() {
@@ -146,13 +155,14 @@ impl ComparePage {
     /// Returns the comparison as one self-contained HTML page.
     ///
     /// # Errors
-    /// Those of [`ComparePage::check`].
+    /// Errors of [`ComparePage::check`].
     pub fn to_html(&self) -> Result<String, Error> {
         self.check()?;
         let overlays = self.overlays.iter();
         let names = self.fabrics.iter().enumerate();
         let rows: Vec<Row<'_>> = self.values.iter().map(|value| self.row(value)).collect();
-        let numbers = || self.values.iter().flat_map(|value| &value.numbers);
+
+        // A column appears only if some fabric has a number for the column.
         let view = View {
             page: self,
             names: names.map(|(index, f)| (index % COLOURS + 1, f.name.as_str())).collect(),
@@ -161,9 +171,9 @@ impl ComparePage {
             overlays: overlays
                 .map(|plot| (plot.title.as_str(), overlay_figure(plot, Placement::InPage)))
                 .collect(),
-            has_measured: numbers().any(|own| own.measured.is_some()),
+            has_measured: self.numbers().any(|number| number.measured.is_some()),
             has_scatter: rows.iter().flat_map(|row| &row.cells).any(|cell| cell.is_within_scatter),
-            has_assumed: numbers().any(|own| own.is_assumed),
+            has_assumed: self.numbers().any(|number| number.is_assumed),
             rows,
             limit: percent(self.limit),
         };
@@ -173,36 +183,44 @@ impl ComparePage {
     /// Returns the table of values as text for a terminal, in the units of the laboratory.
     ///
     /// # Errors
-    /// Those of [`ComparePage::check`].
+    /// Errors of [`ComparePage::check`].
     pub fn to_text(&self) -> Result<String, Error> {
         self.check()?;
         let mut lines = vec![self.title(), String::new()];
         let numbered = self.fabrics.iter().enumerate();
         lines.extend(numbered.map(|(index, fabric)| format!("{}  {}", index + 1, fabric.name)));
         lines.push(String::new());
+
+        // The table of values.
         lines.extend(self.table().lines(0));
         lines.push(String::new());
         lines.push(format!(
             "differences from 1, of measured values where both have one, else of laws; !: more than {}",
             percent(self.limit)
         ));
+
+        // The legend explains only signs that the table has.
         let rows = self.values.iter().map(|value| self.row(value));
         if rows.flat_map(|row| row.cells).any(|cell| cell.is_within_scatter) {
             lines.push("≈: within twice the standard deviation of the difference".to_owned());
         }
-        if self.values.iter().flat_map(|value| &value.numbers).any(|own| own.is_assumed) {
+        if self.numbers().any(|number| number.is_assumed) {
             lines.push("in brackets: assumed, not measured".to_owned());
         }
+
         if !self.notes.is_empty() {
             lines.push(String::new());
             lines.extend(self.notes.iter().map(|note| format!("- {note}")));
         }
+
         lines.push(String::new());
         Ok(lines.join("\n"))
     }
 
-    /// Returns the table of the text: two columns for each fabric, and two more for its difference.
+    /// Returns the [`Table`] of the text: two columns for each fabric, and two further columns for
+    /// the difference from the first fabric.
     fn table(&self) -> Table {
+        // Columns of numbers are aligned at the right.
         let mut head: Vec<String> = ["", "", "", "unit"].map(str::to_owned).into();
         let mut right = Vec::new();
         for number in 1..=self.fabrics.len() {
@@ -215,6 +233,8 @@ impl ComparePage {
         }
         let head: Vec<&str> = head.iter().map(String::as_str).collect();
         let mut table = Table::new(&head, &right);
+
+        // Each value becomes a row of texts.
         for row in self.values.iter().map(|value| self.row(value)) {
             let value = row.value;
             let mut cells = vec![
@@ -224,12 +244,9 @@ impl ComparePage {
                 row.unit.to_owned(),
             ];
             for (index, cell) in row.cells.iter().enumerate() {
-                let text = |shown: &Option<ShownValue>| {
-                    shown.as_ref().map_or_else(String::new, |value| value.first().number())
-                };
-                let law = text(&cell.law);
+                let law = Cell::text(cell.law.as_ref());
                 let law = if cell.is_assumed { format!("({law})") } else { law };
-                cells.extend([text(&cell.measured), law]);
+                cells.extend([Cell::text(cell.measured.as_ref()), law]);
                 if index > 0 {
                     let difference = cell.difference.as_ref();
                     let text =
@@ -242,7 +259,12 @@ impl ComparePage {
         table
     }
 
-    /// Returns the row of a value.
+    /// Returns the numbers of all values and fabrics.
+    fn numbers(&self) -> impl Iterator<Item = &ComparedNumber> {
+        self.values.iter().flat_map(|value| &value.numbers)
+    }
+
+    /// Returns the row of a `value`.
     fn row<'a>(&self, value: &'a ComparedValue) -> Row<'a> {
         Row {
             value,
@@ -252,7 +274,8 @@ impl ComparePage {
         }
     }
 
-    /// Returns the numbers of a fabric, and how far they are from those of the first.
+    /// Returns the numbers of a `value` for the fabric `index`, and their difference from the
+    /// numbers of the first fabric.
     fn cell(&self, value: &ComparedValue, index: usize) -> Cell {
         let ComparedNumber { measured, deviation, law, is_assumed } =
             value.numbers.get(index).copied().unwrap_or_default();
@@ -260,7 +283,8 @@ impl ComparePage {
         let within = difference.and_then(|difference| difference.is_within_scatter);
         let is_within_scatter = within == Some(true);
         Cell {
-            measured: measured.map(|own| ShownValue::with_error(own, deviation, &value.units)),
+            measured: measured
+                .map(|measured| ShownValue::with_error(measured, deviation, &value.units)),
             law: law.map(|law| ShownValue::new(law, &value.units)),
             is_assumed,
             difference: difference.map(|difference| {
@@ -274,7 +298,7 @@ impl ComparePage {
 }
 
 impl Cell {
-    /// Returns the sign behind a difference.
+    /// Returns the sign that follows the `difference` in a text.
     fn mark(&self) -> &'static str {
         match &self.difference {
             Some(_) if self.is_within_scatter => "≈",
@@ -283,14 +307,19 @@ impl Cell {
         }
     }
 
-    /// Returns what a page shows of a law or of a measured value, in both units.
+    /// Returns a number as text in the units of the laboratory, empty for `None`.
+    fn text(value: Option<&ShownValue>) -> String {
+        value.map_or_else(String::new, |value| value.first().number())
+    }
+
+    /// Returns the text that a page shows for a `value`, in both units.
     fn pair(value: &Option<ShownValue>) -> Option<(String, Option<String>)> {
         let value = value.as_ref()?;
         Some((value.first().print(), value.second().map(Shown::print)))
     }
 
-    /// Returns the numbers that a page shows: measured, if that has a column, and of the law, in
-    /// brackets where it was assumed.
+    /// Returns the numbers that a page shows: the measured number, if `has_measured` says that
+    /// there is a column for it, and the number of the law, in brackets where it was assumed.
     fn shown(&self, has_measured: &bool) -> Vec<Option<(String, Option<String>)>> {
         let measured = has_measured.then(|| Self::pair(&self.measured));
         let mut law = Self::pair(&self.law);

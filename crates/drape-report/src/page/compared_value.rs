@@ -1,4 +1,4 @@
-//! Value of several fabrics: what was measured, what the laws have, and the differences from the first.
+//! Value of several fabrics: measured, by the laws, and the differences from the first fabric.
 
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
@@ -7,8 +7,8 @@ use crate::check;
 use crate::error::Error;
 use crate::parameter::Units;
 
-/// Standard deviations within which two numbers are not told apart: 95 of 100 measurements of one
-/// value are as close.
+/// Two numbers count as equal within this many standard deviations of their difference. The
+/// differences of 95 out of 100 repeated measurements lie within it.
 pub(super) const SCATTER: f64 = 1.96;
 
 /// Value of several fabrics, in SI.
@@ -33,100 +33,111 @@ pub struct ComparedValue {
     pub symbol: String,
     /// Name, as in "bending rigidity".
     pub name: String,
-    /// Direction, as in "warp"; may be empty.
+    /// Direction, as in "warp". The text may be empty.
     pub direction: String,
     /// Units.
     pub units: Units,
     /// Numbers of each fabric.
     pub numbers: Vec<ComparedNumber>,
-    /// Whether the tests were alike: values that were read at different loads have no difference.
+    /// Whether the tests were alike. Values that were read at different loads have no difference.
     pub is_comparable: bool,
 }
 
-/// Numbers of a fabric for a value, in SI.
+/// Numbers of one fabric for a value, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct ComparedNumber {
-    /// Value that was measured, as the sheet or its curve has it.
+    /// Measured value, from the sheet or from its curve.
     pub measured: Option<f64>,
     /// Standard deviation of the measurement, where it is known.
     pub deviation: Option<f64>,
     /// Value of the law.
     pub law: Option<f64>,
-    /// Whether the law was assumed there: nothing was measured that says this value.
+    /// Whether the value of the law was assumed, because no measurement determines it.
     pub is_assumed: bool,
 }
 
 impl ComparedNumber {
-    /// Returns the value of the law, unless it was assumed.
+    /// Returns the value of the `law`, unless it was assumed.
     fn fitted(&self) -> Option<f64> {
         self.law.filter(|_| !self.is_assumed)
     }
 }
 
-/// Difference of a fabric from the first.
+/// Difference between a fabric and the first fabric.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Difference {
-    /// Value over the first fabric's.
+    /// Value of the fabric divided by the value of the first fabric.
     pub ratio: f64,
-    /// What is compared.
+    /// Kind of the compared values.
     pub of: Compared,
-    /// Whether the two are within their scatter, where that is known: the difference is at most twice
-    /// (1.96 times) its standard deviation.
+    /// Whether both values agree within their scatter: the difference is at most 1.96 times its
+    /// standard deviation. `None` where a standard deviation is not known.
     pub is_within_scatter: Option<bool>,
 }
 
-/// Numbers that a difference is of.
+/// Kind of the values that a difference compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Compared {
-    /// Values that were measured on both fabrics.
+    /// Measured values of both fabrics.
     Measured,
-    /// Values of the laws of both.
+    /// Values of the laws of both fabrics.
     Laws,
-    /// A measured value and one of a law.
+    /// A measured value of one fabric and the value of the law of the other fabric.
     Mixed,
 }
 
 impl ComparedValue {
-    /// Returns the difference of a fabric, by its index, from the first: of measured values where
-    /// both have one, else of laws. `None` where one is missing or assumed, the first is zero or the
-    /// tests were not alike.
+    /// Returns the [`Difference`] between the fabric `index` and the first fabric. Measured values
+    /// are compared where both fabrics have one, else values of laws. Returns `None` where a value
+    /// is missing or assumed, where the first value is zero, or where the tests were not alike.
     #[must_use]
     pub fn difference(&self, index: usize) -> Option<Difference> {
         if !self.is_comparable || index == 0 {
             return None;
         }
-        let (first, other) = (self.numbers.first()?, self.numbers.get(index)?);
-        let measured = first.measured.zip(other.measured).map(|pair| (pair, Compared::Measured));
-        let laws = || first.fitted().zip(other.fitted()).map(|pair| (pair, Compared::Laws));
-        let mixed = || {
-            let [first, other] = [first, other].map(|own| own.measured.or(own.fitted()));
-            let pair = first.zip(other);
-            pair.map(|pair| (pair, Compared::Mixed))
+        let (first, second) = (self.numbers.first()?, self.numbers.get(index)?);
+
+        // Values of one kind are better to compare than a measured value and a law.
+        let measured = first.measured.zip(second.measured);
+        let laws = first.fitted().zip(second.fitted());
+        let (values, of) = if let Some(values) = measured {
+            (values, Compared::Measured)
+        } else if let Some(values) = laws {
+            (values, Compared::Laws)
+        } else {
+            let known = |number: &ComparedNumber| number.measured.or(number.fitted());
+            (known(first).zip(known(second))?, Compared::Mixed)
         };
-        let ((one, two), of) = measured.or_else(laws).or_else(mixed)?;
-        let ratio = (one != 0.0).then(|| two / one).filter(|ratio| ratio.is_finite())?;
-        let both = first.deviation.zip(other.deviation).filter(|_| of == Compared::Measured);
-        let is_within = |(a, b): (f64, f64)| (two - one).abs() <= SCATTER * a.hypot(b);
-        Some(Difference { ratio, of, is_within_scatter: both.map(is_within) })
+        let ratio = (values.0 != 0.0).then(|| values.1 / values.0);
+        let ratio = ratio.filter(|ratio| ratio.is_finite())?;
+
+        // Only measurements have a standard deviation.
+        let deviations = first.deviation.zip(second.deviation);
+        let is_within_scatter = deviations
+            .filter(|_| of == Compared::Measured)
+            .map(|(a, b)| (values.1 - values.0).abs() <= SCATTER * a.hypot(b));
+        Some(Difference { ratio, of, is_within_scatter })
     }
 
-    /// Returns the symbol and the direction.
+    /// Returns the `symbol` and the `direction`.
     pub(super) fn title(&self) -> String {
         format!("{} {}", self.symbol, self.direction)
     }
 
-    /// Refuses texts that cannot be shown, and units and numbers out of range.
+    /// Refuses texts that cannot be shown, and `units` and `numbers` out of range.
     pub(super) fn check(&self) -> Result<(), Error> {
         for text in [&self.symbol, &self.name, &self.direction] {
             check::text("a text of a compared value", text)?;
         }
         self.units.check()?;
-        let numbers = self.numbers.iter().flat_map(|own| [own.measured, own.deviation, own.law]);
+        let numbers =
+            self.numbers.iter().flat_map(|number| [number.measured, number.deviation, number.law]);
         numbers.flatten().try_for_each(|number| check::number(|| self.title(), number))
     }
 
-    /// Returns the differences of all fabrics from the first.
+    /// Returns the differences between all fabrics and the first fabric, by
+    /// [`ComparedValue::difference`].
     #[must_use]
     pub fn differences(&self) -> Vec<Option<Difference>> {
         (0..self.numbers.len()).map(|index| self.difference(index)).collect()
@@ -134,7 +145,7 @@ impl ComparedValue {
 }
 
 impl Serialize for ComparedValue {
-    /// Writes the value with its differences.
+    /// Writes the value with its [`ComparedValue::differences`].
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut value = serializer.serialize_struct("ComparedValue", 6)?;
         value.serialize_field("symbol", &self.symbol)?;

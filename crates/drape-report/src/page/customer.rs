@@ -1,7 +1,8 @@
 //! Report of a laboratory to its customer.
 //!
-//! `report` has it as plain data, `values` a value with what others have of it, `drape` a fabric on a
-//! drapemeter, `garment` girths of a garment on its body; `chart` draws values over the ranges that were published; `html` and `csv` write it all.
+//! `report` has the report as plain data, `values` one value with its published range, `drape` a
+//! fabric on a drapemeter, and `garment` the girths of a garment on its body. `chart` draws values
+//! over published ranges. `html` and `csv` write the report.
 
 mod chart;
 mod csv;

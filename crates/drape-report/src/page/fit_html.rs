@@ -16,6 +16,7 @@ use crate::plot::{
 use crate::text::number::{percent, signed_percent, significant, typeset};
 use crate::text::symbol::Symbol;
 
+/// What the HTML template shows.
 #[derive(Template)]
 #[template(path = "page/fit.html")]
 struct View<'a> {
@@ -54,7 +55,7 @@ struct LawView<'a> {
     stop: String,
     misfit: String,
     r_squared: String,
-    /// Length of the bar of the misfit, in per cent; the limit lies at half of it.
+    /// Length of the bar of the misfit, in per cent. The limit lies at half of the bar.
     bar: String,
     values: Vec<LawValueRow<'a>>,
     parameters: Vec<ShownParameter<'a>>,
@@ -63,25 +64,25 @@ struct LawView<'a> {
     models: Vec<ModelRow<'a>>,
 }
 
-/// Value of a law, and whether it is known no better than the limit.
+/// Value of a law, and whether its relative error is larger than the limit.
 struct LawValueRow<'a> {
     shown: ShownLawValue<'a>,
     is_wide: bool,
 }
 
-/// Heat map with its side in px, beyond which it is not stretched.
+/// Heat map with its largest side, in px.
 struct HeatMap {
     figure: String,
     side: f64,
 }
 
-/// Model of a comparison: misfit, AICc, AICc above the best, weight, error of its prediction.
+/// Model of a comparison: misfit, AICc, AICc above the best model, weight, error of its prediction.
 struct ModelRow<'a> {
     model: &'a ModelScore,
     texts: [String; 5],
 }
 
-/// KES value: the numbers of the laboratory above, SI below.
+/// KES value. The numbers in the units of the laboratory stand above the numbers in SI.
 struct ValueRow<'a> {
     value: &'a KesValue,
     cells: [Option<ShownValue>; 3],
@@ -94,13 +95,14 @@ impl FitPage {
     /// Returns the report as one self-contained HTML page: no network, no fonts, no other file.
     ///
     /// # Errors
-    /// Those of [`FitPage::check`].
+    /// Errors of [`FitPage::check`].
     pub fn to_html(&self) -> Result<String, Error> {
         self.check()?;
         Ok(render(self))
     }
 }
 
+/// Returns the HTML of a `page` that has been checked.
 fn render(page: &FitPage) -> String {
     let laws: Vec<LawView<'_>> = page.laws.iter().map(|law| law_view(law, &page.limits)).collect();
     let quantities = page.quantities.iter().map(|quantity| QuantityRow {
@@ -113,6 +115,7 @@ fn render(page: &FitPage) -> String {
         List { title: "Repaired", class: "repaired", texts: &page.repairs },
         List { title: "Read", class: "read", texts: &page.readings },
     ];
+
     let view = View {
         page,
         styles: [STYLE, PAGE_STYLE],
@@ -127,7 +130,7 @@ fn render(page: &FitPage) -> String {
     view.render().expect("writing to a string does not fail")
 }
 
-/// Returns the report in one sentence.
+/// Returns the judgement of a `page` and its `laws` in one sentence.
 fn judgement(page: &FitPage, laws: &[LawView<'_>]) -> String {
     let count = |trust: Trust| laws.iter().filter(|law| law.verdict.trust == trust).count();
     let judged = laws.len() - count(Trust::Unjudged);
@@ -140,6 +143,7 @@ fn judgement(page: &FitPage, laws: &[LawView<'_>]) -> String {
             parts.push(format!("{} {word}", count(trust)));
         }
     }
+
     let apart = page.values.iter().filter(|value| differs(value, &page.limits)).count();
     if apart > 0 {
         let noun = if apart == 1 { "value differs" } else { "values differ" };
@@ -157,12 +161,14 @@ fn judgement(page: &FitPage, laws: &[LawView<'_>]) -> String {
     }
 }
 
-/// Returns whether a value differs from the curve or the law by more than the limit.
+/// Returns whether a `value` differs from the curve or from the law by more than the limit of
+/// `limits`.
 fn differs(value: &KesValue, limits: &Limits) -> bool {
     let differences = value.differences();
     differences.iter().flatten().any(|d| d.abs() > limits.difference)
 }
 
+/// Returns the figures and texts of a `law`, which is judged by `limits`.
 fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
     let verdict = law.verdict(limits);
     let statistics = law.statistics.as_ref();
@@ -177,11 +183,14 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
         facts.push(("iterations", s.iterations.to_string()));
         facts.push(("evaluations", s.evaluations.to_string()));
     }
+
+    // Bars of uncertainty are drawn only if some parameter has an error or an interval.
     let uncertain = law.parameters.iter().any(|parameter| {
         let unknown =
             matches!(parameter.interval, Interval::Unknown { .. } | Interval::Fixed { .. });
         parameter.standard_error.is_some() || !unknown
     });
+
     let models = law.models.iter().zip(law.evidence());
     LawView {
         class: verdict.trust.class(),
@@ -225,10 +234,12 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
     }
 }
 
+/// Returns the row of a `value`, which is marked if its error is beyond `limits`.
 fn law_value_row<'a>(value: &'a LawValue, limits: &Limits) -> LawValueRow<'a> {
     LawValueRow { shown: ShownLawValue::new(value), is_wide: limits.is_uncertain(value) }
 }
 
+/// Returns the row of a `value`, whose differences are marked beyond `limits`.
 fn value_row<'a>(value: &'a KesValue, limits: &Limits) -> ValueRow<'a> {
     let cell = |number: Option<f64>| Some(ShownValue::new(number?, &value.units));
     ValueRow {

@@ -1,4 +1,4 @@
-//! Report of a fit, as plain data; `fit_html` and `fit_text` write it.
+//! Report of a fit, as plain data. `fit_html` and `fit_text` write the report.
 
 use serde::Serialize;
 
@@ -9,8 +9,9 @@ use crate::parameter::Units;
 
 /// Report of the identification of one fabric, with everything needed to judge it.
 ///
-/// All numbers are in SI; other units are given with their size. The page is drawn from this data
-/// alone, so the same data gives the same bytes. Serialised, it is the report for programs.
+/// All numbers are in SI. A number in another unit comes with the size of the unit. The page
+/// depends on this data alone, so equal data gives equal bytes. Serialised, the data is the report
+/// for programs.
 ///
 /// ```
 /// use drape_report::{FitPage, Quantity, Units};
@@ -29,7 +30,7 @@ use crate::parameter::Units;
 pub struct FitPage {
     /// Name of the sheet.
     pub name: String,
-    /// Source: who measured it, when, under which licence.
+    /// Source: who measured the fabric, when, and under which licence.
     pub source: String,
     /// Files from which the report was made, as in "sheet.toml, blake3 0123abcd".
     pub provenance: String,
@@ -41,7 +42,7 @@ pub struct FitPage {
     pub laws: Vec<LawReport>,
     /// KES values, given and recomputed.
     pub values: Vec<KesValue>,
-    /// Curve files, each with what it was taken for and why.
+    /// Curve files, each with its interpretation and the reason.
     pub readings: Vec<String>,
     /// Assumptions in place of measurements.
     pub assumed: Vec<String>,
@@ -62,18 +63,18 @@ pub struct Quantity {
     pub value: f64,
     /// Units.
     pub units: Units,
-    /// Origin, as in "sheet"; may be empty.
+    /// Origin, as in "sheet". The text may be empty.
     pub origin: String,
 }
 
-/// KES value: as the sheet gives it, from the measured curve, and from the fitted law, in SI.
+/// KES value in SI: of the sheet, of the measured curve, and of the fitted law.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KesValue {
     /// Symbol of the laboratory, as in "2HB".
     pub symbol: String,
     /// Name, as in "bending loop width".
     pub name: String,
-    /// Direction, as in "warp"; may be empty.
+    /// Direction, as in "warp". The text may be empty.
     pub direction: String,
     /// Units.
     pub units: Units,
@@ -86,10 +87,10 @@ pub struct KesValue {
 }
 
 impl KesValue {
-    /// Returns the relative differences of the values of the curve and of the law from the
-    /// reference.
+    /// Returns the relative differences of the values of `curve` and `law` from a reference.
     ///
-    /// The reference is the value of the sheet; without one, the law is compared with the curve.
+    /// The reference is the value of `sheet`. Without a value of the sheet, `law` is compared with
+    /// `curve`.
     #[must_use]
     pub fn differences(&self) -> [Option<f64>; 2] {
         let from = |reference: Option<f64>, value: Option<f64>| {
@@ -103,7 +104,7 @@ impl KesValue {
 impl FitPage {
     /// Refuses an empty report, numbers that are not finite and texts that cannot be shown.
     ///
-    /// [`FitPage::to_html`] and [`FitPage::to_text`] call it; call it before serialising.
+    /// [`FitPage::to_html`] and [`FitPage::to_text`] call this method. Call it before serialising.
     ///
     /// # Errors
     /// The first fault.
@@ -111,11 +112,13 @@ impl FitPage {
         if self.laws.is_empty() && self.values.is_empty() && self.quantities.is_empty() {
             return Err(Error::EmptyReport { name: self.name.clone() });
         }
+
         let head = [&self.name, &self.source, &self.provenance, &self.version];
         let lists = [&self.readings, &self.assumed, &self.warnings, &self.repairs];
         for text in head.into_iter().chain(lists.into_iter().flatten()) {
             check::text("a text of the report", text)?;
         }
+
         for quantity in &self.quantities {
             let name = &quantity.name;
             check::text("the name of a quantity", name)?;
@@ -126,6 +129,7 @@ impl FitPage {
         for law in &self.laws {
             law.check()?;
         }
+
         for value in &self.values {
             for text in [&value.symbol, &value.name, &value.direction] {
                 check::text("a text of a KES value", text)?;

@@ -7,26 +7,28 @@ use crate::error::Error;
 use crate::text::number::{percent, signed_percent, significant};
 use crate::text::table::Table;
 
-/// Width at which running text is broken, in letters: more than the usual 80 of a terminal, since
-/// tables are wider anyway.
+/// Width at which running text is broken, in letters. The width is larger than the usual 80 of a
+/// terminal, because tables are wider than 80 letters.
 const WIDTH: usize = 96;
 
 impl FitPage {
     /// Returns the report as text for a terminal, in columns.
     ///
     /// # Errors
-    /// Those of [`FitPage::check`].
+    /// Errors of [`FitPage::check`].
     pub fn to_text(&self) -> Result<String, Error> {
         self.check()?;
         Ok(render(self))
     }
 }
 
+/// Returns the text of a `page` that has been checked.
 fn render(page: &FitPage) -> String {
     let mut lines = vec![page.name.clone(), "=".repeat(page.name.chars().count())];
     for text in [&page.source, &page.provenance, &page.version] {
         wrap(&mut lines, "", text);
     }
+
     if !page.quantities.is_empty() {
         lines.push(String::new());
         lines.extend(quantities(page));
@@ -35,6 +37,7 @@ fn render(page: &FitPage) -> String {
         heading(&mut lines, "Read");
         page.readings.iter().for_each(|text| wrap(&mut lines, "  - ", text));
     }
+
     for law in &page.laws {
         lines.push(String::new());
         lines.extend(law_lines(law, &page.limits));
@@ -43,6 +46,7 @@ fn render(page: &FitPage) -> String {
         heading(&mut lines, "KES values");
         lines.extend(values(&page.values, &page.limits));
     }
+
     let lists = [
         ("Assumed, not measured", &page.assumed),
         ("Repaired", &page.repairs),
@@ -60,13 +64,14 @@ fn render(page: &FitPage) -> String {
     lines.join("\n")
 }
 
+/// Adds a heading with a `title`, after an empty line.
 fn heading(lines: &mut Vec<String>, title: &str) {
     lines.push(String::new());
     lines.push(format!("[{title}]"));
 }
 
-/// Adds a text, broken at its blanks; lines after the first are indented by the width of the
-/// beginning.
+/// Adds a `text` to `lines`, broken at blanks. The first line starts with `begin`. Further lines
+/// are indented by the width of `begin`.
 fn wrap(lines: &mut Vec<String>, begin: &str, text: &str) {
     let indent = " ".repeat(begin.chars().count());
     let mut line = begin.to_owned();
@@ -87,6 +92,7 @@ fn wrap(lines: &mut Vec<String>, begin: &str, text: &str) {
     }
 }
 
+/// Returns the table of the given quantities of a `page`.
 fn quantities(page: &FitPage) -> Vec<String> {
     let mut table = Table::new(&["given", "", "", "SI", "", ""], &[1, 3]);
     for quantity in &page.quantities {
@@ -103,6 +109,7 @@ fn quantities(page: &FitPage) -> Vec<String> {
     table.lines(0)
 }
 
+/// Returns the lines of a `law`, which is judged by `limits`.
 fn law_lines(law: &LawReport, limits: &Limits) -> Vec<String> {
     let verdict = law.verdict(limits);
     let mut lines = vec![format!("[{}]  {}", law.title, verdict.trust.name())];
@@ -111,6 +118,7 @@ fn law_lines(law: &LawReport, limits: &Limits) -> Vec<String> {
             wrap(&mut lines, "  ! ", reason);
         }
     }
+
     fact(&mut lines, "law", &law.model);
     if let Some(statistics) = &law.statistics {
         statistics_lines(&mut lines, law, statistics);
@@ -124,6 +132,7 @@ fn law_lines(law: &LawReport, limits: &Limits) -> Vec<String> {
     if !law.parameters.is_empty() {
         lines.extend(parameters(law));
     }
+
     if let Some(correlation) = &law.correlation {
         let pairs = correlation.above(limits.correlation);
         if !pairs.is_empty() {
@@ -134,16 +143,19 @@ fn law_lines(law: &LawReport, limits: &Limits) -> Vec<String> {
             }
         }
     }
+
     for note in &law.notes {
         wrap(&mut lines, "  - ", note);
     }
     lines
 }
 
+/// Adds a fact of a law: its `name` in a column, then its `text`.
 fn fact(lines: &mut Vec<String>, name: &str, text: &str) {
     wrap(lines, &format!("  {name:<8} "), text);
 }
 
+/// Adds the `statistics` of the fit of a `law`.
 fn statistics_lines(lines: &mut Vec<String>, law: &LawReport, statistics: &Statistics) {
     let unit = law.load_unit();
     let rms = format!("{} {}", significant(statistics.rms / unit.in_si, 3), unit.name);
@@ -162,6 +174,7 @@ fn statistics_lines(lines: &mut Vec<String>, law: &LawReport, statistics: &Stati
     fact(lines, "stopped", &search);
 }
 
+/// Returns the table of the models that were compared for a `law`.
 fn models(law: &LawReport) -> Vec<String> {
     let head = ["model", "parameters", "misfit", "AICc", "above best", "weight", "last cycle", ""];
     let mut table = Table::new(&head, &[1, 2, 3, 4, 5, 6]);
@@ -180,6 +193,7 @@ fn models(law: &LawReport) -> Vec<String> {
     table.lines(2)
 }
 
+/// Returns the table of the KES values of a `law`. Errors beyond `limits` have a sign.
 fn law_values(law: &LawReport, limits: &Limits) -> Vec<String> {
     let head = ["value", "", "curve", "law", "", "error", "95 % interval"];
     let mut table = Table::new(&head, &[2, 3, 5, 6]);
@@ -199,6 +213,7 @@ fn law_values(law: &LawReport, limits: &Limits) -> Vec<String> {
     table.lines(2)
 }
 
+/// Returns the table of the parameters of a `law`, then the reasons for missing intervals.
 fn parameters(law: &LawReport) -> Vec<String> {
     let head = ["parameter", "", "value", "", "error", "95 % interval", "SI value", ""];
     let mut table = Table::new(&head, &[2, 4, 5, 6]);
@@ -207,6 +222,7 @@ fn parameters(law: &LawReport) -> Vec<String> {
         let shown = ShownParameter::new(parameter);
         let first = shown.first();
         let si = shown.kes.as_ref().map(|_| &shown.si);
+
         table.row(vec![
             parameter.symbol.clone(),
             parameter.name.clone(),
@@ -217,6 +233,7 @@ fn parameters(law: &LawReport) -> Vec<String> {
             si.map_or_else(String::new, |si| format!("{}{}", si.value, si.power)),
             si.map_or_else(String::new, |si| si.unit.clone()),
         ]);
+
         if let Some(reason) = shown.reason {
             wrap(&mut reasons, &format!("    {}: ", parameter.symbol), reason);
         }
@@ -226,6 +243,7 @@ fn parameters(law: &LawReport) -> Vec<String> {
     lines
 }
 
+/// Returns the table of KES `values`. Differences beyond `limits` have a sign.
 fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
     let head = ["", "", "", "unit", "sheet", "curve", "", "law", "", "", "SI", ""];
     let mut table = Table::new(&head, &[4, 5, 6, 7, 8, 10]);
@@ -238,6 +256,8 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
         let differences = value.differences();
         let difference = |ratio: Option<f64>| ratio.map_or_else(String::new, signed_percent);
         let apart = differences.iter().flatten().any(|d| d.abs() > limits.difference);
+
+        // The column of SI is empty for a value that is already shown in SI.
         let best = value.sheet.or(value.curve).or(value.law);
         let si = best.filter(|_| value.units.kes.is_some());
         let si = si.map(|number| Shown::bare(number, &value.units.si));

@@ -1,4 +1,4 @@
-//! Report of one fitted law, and the judgement of it.
+//! Report of one fitted law, and its judgement.
 
 use serde::Serialize;
 
@@ -16,13 +16,13 @@ pub struct LawReport {
     pub title: String,
     /// Law in words, as in "priming zone and line, friction of first order".
     pub model: String,
-    /// Curves with the loads of the law; several where several tests were fitted together.
+    /// Curves with the loads of the law. Tests that were fitted together have several curves.
     pub plots: Vec<LoopPlot>,
-    /// Statistics of the fit; `None` where the law was set from values.
+    /// Statistics of the fit. `None` where the law was set from values.
     pub statistics: Option<Statistics>,
-    /// KES values of the law; empty for a test that has none.
+    /// KES values of the law. Empty for a test without KES values.
     pub values: Vec<LawValue>,
-    /// Models that were compared; empty where there was no choice.
+    /// Models that were compared. Empty where there was no choice.
     pub models: Vec<ModelScore>,
     /// Parameters, fitted or not.
     pub parameters: Vec<Parameter>,
@@ -32,7 +32,7 @@ pub struct LawReport {
     pub notes: Vec<String>,
 }
 
-/// Statistics of a fit and of the search for it.
+/// Statistics of a fit and of its search.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Statistics {
     /// Root mean square residual over the range of the measured load, a ratio.
@@ -58,17 +58,17 @@ pub struct Statistics {
 pub struct ModelScore {
     /// Model in words.
     pub name: String,
-    /// Number of its fitted parameters.
+    /// Number of fitted parameters of the model.
     pub parameters: usize,
     /// Root mean square residual over the range of the measured load, a ratio.
     pub misfit: f64,
-    /// Akaike's information criterion, corrected for the number of points (AICc); the smallest is
-    /// best.
+    /// Akaike's information criterion, corrected for the number of points (AICc). The model with
+    /// the smallest criterion is the best one.
     pub aicc: f64,
     /// Root mean square error of its prediction of the last cycle from all others, over the range of
     /// the measured load, a ratio; `None` where that was not tried.
     pub prediction: Option<f64>,
-    /// Whether the report is of this model.
+    /// Whether the report describes this model.
     pub chosen: bool,
 }
 
@@ -77,19 +77,19 @@ pub struct ModelScore {
 pub struct Limits {
     /// Largest misfit of a law that counts as good, a ratio.
     pub misfit: f64,
-    /// Largest relative standard error of a parameter that counts as known, a ratio, in a test that
-    /// has no KES values.
+    /// Largest relative standard error of a parameter that counts as known, a ratio. The limit
+    /// applies to tests without KES values.
     pub error: f64,
-    /// Largest relative difference between the value of a sheet and a recomputed one, a ratio, and
-    /// largest relative error of the value of a law that counts as known.
+    /// Largest relative difference between a value of a sheet and a recomputed value, a ratio. The
+    /// limit is also the largest relative error of a value of a law that counts as known.
     pub difference: f64,
-    /// Correlation above which pairs are listed.
+    /// Correlation above which pairs of parameters are listed.
     pub correlation: f64,
 }
 
 impl Limits {
-    /// Returns whether the value of a law has a larger relative error than a known value has, or none
-    /// that can be told.
+    /// Returns whether the relative error of a `value` of a law is unknown or larger than
+    /// `difference`.
     pub(super) fn is_uncertain(&self, value: &LawValue) -> bool {
         value.relative_error().is_none_or(|error| error > self.difference)
     }
@@ -110,18 +110,19 @@ impl Default for Limits {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trust {
-    /// Set from values or defaults: there is no curve to judge it by.
+    /// Set from values or defaults. There is no curve for a judgement.
     Unjudged,
-    /// Follows its curves, and has their KES values.
+    /// The law follows its curves, and its KES values are known.
     Good,
-    /// Follows its curves, but not all KES values are known; or its misfit is up to twice the limit.
+    /// The law follows its curves, but some KES values are not known, or its misfit is up to twice
+    /// the limit.
     Doubtful,
-    /// Does not follow its curves, or the search did not end at a minimum.
+    /// The law does not follow its curves, or the search did not end at a minimum.
     Poor,
 }
 
 impl Trust {
-    /// Returns the judgement in words.
+    /// Returns the judgement in words, as in `good`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -132,7 +133,7 @@ impl Trust {
         }
     }
 
-    /// Returns the class of the judgement in the style sheets.
+    /// Returns the class of the judgement in the style sheets, as in `good`.
     pub(super) fn class(self) -> &'static str {
         match self {
             Self::Unjudged => "unjudged",
@@ -148,15 +149,16 @@ impl Trust {
 pub struct Verdict {
     /// Judgement.
     pub trust: Trust,
-    /// Reasons against the law; empty if there are none.
+    /// Reasons against the law. Empty if there are no reasons.
     pub reasons: Vec<String>,
 }
 
 impl LawReport {
-    /// Judges the law by its search, its misfit and its KES values.
+    /// Judges the law against `limits` by its search, its misfit and its KES values.
     ///
-    /// The law of a test that has no KES values is judged by its parameters instead. Elsewhere
-    /// parameters do not count: two of them may be uncertain together and the loads certain.
+    /// A law of a test without KES values is judged by its parameters instead. Parameters do not
+    /// count for other tests, because two parameters can be uncertain together although the loads
+    /// are certain.
     #[must_use]
     pub fn verdict(&self, limits: &Limits) -> Verdict {
         let Some(statistics) = &self.statistics else {
@@ -165,10 +167,12 @@ impl LawReport {
                 reasons: vec!["set from values, not from a curve".to_owned()],
             };
         };
+
         let mut grounds = Vec::new();
         if !statistics.converged {
             grounds.push((Trust::Poor, format!("the search did not end: {}", statistics.stop)));
         }
+
         let misfit = statistics.misfit;
         if misfit > limits.misfit {
             let level = if misfit > 2.0 * limits.misfit { Trust::Poor } else { Trust::Doubtful };
@@ -176,6 +180,7 @@ impl LawReport {
             let reason = "no law of the set follows this curve";
             grounds.push((level, format!("{reason}: misfit {misfit}, more than {limit}")));
         }
+
         let doubts = if self.values.is_empty() {
             self.parameter_doubts(limits)
         } else {
@@ -188,7 +193,8 @@ impl LawReport {
         }
     }
 
-    /// Returns which KES values the curve does not determine, or not to the limit.
+    /// Returns the doubts about KES values: the values that the curve does not determine, and the
+    /// values whose error is beyond `limits`.
     fn value_doubts(&self, limits: &Limits) -> Vec<String> {
         let (known, vague): (Vec<&LawValue>, Vec<&LawValue>) =
             self.values.iter().partition(|value| value.is_determined());
@@ -196,17 +202,20 @@ impl LawReport {
         let vague = format!("not determined by this curve: {}", symbols.join(", "));
         let error = |value: &&LawValue| Some((value.symbol.clone(), value.relative_error()?));
         let errors = known.iter().filter_map(error);
+
         let wide: Vec<String> = errors
             .filter(|(_, error)| *error > limits.difference)
             .map(|(symbol, error)| format!("{symbol} (to {})", percent(error)))
             .collect();
         let limit = percent(limits.difference);
         let wide_text = format!("not known to {limit}: {}", wide.join(", "));
+
         let present = [(!symbols.is_empty(), vague), (!wide.is_empty(), wide_text)];
         present.into_iter().filter(|(there, _)| *there).map(|(_, text)| text).collect()
     }
 
-    /// Returns which parameters of the fabric have no interval, or a large standard error.
+    /// Returns the doubts about parameters of the fabric: parameters without an interval, and
+    /// parameters whose standard error is beyond `limits`.
     fn parameter_doubts(&self, limits: &Limits) -> Vec<String> {
         let symbols = |unknown: &dyn Fn(&&Parameter) -> bool| -> Option<String> {
             let of_the_fabric = self.parameters.iter().filter(|parameter| !parameter.incidental);
@@ -225,7 +234,7 @@ impl LawReport {
         missing.into_iter().chain(vague).collect()
     }
 
-    /// Returns a symbol with the name of its parameter, as in "k_b (bending rigidity)".
+    /// Returns a `symbol` with the name of its parameter, as in "k_b (bending rigidity)".
     #[must_use]
     pub fn named(&self, symbol: &str) -> String {
         match self.parameters.iter().find(|parameter| parameter.symbol == symbol) {
@@ -234,7 +243,7 @@ impl LawReport {
         }
     }
 
-    /// Returns the unit in which loads are shown.
+    /// Returns the unit of the loads, a [`LoadUnit`]. It is the unit of the first plot.
     pub(crate) fn load_unit(&self) -> LoadUnit<'_> {
         let axis = self.plots.first().map(|plot| &plot.load);
         axis.map_or(LoadUnit { name: "", in_si: 1.0 }, |axis| LoadUnit {
@@ -243,7 +252,7 @@ impl LawReport {
         })
     }
 
-    /// Refuses numbers that are not finite, and plots without points.
+    /// Refuses numbers that are not finite, and plots without points, as [`Error`].
     ///
     /// # Errors
     /// The first fault.
@@ -257,6 +266,7 @@ impl LawReport {
         for plot in &self.plots {
             plot.check()?;
         }
+
         let number = |what: &str, value: f64| check::number(|| format!("{title}: {what}"), value);
         if let Some(statistics) = &self.statistics {
             number("the misfit", statistics.misfit)?;
@@ -264,9 +274,11 @@ impl LawReport {
             number("R²", statistics.r_squared)?;
             check::text(&format!("{title}: the reason for stopping"), &statistics.stop)?;
         }
+
         for value in &self.values {
             value.check()?;
         }
+
         for model in &self.models {
             check::text(&format!("{title}: the name of a model"), &model.name)?;
             number("the misfit of a model", model.misfit)?;
@@ -279,7 +291,7 @@ impl LawReport {
         self.correlation.as_ref().map_or(Ok(()), Correlation::check)
     }
 
-    /// Returns the evidence for each model, in the order of the models: the Akaike weights
+    /// Returns the [`Evidence`] for each model, in the order of the models, by the Akaike weights
     /// \[BA02, eq. 2.9\].
     ///
     /// ```math
@@ -304,13 +316,13 @@ impl LawReport {
 /// Evidence for a model in a comparison.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evidence {
-    /// AICc above that of the best model.
+    /// AICc of the model minus the AICc of the best model.
     pub above_best: f64,
     /// Akaike weight, 0 to 1.
     pub weight: f64,
 }
 
-/// Unit of loads: its name, and its size in SI.
+/// Unit of loads, with its name and its size in SI.
 pub(crate) struct LoadUnit<'a> {
     pub(crate) name: &'a str,
     pub(crate) in_si: f64,

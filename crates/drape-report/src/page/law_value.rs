@@ -7,7 +7,7 @@ use crate::check;
 use crate::error::Error;
 use crate::parameter::{Interval, Units};
 
-/// KES value of a fitted law, in SI, beside the one that is read off its curve.
+/// KES value of a fitted law, in SI, with the value of the measured curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LawValue {
     /// Symbol of the laboratory, as in "2HB".
@@ -25,23 +25,23 @@ pub struct LawValue {
 }
 
 impl LawValue {
-    /// Returns the larger distance from the value of the law to an end of its interval, over the
-    /// value; `None` without an interval of two ends.
+    /// Returns the larger distance between the value of the `law` and an end of its `interval`,
+    /// divided by the value. Returns `None` without an interval of two ends.
     #[must_use]
     pub fn relative_error(&self) -> Option<f64> {
         let Interval::Between { lower, upper } = self.interval else { return None };
         Some((upper - self.law).max(self.law - lower) / self.law.abs())
     }
 
-    /// Returns whether the curve determines the value: the interval has two ends above zero, whose
-    /// ratio is at most [`Interval::VAGUE`].
+    /// Returns whether the curve determines the value. It does if the `interval` has two ends above
+    /// zero whose ratio is at most [`Interval::VAGUE`].
     #[must_use]
     pub fn is_determined(&self) -> bool {
         matches!(self.interval, Interval::Between { lower, .. } if lower > 0.0)
             && !self.interval.is_vague()
     }
 
-    /// Refuses numbers that are not finite and an interval with exchanged ends.
+    /// Refuses numbers that are not finite and an `interval` with exchanged ends.
     ///
     /// # Errors
     /// The first fault.

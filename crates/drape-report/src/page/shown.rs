@@ -4,7 +4,7 @@ use super::law_value::LawValue;
 use crate::parameter::{Interval, Parameter, Units};
 use crate::text::number::{DIGITS, Notation, percent, significant, typeset};
 
-/// Words for an interval that tells nothing.
+/// Words for an interval that says nothing.
 const NOT_DETERMINED: &str = "not determined by this curve";
 
 /// Value with its error and unit, rounded together, as plain text.
@@ -17,12 +17,13 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    /// Returns a value without a known uncertainty.
+    /// Returns a `value` in a `unit`, without a known uncertainty.
     pub(crate) fn bare(value: f64, unit: &str) -> Shown {
         Shown::with_error(value, None, unit)
     }
 
-    /// Returns a value with its error, rounded together, where the error is known.
+    /// Returns a `value` in a `unit` with its `error`, where the error is known. Both are rounded
+    /// to the same decimal place.
     pub(crate) fn with_error(value: f64, error: Option<f64>, unit: &str) -> Shown {
         let notation = Notation::of(value, error);
         Shown {
@@ -33,7 +34,7 @@ impl Shown {
         }
     }
 
-    /// Returns the value with its power of ten, and its error where there is one.
+    /// Returns the `value` with its power of ten, and with its `error` where there is one.
     pub(crate) fn number(&self) -> String {
         match (&self.error, self.power.is_empty()) {
             (Some(error), true) => format!("{} ± {error}", self.value),
@@ -42,27 +43,27 @@ impl Shown {
         }
     }
 
-    /// Returns the same, typeset.
+    /// Returns the text of [`Shown::number`], typeset.
     pub(crate) fn print(&self) -> String {
         typeset(&self.number())
     }
 }
 
-/// Value in both of its units.
+/// Value in SI and in the unit of the laboratory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ShownValue {
-    /// In the unit of the laboratory, where there is one.
+    /// Value in the unit of the laboratory, where there is one.
     pub(crate) kes: Option<Shown>,
     pub(crate) si: Shown,
 }
 
 impl ShownValue {
-    /// Returns a value in SI in its units.
+    /// Returns a `value`, given in SI, in its `units`.
     pub(crate) fn new(value: f64, units: &Units) -> ShownValue {
         ShownValue::with_error(value, None, units)
     }
 
-    /// Returns a value in SI with its error, where that is known, in its units.
+    /// Returns a `value`, given in SI, with its `error` in its `units`.
     pub(crate) fn with_error(value: f64, error: Option<f64>, units: &Units) -> ShownValue {
         let scaled = |in_si: f64, unit: &str| {
             Shown::with_error(value / in_si, error.map(|error| error / in_si), unit)
@@ -73,12 +74,13 @@ impl ShownValue {
         }
     }
 
-    /// Returns the value in the unit of the laboratory, or in SI where there is none.
+    /// Returns the value in the unit of the laboratory ([`ShownValue::kes`]), or in SI where there
+    /// is none.
     pub(crate) fn first(&self) -> &Shown {
         self.kes.as_ref().unwrap_or(&self.si)
     }
 
-    /// Returns the value in SI where the first unit is another.
+    /// Returns the value in SI where [`ShownValue::first`] is in another unit.
     pub(crate) fn second(&self) -> Option<&Shown> {
         self.kes.as_ref().map(|_| &self.si)
     }
@@ -88,7 +90,7 @@ impl ShownValue {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Marked {
     pub(crate) text: String,
-    /// Whether it is beyond the limit.
+    /// Whether the ratio or difference is beyond the limit.
     pub(crate) apart: bool,
 }
 
@@ -105,7 +107,7 @@ pub(crate) struct ShownParameter<'a> {
 }
 
 impl<'a> ShownParameter<'a> {
-    /// Returns the text of a parameter.
+    /// Returns the text of a `parameter`.
     pub(crate) fn new(parameter: &'a Parameter) -> ShownParameter<'a> {
         let estimate = Estimate {
             value: parameter.value,
@@ -130,12 +132,12 @@ impl<'a> ShownParameter<'a> {
         }
     }
 
-    /// Returns the interval, typeset.
+    /// Returns the `interval`, typeset.
     pub(crate) fn print_interval(&self) -> String {
         typeset(&self.interval)
     }
 
-    /// Returns the value in the unit of the laboratory, or in SI where there is none.
+    /// Returns the value in the unit of the laboratory (`kes`), or in SI where there is none.
     pub(crate) fn first(&self) -> &Shown {
         self.kes.as_ref().unwrap_or(&self.si)
     }
@@ -152,7 +154,7 @@ pub(crate) struct ShownLawValue<'a> {
 }
 
 impl<'a> ShownLawValue<'a> {
-    /// Returns the text of a value.
+    /// Returns the text of a `value`.
     pub(crate) fn new(value: &'a LawValue) -> ShownLawValue<'a> {
         let estimate = Estimate {
             value: value.law,
@@ -175,7 +177,7 @@ impl<'a> ShownLawValue<'a> {
         }
     }
 
-    /// Returns the interval, typeset.
+    /// Returns the `interval`, typeset.
     pub(crate) fn print_interval(&self) -> String {
         typeset(&self.interval)
     }
@@ -186,7 +188,8 @@ struct Estimate<'a> {
     value: f64,
     standard_error: Option<f64>,
     interval: &'a Interval,
-    /// Whether the number can only be positive: an interval that reaches zero has no lower end.
+    /// Whether the number can only be positive. An interval that reaches zero then has no lower
+    /// end.
     is_positive: bool,
 }
 
@@ -197,7 +200,7 @@ struct Scaled {
 }
 
 impl Estimate<'_> {
-    /// Returns the number in a unit.
+    /// Returns the number in a `unit`, which is `in_si` SI units.
     fn scaled(&self, in_si: f64, unit: &str) -> Scaled {
         let scale = |number: f64| number / in_si;
         // A 95 % interval is four standard errors wide.
@@ -205,6 +208,7 @@ impl Estimate<'_> {
             Interval::Between { lower, upper } => Some(0.25 * (upper - lower)),
             _ => None,
         };
+
         let uncertainty = self.standard_error.or(width).map(scale);
         let notation = Notation::of(scale(self.value), uncertainty);
         let write = |number: f64| notation.mantissa(scale(number));
@@ -226,6 +230,7 @@ impl Estimate<'_> {
             Interval::Below { upper, .. } => format!("below {}", notation.whole(scale(upper))),
             Interval::Unknown { .. } | Interval::Fixed { .. } => String::new(),
         };
+
         let shown = Shown {
             value: write(self.value),
             error: self.standard_error.map(write),

@@ -1,4 +1,4 @@
-//! Page of a study: what came of its runs, and the effects of its axes on each measure.
+//! Page of a study: its failed runs, and the effects of its axes on each measure.
 
 use askama::Template;
 
@@ -16,7 +16,7 @@ pub struct StudyPage {
     pub title: String,
     /// Sentences on the study as a whole.
     pub facts: Vec<String>,
-    /// Runs that failed: values and message of each.
+    /// Runs that failed, each with its values and its message.
     pub failures: Vec<[String; 2]>,
     /// Measures in the order of the page.
     pub measures: Vec<MeasureEffects>,
@@ -27,7 +27,7 @@ pub struct StudyPage {
 pub struct MeasureEffects {
     /// Name of the measure.
     pub name: String,
-    /// Plots over each axis, beside each other.
+    /// Plots over each axis, side by side.
     pub plots: Vec<GraphPlot>,
     /// Means over levels, and over pairs of levels.
     pub tables: Vec<EffectTable>,
@@ -38,12 +38,13 @@ pub struct MeasureEffects {
 pub struct EffectTable {
     /// Caption.
     pub caption: String,
-    /// Heads of the columns, the first of which has the levels.
+    /// Heads of the columns. The first column has the levels.
     pub heads: Vec<String>,
     /// Cells of each row.
     pub rows: Vec<Vec<String>>,
 }
 
+/// What the HTML template shows.
 #[derive(Template)]
 #[template(path = "page/study.html")]
 struct View<'a> {
@@ -53,6 +54,7 @@ struct View<'a> {
     measures: Vec<MeasureView<'a>>,
 }
 
+/// Section of a measure.
 struct MeasureView<'a> {
     name: &'a str,
     figures: Vec<String>,
@@ -60,7 +62,8 @@ struct MeasureView<'a> {
 }
 
 impl StudyPage {
-    /// Returns the report as one self-contained HTML page: no network, no fonts, no other file.
+    /// Returns the report as one self-contained HTML page, an HTML text: no network, no fonts, no
+    /// other file.
     ///
     /// # Errors
     /// Numbers that are not finite, texts that cannot be shown.
@@ -78,6 +81,7 @@ impl StudyPage {
         {
             check::text("a text of the report", text)?;
         }
+
         let mut views = Vec::new();
         for MeasureEffects { name, plots, tables } in measures {
             plots.iter().try_for_each(GraphPlot::check)?;

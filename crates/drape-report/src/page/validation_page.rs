@@ -1,4 +1,4 @@
-//! Page of a validation: measured figures beside their references, plots and pictures.
+//! Page of a validation: measured figures with their references, plots and pictures.
 
 use askama::Template;
 
@@ -16,7 +16,7 @@ pub struct ValidationPage {
     pub version: String,
     /// Cases in the order of the page.
     pub cases: Vec<ValidationCase>,
-    /// Notes on what the cases do not show.
+    /// Notes on the limits of the cases.
     pub notes: Vec<String>,
 }
 
@@ -29,7 +29,7 @@ pub struct ValidationCase {
     pub title: String,
     /// Run time, in s.
     pub seconds: f64,
-    /// Reason why it could not be run, if so.
+    /// Reason why the case could not be run.
     pub failure: Option<String>,
     /// Figures, one per row.
     pub rows: Vec<ValidationRow>,
@@ -48,7 +48,7 @@ pub struct CaptionedPicture {
     pub picture: Picture,
 }
 
-/// Measured figure beside its reference, as text; empty texts stand for missing numbers.
+/// Measured figure with its reference, as text. Empty texts stand for missing numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ValidationRow {
     /// Name of the figure.
@@ -61,12 +61,12 @@ pub struct ValidationRow {
     pub error: String,
     /// Limit.
     pub limit: String,
-    /// Whether the figure is within its limit; `None` if it has no limit.
+    /// Whether the figure is within its limit. `None` if it has no limit.
     pub passes: Option<bool>,
 }
 
 impl ValidationRow {
-    /// Returns the figure, its reference, its deviation and its limit.
+    /// Returns the texts `measured`, `reference`, `error` and `limit`.
     #[must_use]
     pub fn cells(&self) -> [&str; 4] {
         [&self.measured, &self.reference, &self.error, &self.limit]
@@ -74,13 +74,13 @@ impl ValidationRow {
 }
 
 impl ValidationCase {
-    /// Returns whether the case was run and every figure is within its limit.
+    /// Returns whether the case was run and no figure is beyond its limit.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.failure.is_none() && self.rows.iter().all(|row| row.passes != Some(false))
     }
 
-    /// Refuses numbers that are not finite and texts that cannot be shown.
+    /// Refuses numbers that are not finite and texts that cannot be shown, as [`Error`].
     fn check(&self) -> Result<(), Error> {
         check::number(|| format!("the time of {}", self.name), self.seconds)?;
         let captions = self.pictures.iter().map(|picture| picture.caption.as_str());
@@ -94,6 +94,7 @@ impl ValidationCase {
     }
 }
 
+/// What the HTML template shows.
 #[derive(Template)]
 #[template(path = "page/validation.html")]
 struct View<'a> {
@@ -104,6 +105,7 @@ struct View<'a> {
     cases: Vec<CaseView<'a>>,
 }
 
+/// Section of a case.
 struct CaseView<'a> {
     case: &'a ValidationCase,
     seconds: String,
@@ -111,6 +113,7 @@ struct CaseView<'a> {
     pictures: Vec<PictureView<'a>>,
 }
 
+/// Picture in the page.
 struct PictureView<'a> {
     caption: &'a str,
     width: u32,
@@ -131,6 +134,7 @@ impl ValidationPage {
         for text in std::iter::once(&self.version).chain(&self.notes) {
             check::text("a text of the report", text)?;
         }
+
         self.cases.iter().try_for_each(ValidationCase::check)?;
         let cases = self.cases.iter().map(|case| {
             let pictures = case.pictures.iter().map(|CaptionedPicture { caption, picture }| {
@@ -147,6 +151,7 @@ impl ValidationPage {
                 pictures: pictures.collect::<Result<_, Error>>()?,
             })
         });
+
         let cases: Result<Vec<CaseView<'_>>, Error> = cases.collect();
         let view = View {
             page: self,
@@ -158,7 +163,7 @@ impl ValidationPage {
         Ok(view.render().expect("writing to a string does not fail"))
     }
 
-    /// Returns the report in one sentence.
+    /// Returns the judgement of all `cases` in one sentence.
     fn judgement(&self) -> String {
         let figures: usize = self.cases.iter().map(|case| case.rows.len()).sum();
         let good = self.cases.iter().filter(|case| case.passes()).count();

@@ -1,6 +1,6 @@
-//! Animation: pictures that follow each other, as an animated PNG file that loops.
+//! Animation: successive pictures as an animated PNG file that loops.
 //!
-//! Of each picture the file has the rectangle in which it differs from the one before.
+//! The file stores each picture as the rectangle in which it differs from the picture before.
 
 use std::io::Write;
 
@@ -9,23 +9,26 @@ use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Write
 use super::pixels::Picture;
 use crate::error::Error;
 
-/// Longest time of a picture, in s; the format has 16 bits for its milliseconds.
+/// Longest time of a picture, in s. The format has 16 bits for its milliseconds.
 const LONGEST: f64 = 65.0;
 
 /// Animated PNG file that is being written, picture by picture.
 pub struct Animation<W: Write> {
     writer: Writer<W>,
-    /// Number of pictures, and their width and height in pixels.
+    /// Number of pictures of the file.
     frames: u32,
+    /// Width and height of the pictures, in pixels.
     size: [u32; 2],
+    /// Last picture that was written.
     before: Option<Picture>,
-    /// Time of the next picture, and the time that the file says, in s.
+    /// Time at which the next picture begins, in s.
     time: f64,
-    told: f64,
+    /// Sum of the times in the file, in s. It differs from `time` by rounding.
+    written: f64,
 }
 
 impl<W: Write> Animation<W> {
-    /// Begins a file of so many pictures of a width and height, in pixels.
+    /// Begins a file `to` with `frames` pictures whose width and height are `size`, in pixels.
     ///
     /// # Errors
     /// There are no pictures, or the file cannot be written.
@@ -38,10 +41,10 @@ impl<W: Write> Animation<W> {
         encoder.set_blend_op(BlendOp::Source).map_err(failed)?;
         encoder.set_dispose_op(DisposeOp::None).map_err(failed)?;
         let writer = encoder.write_header().map_err(failed)?;
-        Ok(Animation { writer, frames, size, before: None, time: 0.0, told: 0.0 })
+        Ok(Animation { writer, frames, size, before: None, time: 0.0, written: 0.0 })
     }
 
-    /// Adds a picture that is shown for some seconds.
+    /// Adds a `picture` that is shown for `seconds`.
     ///
     /// # Errors
     /// The picture has another size, or the file cannot be written.
@@ -51,15 +54,17 @@ impl<W: Write> Animation<W> {
             let (frames, size) = (self.frames, self.size);
             return Err(Error::BadAnimation { frames, size, found });
         }
+
         let [left, top, width, height] = match &self.before {
             None => [0, 0, self.size[0], self.size[1]],
             Some(before) => picture.difference(before).unwrap_or([0, 0, 1, 1]),
         };
-        // Whole milliseconds, so that they do not run away from the times.
+        // Times are rounded to whole milliseconds. The rounding errors must not add up.
         self.time += seconds.clamp(0.0, LONGEST);
-        let milliseconds = (1e3 * (self.time - self.told)).round();
-        self.told += 1e-3 * milliseconds;
+        let milliseconds = (1e3 * (self.time - self.written)).round();
+        self.written += 1e-3 * milliseconds;
         self.writer.set_frame_delay(milliseconds as u16, 1000).map_err(failed)?;
+
         if self.before.is_some() {
             self.writer.reset_frame_position().map_err(failed)?;
             self.writer.set_frame_dimension(width, height).map_err(failed)?;
@@ -80,6 +85,7 @@ impl<W: Write> Animation<W> {
     }
 }
 
+/// Returns the error of the encoder as [`Error`].
 fn failed(error: EncodingError) -> Error {
     Error::Encoding { reason: error.to_string() }
 }

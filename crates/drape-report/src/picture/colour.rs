@@ -5,25 +5,27 @@ use std::sync::LazyLock;
 /// Colour in sRGB: red, green, blue.
 pub type Colour = [u8; 3];
 
-/// Returns the linear light of an sRGB value \[IEC61966\].
+/// Returns the linear light of an sRGB `value` \[IEC61966\].
 pub(crate) fn decode(value: u8) -> f64 {
     let value = f64::from(value) / 255.0;
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Number of steps of linear light in the table of sRGB values: a step is at most a fifth of an sRGB
-/// value, at the dark end.
+/// Number of steps of linear light in the table of sRGB values. A step is at most a fifth of an
+/// sRGB value, at the dark end.
 const STEPS: usize = 1 << 14;
 
-/// sRGB values of evenly spaced linear light; a power for each pixel would take longer than its light.
+/// sRGB values of evenly spaced linear light. Computing a power for each pixel would take longer
+/// than computing its light.
 static ENCODED: LazyLock<Vec<u8>> =
     LazyLock::new(|| (0..=STEPS).map(|step| encode_exactly(step as f64 / STEPS as f64)).collect());
 
-/// Returns the nearest sRGB value of linear light \[IEC61966\].
+/// Returns the nearest sRGB value of linear `light` \[IEC61966\].
 pub(crate) fn encode(light: f64) -> u8 {
     ENCODED[(light.clamp(0.0, 1.0) * STEPS as f64 + 0.5) as usize]
 }
 
+/// Returns the sRGB value of `light` without the table.
 fn encode_exactly(light: f64) -> u8 {
     let value =
         if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
@@ -38,8 +40,8 @@ pub(crate) const DIVERGING: [Colour; 3] = [[33, 92, 172], [246, 246, 244], [186,
 pub(crate) const SEQUENTIAL: [Colour; 5] =
     [[37, 35, 92], [32, 99, 141], [33, 153, 134], [122, 199, 82], [250, 228, 66]];
 
-/// Returns the colour at a part, 0 to 1, of the way from the first of evenly spaced colours to the
-/// last.
+/// Returns the colour at the fraction `part`, 0 to 1, between the first and the last of `stops`,
+/// which are evenly spaced.
 pub(crate) fn between<const N: usize>(stops: &[Colour; N], part: f64) -> Colour {
     let place = part.clamp(0.0, 1.0) * (N - 1) as f64;
     // The cast rounds down, and makes 0 of NaN.
@@ -52,10 +54,10 @@ pub(crate) fn between<const N: usize>(stops: &[Colour; N], part: f64) -> Colour 
     })
 }
 
-/// Returns the colour of a value on a diverging scale from minus to plus a limit.
+/// Returns the colour of a `value` on a diverging scale from `-limit` to `limit`.
 ///
-/// Zero is nearly white, negative values are blue, positive ones red; values beyond the ends have
-/// the colour of the end.
+/// Zero is nearly white, negative values are blue, and positive values are red. Values beyond the
+/// ends have the colour of the end.
 ///
 /// ```
 /// use drape_report::diverging;

@@ -5,8 +5,9 @@ use super::lettering::Lettering;
 use super::pixels::Picture;
 use super::scale::ColourScale;
 
-/// Width of the bar over that of the picture, and its least and largest width, in heights of a line.
+/// Width of the bar, as a fraction of the width of the picture.
 const BAR: f64 = 0.4;
+/// Smallest and largest width of the bar, in heights of a line.
 const BAR_WITHIN: [f64; 2] = [10.0, 28.0];
 
 /// Height of the strip that the legend takes, in heights of a line.
@@ -17,25 +18,27 @@ const HEIGHT: f64 = 3.9;
 pub struct Legend {
     /// Name of the quantity.
     pub name: String,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: String,
-    /// Colours of its values, in this unit.
+    /// Colours of the values, in `unit`.
     pub scale: ColourScale,
 }
 
 impl Legend {
-    /// Returns the height of the legend of a picture, in pixels; `whole` is the height of both.
+    /// Returns the height of the legend of a picture, in pixels. `whole` is the height of both
+    /// together.
     #[must_use]
     pub fn height(whole: u32) -> u32 {
         (HEIGHT * f64::from(Lettering::for_height(whole).height())) as u32
     }
 
-    /// Returns a picture with the legend below it, on a strip of a colour.
+    /// Returns a `picture` with the legend below it, on a strip of the colour `ground`.
     #[must_use]
     pub fn below(&self, picture: &Picture, ground: Colour) -> Picture {
         let letters = Lettering::for_extended(picture.height(), HEIGHT);
         let line = letters.height();
         let height = (HEIGHT * f64::from(line)) as u32;
+
         let mut whole = picture.extended(height, ground);
         let [least, most] = BAR_WITHIN.map(|lines| lines * f64::from(line));
         let bar = (BAR * f64::from(picture.width())).clamp(least, most) as u32;
@@ -47,6 +50,7 @@ impl Legend {
             let latest = picture.width().saturating_sub(letters.width(text));
             at.saturating_sub(letters.width(text) / 2).min(latest)
         };
+
         let title = format!("{}, {}", self.name, self.unit);
         letters.write(&title, [centred(&title, left + bar / 2), top + line / 3], &mut whole);
         for column in 0..bar {
@@ -58,6 +62,7 @@ impl Legend {
                 }
             }
         }
+
         for (value, at) in [(low, left), (middle, left + bar / 2), (high, left + bar)] {
             let text = number(value, high - low);
             letters.write(&text, [centred(&text, at), top + line * 5 / 2], &mut whole);
@@ -66,16 +71,17 @@ impl Legend {
     }
 }
 
-/// Returns a number of a range of some width, with as many digits as the width needs.
+/// Returns a `value` of a range as text, with as many digits as the `width` of the range needs.
 fn number(value: f64, width: f64) -> String {
     let digits = 2 - width.log10().floor() as i32;
     let text = match digits {
         ..=8 => format!("{value:.*}", digits.clamp(0, 8) as usize),
         _ => format!("{value:.2e}"),
     };
-    match text.contains('.') && !text.contains('e') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 

@@ -1,7 +1,7 @@
 //! Lettering: text on a picture.
 //!
-//! The glyphs are those of Noto Sans Mono, drawn beforehand in four sizes. Characters that the font
-//! does not have here become `?`.
+//! The glyphs of Noto Sans Mono are drawn beforehand in four sizes. Characters without a glyph
+//! become `?`.
 
 use noto_sans_mono_bitmap::{
     FontWeight, RasterHeight, RasterizedChar, get_raster, get_raster_width,
@@ -10,7 +10,7 @@ use noto_sans_mono_bitmap::{
 use super::colour::{Colour, decode, encode};
 use super::pixels::Picture;
 
-/// Sizes of the letters, each with the least height of a picture that has them, in pixels.
+/// Sizes of the letters. Each size has the smallest height of a picture with this size, in pixels.
 const SIZES: [(RasterHeight, u32); 4] = [
     (RasterHeight::Size32, 1500),
     (RasterHeight::Size24, 1050),
@@ -26,14 +26,14 @@ pub(crate) struct Lettering {
 }
 
 impl Lettering {
-    /// Returns the letters for a picture of a height, in pixels.
+    /// Returns the letters for a picture of a `height`, in pixels.
     pub(crate) fn for_height(height: u32) -> Lettering {
         let size = SIZES.into_iter().find(|(_, least)| height >= *least);
         Lettering { size: size.map_or(RasterHeight::Size16, |(size, _)| size), ink: [44, 48, 56] }
     }
 
-    /// Returns the letters for a picture of a height, in pixels, to which a strip of some lines of them
-    /// is added.
+    /// Returns the letters for a picture of a `height`, in pixels, that is extended by a strip of
+    /// `lines` lines of these letters.
     pub(crate) fn for_extended(height: u32, lines: f64) -> Lettering {
         let letters = SIZES.iter().rev().find_map(|(size, _)| {
             let line = size.val() as u32;
@@ -43,17 +43,18 @@ impl Lettering {
         letters.unwrap_or(Lettering::for_height(height))
     }
 
-    /// Height of a line, in pixels.
+    /// Returns the `height` of a line, in pixels.
     pub(crate) fn height(self) -> u32 {
         self.size.val() as u32
     }
 
-    /// Returns the width of a text, in pixels.
+    /// Returns the width of a `text`, in pixels.
     pub(crate) fn width(self, text: &str) -> u32 {
         (text.chars().count() * get_raster_width(FontWeight::Regular, self.size)) as u32
     }
 
-    /// Writes a text whose upper left corner is at a pixel; what is outside of the picture is cut.
+    /// Writes a `text` whose upper left corner is at the pixel `left`, `top`. Letters outside the
+    /// picture are cut.
     pub(crate) fn write(self, text: &str, [left, top]: [u32; 2], to: &mut Picture) {
         let advance = get_raster_width(FontWeight::Regular, self.size) as u32;
         let ink = self.ink.map(decode);
@@ -74,6 +75,7 @@ impl Lettering {
         }
     }
 
+    /// Returns the glyph of a `character`, or the glyph of `?`.
     fn glyph(self, character: char) -> Option<RasterizedChar> {
         let raster = |c| get_raster(c, FontWeight::Regular, self.size);
         raster(character).or_else(|| raster('?'))
@@ -81,7 +83,7 @@ impl Lettering {
 }
 
 impl Picture {
-    /// Returns the picture with a text in its upper left corner.
+    /// Returns the picture with a `text` in its upper left corner.
     #[must_use]
     pub fn captioned(mut self, text: &str) -> Picture {
         let letters = Lettering::for_height(self.height());

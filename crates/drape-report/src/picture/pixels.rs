@@ -17,23 +17,25 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Returns a picture of pixels with three bytes each.
+    /// Returns a picture of `pixels` with three bytes each.
     pub(crate) fn new(width: u32, height: u32, pixels: Vec<u8>) -> Picture {
         Picture { width, height, pixels }
     }
 
-    /// Returns pictures side by side on white, in rows of some columns, each column as wide as its
-    /// widest picture and each row as high as its highest.
+    /// Returns `pictures` side by side on white, in rows of `columns` columns. Each column is as
+    /// wide as its widest picture, and each row is as high as its highest picture.
     #[must_use]
     pub fn sheet(pictures: &[Picture], columns: usize) -> Picture {
         let columns = columns.clamp(1, pictures.len().max(1));
         let rows = pictures.len().div_ceil(columns);
         let (mut widths, mut heights) = (vec![0; columns], vec![0; rows]);
+
         for (number, picture) in pictures.iter().enumerate() {
             let (column, row) = (&mut widths[number % columns], &mut heights[number / columns]);
             *column = picture.width.max(*column);
             *row = picture.height.max(*row);
         }
+
         let [width, height] = [&widths, &heights].map(|sizes| sizes.iter().sum::<u32>());
         let mut pixels = vec![u8::MAX; 3 * width as usize * height as usize];
         for (number, picture) in pictures.iter().enumerate() {
@@ -48,25 +50,26 @@ impl Picture {
         Picture { width, height, pixels }
     }
 
-    /// Width, in pixels.
+    /// Returns the `width`, in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Height, in pixels.
+    /// Returns the `height`, in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Pixels, three bytes each, row by row from the top.
+    /// Returns the `pixels`, three bytes each, row by row from the top.
     #[must_use]
     pub fn pixels(&self) -> &[u8] {
         &self.pixels
     }
 
-    /// Returns a pixel, counted from the top left; `None` outside the picture.
+    /// Returns the pixel in column `x` and row `y`, counted from the top left. Returns `None`
+    /// outside the picture.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> Option<Colour> {
         let (pixels, _) = self.pixels.as_chunks::<3>();
@@ -74,27 +77,30 @@ impl Picture {
         row.get(x as usize).copied()
     }
 
-    /// Returns a pixel to change, counted from the top left; `None` outside the picture.
+    /// Returns the pixel in column `x` and row `y` mutably. Returns `None` outside the picture.
     pub(crate) fn pixel_mut(&mut self, x: u32, y: u32) -> Option<&mut Colour> {
         let (width, pixels) = (self.width, self.pixels.as_chunks_mut::<3>().0);
         let is_inside = x < width && y < self.height;
         is_inside.then(|| &mut pixels[y as usize * width as usize + x as usize])
     }
 
-    /// Returns the picture with more rows below, of a colour.
+    /// Returns the picture with further `rows` below, filled with a `colour`.
     pub(crate) fn extended(&self, rows: u32, colour: Colour) -> Picture {
         let added = self.width as usize * rows as usize;
         let pixels = [&self.pixels[..], &colour.repeat(added)].concat();
         Picture { width: self.width, height: self.height + rows, pixels }
     }
 
-    /// Returns the smallest rectangle outside of which a picture of the same size is the same: the
-    /// column and the row of its corner, its width and its height.
+    /// Returns the smallest rectangle that contains all differences from `other`, a picture of
+    /// equal size: the column and the row of its corner, its width and its height.
     pub(crate) fn difference(&self, other: &Picture) -> Option<[u32; 4]> {
-        let [own, others] = [self, other].map(|picture| picture.pixels.as_chunks::<3>().0);
+        let [pixels, other_pixels] = [self, other].map(|picture| picture.pixels.as_chunks::<3>().0);
         let width = self.width as usize;
-        let differs = |k: &usize| own[*k] != others[*k];
-        let (first, last) = ((0..own.len()).find(differs)?, (0..own.len()).rev().find(differs)?);
+        let differs = |k: &usize| pixels[*k] != other_pixels[*k];
+        let first = (0..pixels.len()).find(differs)?;
+        let last = (0..pixels.len()).rev().find(differs)?;
+
+        // Only rows between the first and the last difference can widen the rectangle.
         let rows = first / width..=last / width;
         let (mut left, mut right) = (width, 0);
         for row in rows.clone() {
@@ -106,19 +112,21 @@ impl Picture {
                 right = right.max(column % width);
             }
         }
+
         let size = [right + 1 - left, rows.end() + 1 - rows.start()];
         Some([left, *rows.start(), size[0], size[1]].map(|number| number as u32))
     }
 
-    /// Returns the pixels of a rectangle: column and row of its corner, width and height.
+    /// Returns the pixels of a rectangle, given by the column `left` and the row `top` of its
+    /// corner, `width` and `height`.
     pub(crate) fn part(&self, [left, top, width, height]: [u32; 4]) -> Vec<u8> {
         let lines = self.pixels.chunks_exact(3 * self.width.max(1) as usize);
-        let own = 3 * left as usize..3 * (left + width) as usize;
+        let columns = 3 * left as usize..3 * (left + width) as usize;
         let lines = lines.skip(top as usize).take(height as usize);
-        lines.flat_map(|line| &line[own.clone()]).copied().collect()
+        lines.flat_map(|line| &line[columns.clone()]).copied().collect()
     }
 
-    /// Returns the picture as a PNG file.
+    /// Returns the picture as a PNG file, [`Picture::from_png`] reads it.
     ///
     /// # Errors
     /// A picture that cannot be encoded, such as one without pixels.
@@ -135,11 +143,11 @@ impl Picture {
         Ok(bytes)
     }
 
-    /// Returns the picture of a PNG file without transparency, eight bits a colour, as [`Picture::png`]
-    /// writes it.
+    /// Returns the picture in the `bytes` of a PNG file without transparency, with eight bits a
+    /// colour, as [`Picture::png`] writes it.
     ///
     /// # Errors
-    /// Bytes that are no such file.
+    /// The bytes are no such file, or the picture is larger than 8192 pixels.
     pub fn from_png(bytes: &[u8]) -> Result<Picture, Error> {
         let failed = |reason: String| Error::NoPicture { reason };
         let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
@@ -157,7 +165,7 @@ impl Picture {
         Ok(Picture { width, height, pixels })
     }
 
-    /// Writes the picture to a PNG file.
+    /// Writes the picture to a PNG file at `path`.
     ///
     /// # Errors
     /// A picture that cannot be encoded, or a file that cannot be written.

@@ -22,7 +22,7 @@ pub struct ColourScale {
 }
 
 impl ColourScale {
-    /// Returns the scale of a range, of values that may be negative or not.
+    /// Returns the scale of a `range`. The values of a scale that `is_signed` may be negative.
     ///
     /// # Errors
     /// The range is not finite, or has no width.
@@ -34,13 +34,13 @@ impl ColourScale {
         Err(Error::NoRange { low, high })
     }
 
-    /// Returns the lower and the upper end.
+    /// Returns the lower and the upper end of the `range`.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         self.range
     }
 
-    /// Returns the colour of a value.
+    /// Returns the colour of a `value`.
     #[must_use]
     pub fn colour(&self, value: f64) -> Colour {
         let [low, high] = self.range;

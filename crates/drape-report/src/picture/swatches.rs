@@ -4,17 +4,18 @@ use super::colour::Colour;
 use super::lettering::Lettering;
 use super::pixels::Picture;
 
-/// Height of the legend above and below its lines, and distance of two lines, in heights of a line.
+/// Height of the margin above and below the lines of the legend, in heights of a line.
 const MARGIN: f64 = 0.5;
+/// Distance of two lines, in heights of a line.
 const LINE: f64 = 1.4;
 
-/// Largest part of the height of a picture that a legend takes.
+/// Largest fraction of the height of a picture that a legend takes.
 const LARGEST: f64 = 0.4;
 
 /// Colour of the border of a swatch.
 const BORDER: Colour = [120, 124, 130];
 
-/// Legend of colours that have names, such as those of fabrics, for pictures of one size.
+/// Legend of named colours, such as the colours of fabrics, for pictures of one size.
 #[derive(Debug, Clone)]
 pub struct Swatches {
     entries: Vec<(String, Colour)>,
@@ -23,11 +24,11 @@ pub struct Swatches {
 }
 
 impl Swatches {
-    /// Returns the legend of pictures that are `width` and `height` pixels large with it; without
-    /// entries it takes no room.
+    /// Returns the legend of `entries` for pictures that are `width` and `height` pixels large
+    /// together with the legend. A legend without entries takes no room.
     ///
-    /// Names are cut where a line has no room for them. A legend that would take more than two fifths of
-    /// the picture is left out.
+    /// Names are cut where a line has no room for them. A legend that would take more than two
+    /// fifths of the picture is left out.
     #[must_use]
     pub fn new(entries: Vec<(String, Colour)>, [width, height]: [u32; 2]) -> Swatches {
         let mut swatches = Swatches { entries, letters: Lettering::for_height(height), height: 0 };
@@ -40,13 +41,13 @@ impl Swatches {
         swatches
     }
 
-    /// Returns the height of the legend, in pixels.
+    /// Returns the `height` of the legend, in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Returns a picture with the legend below it, on a strip of a colour.
+    /// Returns a `picture` with the legend below it, on a strip of the colour `ground`.
     #[must_use]
     pub fn below(&self, picture: &Picture, ground: Colour) -> Picture {
         if self.height == 0 {
@@ -72,15 +73,15 @@ impl Swatches {
     /// the line.
     fn lines(&self, width: u32) -> Vec<Vec<(String, Colour)>> {
         let mut lines: Vec<Vec<(String, Colour)>> = Vec::new();
-        let mut left = 0;
+        let mut remaining = 0;
         for (name, colour) in &self.entries {
             let name = self.cut(name, width);
             let needed = self.width(&name);
-            if lines.is_empty() || needed > left {
+            if lines.is_empty() || needed > remaining {
                 lines.push(Vec::new());
-                left = width;
+                remaining = width;
             }
-            left = left.saturating_sub(needed);
+            remaining = remaining.saturating_sub(needed);
             if let Some(line) = lines.last_mut() {
                 line.push((name, *colour));
             }
@@ -88,7 +89,7 @@ impl Swatches {
         lines
     }
 
-    /// Returns a name that fits a line of `width` pixels, cut at its end where it is too long.
+    /// Returns a `name` that fits a line of `width` pixels, cut at its end where it is too long.
     fn cut(&self, name: &str, width: u32) -> String {
         if self.width(name) <= width {
             return name.to_owned();
@@ -98,18 +99,19 @@ impl Swatches {
         (0..name.chars().count()).rev().find(fits).map_or_else(String::new, cut)
     }
 
-    /// Returns the width of an entry with the room beside it, in pixels.
+    /// Returns the width of the entry `name` with the room around it, in pixels.
     fn width(&self, name: &str) -> u32 {
         self.letters.height() * 14 / 5 + self.letters.width(name)
     }
 
-    /// Returns a height in lines as pixels.
+    /// Returns a height in `lines` as pixels.
     fn pixels(&self, lines: f64) -> u32 {
         (lines * f64::from(self.letters.height())) as u32
     }
 }
 
-/// Fills a rectangle, whose upper left corner is at a pixel, with a colour and a border.
+/// Fills a rectangle, whose upper left corner is at the pixel `left`, `top`, with a `colour` and a
+/// border.
 fn swatch(to: &mut Picture, [left, top]: [u32; 2], [width, height]: [u32; 2], colour: Colour) {
     for row in 0..height {
         for column in 0..width {

@@ -1,5 +1,5 @@
-//! Chart: what all plots over two axes share, from values in SI to the frame and the title of the x
-//! axis.
+//! Chart: the parts that all plots over two axes share, from values in SI to the frame and the
+//! title of the x axis.
 //!
 //! `loop_plot`, `graph` and `overlay` build a [`Plane`] of their values, take frames and pixels
 //! from it, and put a [`Chart`] into their template.
@@ -23,8 +23,8 @@ pub(crate) struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    /// Returns the plane of a frame between a top and a bottom pixel, with linear scales around
-    /// values in SI.
+    /// Returns the plane of a frame between the pixels `top` and `bottom`, with linear scales
+    /// around the values `x` and `y`, in SI.
     pub(crate) fn around(
         axes: [&'a Axis; 2],
         x: impl Iterator<Item = f64>,
@@ -37,17 +37,17 @@ impl<'a> Plane<'a> {
         Plane { axes, scales: [x, y] }
     }
 
-    /// Returns the pixel of an x coordinate in SI.
+    /// Returns the pixel of an x coordinate, the `value` in SI.
     pub(crate) fn x(&self, value: f64) -> f64 {
         self.scales[0].pixel(self.axes[0].in_unit(value))
     }
 
-    /// Returns the pixel of a point in SI.
+    /// Returns the pixel of a point `x`, `y` in SI.
     pub(crate) fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x(x), self.scales[1].pixel(self.axes[1].in_unit(y))]
     }
 
-    /// Returns the frame of the plane.
+    /// Returns the [`Frame`] of the plane.
     pub(crate) fn frame(&self) -> Frame {
         let [x, y] = &self.scales;
         Frame::new(x, y, self.axes[1].title())
@@ -70,21 +70,23 @@ pub(crate) struct Frame {
     pub(crate) y_title: String,
     /// Value, or its decimal logarithm, at pixel 0 and per pixel, for both axes.
     pub(crate) inverse: String,
-    /// Letters of the logarithmic axes; empty for none.
+    /// Letters of the logarithmic axes. Empty without logarithmic axes.
     pub(crate) logarithmic: String,
 }
 
 impl Frame {
-    /// Returns the frame of two scales.
+    /// Returns the frame of the scales `x` and `y`.
     pub(crate) fn new(x: &Scale, y: &Scale, y_title: String) -> Frame {
         let right = WIDTH - RIGHT;
         let [bottom, top] = y.ends();
         let zero = |scale: &Scale| scale.holds(0.0).then(|| px(scale.pixel(0.0)));
+
         let inverse: Vec<String> = [x.inverse(), y.inverse()]
             .as_flattened()
             .iter()
             .map(|number| format!("{number:.9e}"))
             .collect();
+
         Frame {
             left: px(LEFT),
             right: px(right),
@@ -113,7 +115,7 @@ pub(crate) struct Heading<'a> {
     pub(crate) placement: Placement,
 }
 
-/// Parts of a plot over two axes that do not depend on its series.
+/// Parts of a plot over two axes that are independent of its series.
 pub(crate) struct Chart<'a> {
     pub(crate) style: Option<&'static str>,
     pub(crate) title: &'a str,
@@ -127,7 +129,7 @@ pub(crate) struct Chart<'a> {
 }
 
 impl<'a> Chart<'a> {
-    /// Returns the chart of a plot whose last frame ends at a bottom pixel.
+    /// Returns the chart of a plot whose last frame ends at the pixel `bottom`.
     pub(crate) fn new(heading: Heading<'a>, legend: Legend, bottom: f64) -> Chart<'a> {
         let Heading { title, axes, placement } = heading;
         Chart {

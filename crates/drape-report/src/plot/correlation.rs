@@ -13,14 +13,14 @@ use crate::text::symbol::Symbol;
 /// Correlations between the estimates of some parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Correlation {
-    /// Symbols of the parameters; `k_t` is shown as k with the index t.
+    /// Symbols of the parameters. `k_t` is shown as k with the index t.
     pub symbols: Vec<String>,
     /// Symmetric matrix, row by row, with entries between −1 and 1.
     pub matrix: Vec<Vec<f64>>,
 }
 
 impl Correlation {
-    /// Refuses a matrix that does not fit its names, or with entries beyond −1 and 1.
+    /// Refuses a matrix that does not fit its `symbols`, or with entries beyond −1 and 1.
     ///
     /// # Errors
     /// The first fault.
@@ -33,12 +33,14 @@ impl Correlation {
                 what: "the matrix".to_owned(),
             });
         }
+
         if self.matrix.len() != names {
             return Err(wrong(self.matrix.len(), 0));
         }
         for symbol in &self.symbols {
             check::text("the symbol of a parameter", symbol)?;
         }
+
         for (row, entries) in self.matrix.iter().enumerate() {
             if entries.len() != names {
                 return Err(wrong(row, entries.len()));
@@ -56,7 +58,7 @@ impl Correlation {
         Ok(())
     }
 
-    /// Returns the pairs whose correlation is stronger than a limit, the strongest first.
+    /// Returns the pairs whose correlation is stronger than `limit`, the strongest first.
     #[must_use]
     pub fn above(&self, limit: f64) -> Vec<CorrelatedPair<'_>> {
         let mut pairs = Vec::new();
@@ -76,9 +78,9 @@ impl Correlation {
 /// Two parameters with their correlation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CorrelatedPair<'a> {
-    /// Symbols of the two.
+    /// Symbols of both parameters.
     pub symbols: [&'a str; 2],
-    /// Correlation of the two, between −1 and 1.
+    /// Correlation between both parameters, between −1 and 1.
     pub correlation: f64,
 }
 
@@ -89,6 +91,7 @@ const ROOM: f64 = 4.0;
 /// Correlation above which a cell is dark and its number light.
 const DARK: f64 = 0.62;
 
+/// Drawn cell of the matrix.
 struct Cell<'a> {
     x: String,
     y: String,
@@ -103,6 +106,7 @@ struct Cell<'a> {
     tip: String,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/correlation.svg", escape = "html")]
 struct CorrelationFigure<'a> {
@@ -112,21 +116,22 @@ struct CorrelationFigure<'a> {
     cells: Vec<Cell<'a>>,
 }
 
-/// Draws a correlation matrix as a heat map in an SVG file: names on the diagonal, pairs below it.
+/// Draws a `correlation` matrix as a heat map in an SVG file: names on the diagonal, pairs below
+/// it.
 ///
 /// # Errors
-/// Those of [`Correlation::check`].
+/// Errors of [`Correlation::check`].
 pub fn correlation_svg(correlation: &Correlation) -> Result<String, Error> {
     correlation.check()?;
     Ok(correlation_figure(correlation, Placement::Standalone))
 }
 
-/// Returns the side of the heat map of a matrix, in px.
+/// Returns the side of the heat map of a `correlation` matrix, in px.
 pub(crate) fn correlation_side(correlation: &Correlation) -> f64 {
     2.0 * ROOM + CELL * correlation.symbols.len() as f64
 }
 
-/// Draws a matrix that has been checked.
+/// Draws a `correlation` matrix that has been checked.
 pub(crate) fn correlation_figure(correlation: &Correlation, placement: Placement) -> String {
     let symbols = &correlation.symbols;
     let mut cells = Vec::new();
@@ -135,15 +140,18 @@ pub(crate) fn correlation_figure(correlation: &Correlation, placement: Placement
             let (x, y) = (ROOM + CELL * j as f64, ROOM + CELL * i as f64);
             let diagonal = i == j;
             let text = typeset(&format!("{:.2}", r + 0.0));
+
             cells.push(Cell {
                 x: px(x),
                 y: px(y),
                 middle: px(x + 0.5 * CELL),
                 baseline: px(y + 0.5 * CELL + 4.5),
-                class: match (diagonal, r < 0.0) {
-                    (true, _) => "name",
-                    (false, true) => "minus",
-                    (false, false) => "plus",
+                class: if diagonal {
+                    "name"
+                } else if r < 0.0 {
+                    "minus"
+                } else {
+                    "plus"
                 },
                 opacity: px(r.abs().min(1.0)),
                 symbol: Symbol::new(if diagonal { &symbols[i] } else { "" }),
@@ -153,6 +161,7 @@ pub(crate) fn correlation_figure(correlation: &Correlation, placement: Placement
             });
         }
     }
+
     let figure = CorrelationFigure {
         style: placement.style(),
         side: px(correlation_side(correlation)),

@@ -22,16 +22,16 @@ pub enum Look {
     Line,
     /// A short level line at each point, in the next colour.
     Marks,
-    /// A pale band beneath the others: the reference.
+    /// A pale band beneath the other series: the reference.
     Exact,
 }
 
 /// Series of a graph, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GraphSeries {
-    /// Name in the legend; series that look alike and have the same name share an entry.
+    /// Name in the legend. Series of equal look and name share an entry.
     pub label: String,
-    /// Look of its points.
+    /// Look of the points.
     pub look: Look,
     /// Points in order.
     pub points: Vec<[f64; 2]>,
@@ -64,11 +64,12 @@ pub struct GraphPlot {
     pub title: String,
     /// Axes across and up.
     pub axes: [Axis; 2],
-    /// Names of the places 1, 2, … across, such as materials; none for an axis of numbers.
+    /// Names of the positions 1, 2, … on the x axis, such as materials. Empty for an axis of
+    /// numbers.
     pub categories: Vec<String>,
-    /// Whether each axis is logarithmic; its values must then be positive.
+    /// Whether each axis is logarithmic. The values of a logarithmic axis must be positive.
     pub logarithmic: [bool; 2],
-    /// Whether a length is as long up as across, for shapes; not with logarithmic axes.
+    /// Whether lengths have one scale on both axes, for shapes. Ignored with logarithmic axes.
     pub to_scale: bool,
     /// Series in order.
     pub series: Vec<GraphSeries>,
@@ -76,7 +77,7 @@ pub struct GraphPlot {
 
 impl GraphPlot {
     /// Refuses a plot without points, numbers that are not finite or have no logarithm, and units
-    /// out of range.
+    /// out of range, as [`Error`].
     ///
     /// # Errors
     /// The first fault.
@@ -86,6 +87,7 @@ impl GraphPlot {
         self.categories.iter().try_for_each(|name| check::text("a name of a plot", name))?;
         let empty =
             |what: &str| Error::EmptyPlot { plot: self.title.clone(), what: what.to_owned() };
+
         if self.series.is_empty() {
             return Err(empty("the plot"));
         }
@@ -115,7 +117,7 @@ const HEIGHT: f64 = 340.0;
 /// Smallest and largest height of the frame of a plot to scale, in px.
 const HEIGHTS: [f64; 2] = [150.0, 640.0];
 
-/// Number of colours in the style; further series begin again with the first.
+/// Number of colours in the style. Further series begin again with the first colour.
 const TONES: usize = 6;
 
 /// Drawn series.
@@ -131,6 +133,7 @@ struct Classified<'a> {
     class: String,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/graph.svg", escape = "html")]
 struct GraphFigure<'a> {
@@ -139,20 +142,22 @@ struct GraphFigure<'a> {
     series: Vec<Series<'a>>,
 }
 
-/// Draws a graph as an SVG file.
+/// Draws the graph `plot` as an SVG file.
 ///
 /// # Errors
-/// Those of [`GraphPlot::check`].
+/// Errors of [`GraphPlot::check`].
 pub fn graph_svg(plot: &GraphPlot) -> Result<String, Error> {
     plot.check()?;
     Ok(graph_figure(plot, Placement::Standalone))
 }
 
-/// Draws a graph that has been checked.
+/// Draws the graph `plot`, which has been checked.
 pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
     let classified = classified(&plot.series);
     let references = || classified.iter().filter(|c| c.series.look == Look::Exact);
     let others = || classified.iter().filter(|c| c.series.look != Look::Exact);
+
+    // References stand last in the legend, and are drawn first, beneath the other series.
     let mut items: Vec<LegendItem> = Vec::new();
     for Classified { series, class } in others().chain(references()) {
         let sign = if series.look == Look::Dots { Sign::Points } else { Sign::Line };
@@ -161,6 +166,7 @@ pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
             items.push(item);
         }
     }
+
     let legend = Legend::new(items);
     let axes = plot.axes.each_ref();
     let plane = Plane { axes, scales: scales(plot, legend.height) };
@@ -174,11 +180,14 @@ pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
         };
         Series { class: format!("{kind} {class}"), data, label: &series.label }
     });
+
+    // Positions with names have no numbers and no zero.
     let mut frame = plane.frame();
     if !plot.categories.is_empty() {
         frame.x_ticks = category_ticks(&plot.categories, &plane);
         frame.zero[0] = None;
     }
+
     let figure = GraphFigure {
         frame,
         series: series.collect(),
@@ -190,7 +199,7 @@ pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
 /// Width of a letter of a tick, in px.
 const LETTER: f64 = 7.2;
 
-/// Returns the ticks of places with names, which are cut where there is no room.
+/// Returns the ticks of positions with `names`. Names are cut where there is no room.
 fn category_ticks(names: &[String], plane: &Plane<'_>) -> Vec<Tick> {
     let letters = ((ACROSS[1] - ACROSS[0]) / names.len() as f64 / LETTER) as usize;
     let tick = |(index, name): (usize, &String)| Tick {
@@ -203,8 +212,8 @@ fn category_ticks(names: &[String], plane: &Plane<'_>) -> Vec<Tick> {
     names.iter().enumerate().map(tick).collect()
 }
 
-/// Returns the series with their classes: references share one, the others take the colours in
-/// turn.
+/// Returns each of `series` with its class. References share one class. Other series take the
+/// colours in turn.
 fn classified(series: &[GraphSeries]) -> Vec<Classified<'_>> {
     let mut tones = (0..TONES).cycle();
     let class = |series| Classified {
@@ -217,7 +226,7 @@ fn classified(series: &[GraphSeries]) -> Vec<Classified<'_>> {
     series.iter().map(class).collect()
 }
 
-/// Returns the scales of a frame that begins at a height.
+/// Returns the scales of the frame of `plot`, whose upper edge is at the pixel `top`.
 fn scales(plot: &GraphPlot, top: f64) -> [Scale; 2] {
     let scale = |k: usize, pixels: [f64; 2]| {
         let points = plot.series.iter().flat_map(|series| &series.points);
@@ -230,13 +239,14 @@ fn scales(plot: &GraphPlot, top: f64) -> [Scale; 2] {
             Scale::around(values, pixels)
         }
     };
+
     let (x, y) = (scale(0, ACROSS), scale(1, [top + HEIGHT, top]));
     if !plot.to_scale || plot.logarithmic.contains(&true) {
         return [x, y];
     }
     let width = ACROSS[1] - ACROSS[0];
-    // Length of a unit of the x axis, in px: as the width allows, unless the frame becomes too
-    // high.
+    // Length of a unit of the x axis, in px. The width of the frame decides it, unless the frame
+    // becomes too high.
     let units = plot.axes[1].in_si / plot.axes[0].in_si;
     let unit = (width / x.width()).min(HEIGHTS[1] / (y.width() * units));
     let height = (unit * y.width() * units).max(HEIGHTS[0]);

@@ -6,8 +6,8 @@ use super::svg::px;
 /// Height of a row of the legend, in px.
 const ROW: f64 = 24.0;
 
-/// Mean width of a letter of a label, in px: that of lower-case words in common sans-serif faces at
-/// 13 px.
+/// Mean width of a letter of a label, in px, for lower-case words in common sans-serif faces at 13
+/// px.
 ///
 /// The room around the sign makes up for wider words.
 const LETTER: f64 = 5.9;
@@ -51,7 +51,7 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// Places entries side by side, in as many rows as they need.
+    /// Places `items` side by side, in as many rows as they need.
     pub(crate) fn new(items: Vec<LegendItem>) -> Legend {
         let (mut x, mut row) = (LEFT, 0.0);
         let entries = items
@@ -61,15 +61,15 @@ impl Legend {
                 if x > LEFT && x + width > WIDTH - RIGHT {
                     (x, row) = (LEFT, row + 1.0);
                 }
-                let at = x;
+                let start = x;
                 x += width;
                 LegendEntry {
                     sign,
                     class,
                     label,
-                    x: px(at),
+                    x: px(start),
                     y: px(ROW * (row + 0.5)),
-                    text: px(at + 30.0),
+                    text: px(start + 30.0),
                 }
             })
             .collect();

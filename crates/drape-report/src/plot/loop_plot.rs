@@ -17,9 +17,9 @@ use crate::error::Error;
 pub struct Point {
     /// Deformation: strain, angle in rad, curvature in 1/m or displacement in m.
     pub deformation: f64,
-    /// Measured load; `None` where a law is shown without a measurement.
+    /// Measured load. `None` where a law is shown without a measurement.
     pub measured: Option<f64>,
-    /// Load of the fitted law; `None` where the law was not evaluated.
+    /// Load of the fitted law. `None` where the law was not evaluated.
     pub fitted: Option<f64>,
     /// Bounds of the 95 % confidence band of the fitted load.
     pub band: Option<[f64; 2]>,
@@ -40,7 +40,7 @@ pub enum BranchKind {
 impl BranchKind {
     const ALL: [BranchKind; 3] = [Self::Loading, Self::Unloading, Self::Reversal];
 
-    /// Returns the name in a legend.
+    /// Returns the name in a legend, as in `loading`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -75,7 +75,7 @@ pub struct LoopPlot {
     pub branches: Vec<Branch>,
     /// Law in the legend, as in "fitted law" or "assumed law".
     pub law: String,
-    /// Numbers of a sheet, where the loop should pass.
+    /// Numbers of a sheet, as points that the loop should pass.
     pub marks: Vec<Mark>,
 }
 
@@ -89,7 +89,8 @@ pub struct Mark {
 }
 
 impl LoopPlot {
-    /// Refuses a plot without points, numbers that are not finite, and units out of range.
+    /// Refuses a plot without points, numbers that are not finite, and units out of range, as
+    /// [`Error`].
     ///
     /// # Errors
     /// The first fault.
@@ -102,12 +103,14 @@ impl LoopPlot {
                 check::number(|| format!("{}: the mark {}", self.title, mark.label), *number)?;
             }
         }
+
         self.deformation.check(&self.title)?;
         self.load.check(&self.title)?;
         let empty = |what: String| Error::EmptyPlot { plot: self.title.clone(), what };
         if self.branches.is_empty() {
             return Err(empty("the plot".to_owned()));
         }
+
         for (index, branch) in self.branches.iter().enumerate() {
             let loads = |p: &Point| p.measured.is_some() || p.fitted.is_some();
             if !branch.points.iter().any(loads) {
@@ -130,13 +133,13 @@ impl LoopPlot {
         Ok(())
     }
 
-    /// Returns all samples in order.
+    /// Returns the [`Point`]s of all branches in order.
     pub fn points(&self) -> impl Iterator<Item = &Point> {
         self.branches.iter().flat_map(|branch| &branch.points)
     }
 
-    /// Returns the range of the measured load, in SI; `None` without a measurement or where it
-    /// hardly changes.
+    /// Returns the range of the `measured` load, in SI. Returns `None` without a measurement, or
+    /// where the load hardly changes.
     fn measured_range(&self) -> Option<f64> {
         let loads = self.points().filter_map(|point| point.measured);
         let [low, high] = loads.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], load| {
@@ -157,18 +160,18 @@ const RESIDUAL_HEIGHT: f64 = 92.0;
 /// Room between both frames, in px.
 const GAP: f64 = 14.0;
 
-/// Smallest range of the measured load over the largest load; below it residuals in % have no
-/// meaning.
+/// Smallest range of the measured load over the largest load. With a smaller range residuals in %
+/// have no meaning.
 const LEAST_RANGE: f64 = 1e-9;
 
-/// Smallest range of residuals that the frame shows, in % of the range of the load; below it they
+/// Smallest range of residuals that the frame shows, in % of the range of the load. A smaller range
 /// would show rounding only.
 const LEAST_RESIDUAL: f64 = 0.1;
 
 /// Distance of the label of a mark from its point, in px.
 const LABEL_GAP: f64 = 7.0;
 
-/// Opacity of the points of a cycle over that of the cycle before.
+/// Ratio of the opacities of the points of a cycle and of the cycle before.
 const FADING: f64 = 0.72;
 
 /// Smallest opacity of points.
@@ -176,13 +179,14 @@ const FAINTEST: f64 = 0.35;
 
 /// Drawn series.
 struct Series {
-    /// Class that gives it its colour.
+    /// Class that gives the series its colour.
     class: &'static str,
     opacity: String,
     data: String,
     label: String,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/loop.svg", escape = "html")]
 struct LoopFigure<'a> {
@@ -196,7 +200,7 @@ struct LoopFigure<'a> {
     marks: Vec<DrawnMark<'a>>,
 }
 
-/// Drawn mark: its points, and the place of its label.
+/// Drawn mark: its points, and the position of its label.
 struct DrawnMark<'a> {
     label: &'a str,
     data: String,
@@ -204,19 +208,21 @@ struct DrawnMark<'a> {
     y: String,
 }
 
-/// Draws a loop as an SVG file: measured points, fitted line, confidence band, and the residuals.
+/// Draws the loop `plot` as an SVG file: measured points, fitted line, confidence band, and the
+/// residuals.
 ///
-/// Each branch has its colour; later cycles are paler. The residuals are measured minus fitted
-/// load, in % of the range of the measured load.
+///
+/// Each branch has its colour. Later cycles are paler. The residuals are the measured minus the
+/// fitted load, in % of the range of the measured load.
 ///
 /// # Errors
-/// Those of [`LoopPlot::check`].
+/// Errors of [`LoopPlot::check`].
 pub fn loop_svg(plot: &LoopPlot) -> Result<String, Error> {
     plot.check()?;
     Ok(loop_figure(plot, Placement::Standalone))
 }
 
-/// Draws a loop that has been checked.
+/// Draws the loop `plot`, which has been checked.
 pub(crate) fn loop_figure(plot: &LoopPlot, placement: Placement) -> String {
     let legend = Legend::new(legend_items(plot));
     let (top, bottom) = (legend.height, legend.height + LOOP_HEIGHT);
@@ -277,13 +283,13 @@ pub(crate) fn loop_figure(plot: &LoopPlot, placement: Placement) -> String {
     figure.render().expect("writing to a string does not fail")
 }
 
-/// Returns the opacity of the points of a cycle.
+/// Returns the opacity of the points of a `cycle`, as text.
 fn opacity(cycle: usize) -> String {
     let power = i32::try_from(cycle.saturating_sub(1)).unwrap_or(i32::MAX);
     px(FADING.powi(power).max(FAINTEST))
 }
 
-/// Returns the entries of the legend: those of the series that the plot holds.
+/// Returns the entries of the legend, for the series that `plot` holds.
 fn legend_items(plot: &LoopPlot) -> Vec<LegendItem> {
     let mut items = Vec::new();
     let mut add = |sign, class: &str, label: String| {
@@ -303,6 +309,7 @@ fn legend_items(plot: &LoopPlot) -> Vec<LegendItem> {
         };
         add(Sign::Points, kind.name(), label);
     }
+
     if plot.points().any(|point| point.fitted.is_some()) {
         add(Sign::Line, "fit", plot.law.clone());
     }
@@ -315,7 +322,8 @@ fn legend_items(plot: &LoopPlot) -> Vec<LegendItem> {
     items
 }
 
-/// Returns the fitted loads as lines, one per branch, each beginning where the one before it ended.
+/// Returns the fitted loads of `plot` as lines, one per branch. Each line begins at the end of the
+/// line before.
 fn fits(plot: &LoopPlot, plane: &Plane<'_>) -> Vec<String> {
     let mut end = None;
     let mut lines = Vec::new();
@@ -330,7 +338,7 @@ fn fits(plot: &LoopPlot, plane: &Plane<'_>) -> Vec<String> {
     lines
 }
 
-/// Returns the marks, each with its label beside its highest point.
+/// Returns the marks of `plot`, each with its label next to its highest point.
 fn marks<'a>(plot: &'a LoopPlot, plane: &Plane<'_>) -> Vec<DrawnMark<'a>> {
     let drawn = |mark: &'a Mark| {
         let pixels: Vec<[f64; 2]> = mark.points.iter().map(|point| plane.pixel(*point)).collect();
@@ -345,7 +353,7 @@ fn marks<'a>(plot: &'a LoopPlot, plane: &Plane<'_>) -> Vec<DrawnMark<'a>> {
     plot.marks.iter().filter_map(drawn).collect()
 }
 
-/// Returns the confidence bands as areas, one per branch.
+/// Returns the confidence bands of `plot` as areas, one per branch.
 fn bands(plot: &LoopPlot, plane: &Plane<'_>) -> Vec<String> {
     let areas = plot.branches.iter().map(|branch| {
         let bounded: Vec<(&Point, [f64; 2])> =

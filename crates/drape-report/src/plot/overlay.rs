@@ -20,7 +20,8 @@ pub struct Trace {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Overlay of one test on several fabrics: each fabric has a colour, each of its curves a dash pattern.
+/// Overlay of one test on several fabrics. Each fabric has a colour, and each of its curves has a
+/// dash pattern.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverlayPlot {
     /// Title, as in "bending".
@@ -31,12 +32,13 @@ pub struct OverlayPlot {
     pub load: Axis,
     /// Names of the fabrics.
     pub fabrics: Vec<String>,
-    /// Curves of each fabric, in the same order; not all of the lists may be empty.
+    /// Curves of each fabric, in the order of `fabrics`. At least one list must hold a curve.
     pub traces: Vec<Vec<Trace>>,
 }
 
 impl OverlayPlot {
-    /// Refuses a plot without points, numbers that are not finite, and units out of range.
+    /// Refuses a plot without points, numbers that are not finite, and units out of range, as
+    /// [`Error`].
     ///
     /// # Errors
     /// The first fault.
@@ -44,6 +46,7 @@ impl OverlayPlot {
         check::text("the title of a plot", &self.title)?;
         self.deformation.check(&self.title)?;
         self.load.check(&self.title)?;
+
         for name in &self.fabrics {
             check::text("the name of a fabric", name)?;
         }
@@ -51,6 +54,7 @@ impl OverlayPlot {
         if self.traces.iter().all(Vec::is_empty) {
             return Err(empty("the plot".to_owned()));
         }
+
         for (name, traces) in self.fabrics.iter().zip(&self.traces) {
             for trace in traces {
                 let label = &trace.label;
@@ -72,10 +76,10 @@ impl OverlayPlot {
 /// Height of the frame, in px.
 const HEIGHT: f64 = 380.0;
 
-/// Number of colours of fabrics in the style; further fabrics begin again with the first.
+/// Number of colours of fabrics in the style. Further fabrics begin again with the first colour.
 pub(crate) const COLOURS: usize = 6;
 
-/// Number of dash patterns in the style; further curves begin again with the first.
+/// Number of dash patterns in the style. Further curves begin again with the first pattern.
 const DASHES: usize = 4;
 
 /// Drawn curve.
@@ -86,6 +90,7 @@ struct Series<'a> {
     label: &'a str,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/overlay.svg", escape = "html")]
 struct OverlayFigure<'a> {
@@ -94,16 +99,16 @@ struct OverlayFigure<'a> {
     lines: Vec<Series<'a>>,
 }
 
-/// Draws an overlay as an SVG file.
+/// Draws the overlay `plot` as an SVG file.
 ///
 /// # Errors
-/// Those of [`OverlayPlot::check`].
+/// Errors of [`OverlayPlot::check`].
 pub fn overlay_svg(plot: &OverlayPlot) -> Result<String, Error> {
     plot.check()?;
     Ok(overlay_figure(plot, Placement::Standalone))
 }
 
-/// Draws an overlay that has been checked.
+/// Draws the overlay `plot`, which has been checked.
 pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String {
     let dashes = dashes(plot);
     let class = |fabric: usize, trace: &Trace| {
@@ -116,12 +121,14 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String
             traces.iter().map(move |trace| (index, name.as_str(), trace))
         })
     };
+
     let items = all().map(|(index, name, trace)| LegendItem {
         sign: Sign::Line,
         class: class(index, trace),
         label: format!("{name}, {}", trace.label),
     });
     let legend = Legend::new(items.collect());
+
     let (top, bottom) = (legend.height, legend.height + HEIGHT);
     let axes = [&plot.deformation, &plot.load];
     let values =
@@ -133,6 +140,7 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String
         fabric: name,
         label: &trace.label,
     });
+
     let figure = OverlayFigure {
         frame: plane.frame(),
         lines: lines.collect(),
@@ -141,8 +149,8 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String
     figure.render().expect("writing to a string does not fail")
 }
 
-/// Returns the labels of the curves in order of appearance: the same label has the same dash
-/// pattern on all fabrics.
+/// Returns the labels of the curves of `plot` in order of appearance. A label has one dash pattern
+/// on all fabrics.
 fn dashes(plot: &OverlayPlot) -> Vec<&str> {
     let mut labels: Vec<&str> = Vec::new();
     for trace in plot.traces.iter().flatten() {

@@ -3,7 +3,7 @@
 use super::svg::px;
 use crate::text::number::{significant, typeset};
 
-/// Room for a tick with its label, in px; with steps of 1, 2 and 5 there are up to 2.5 times as
+/// Room for a tick with its label, in px. With steps of 1, 2 and 5 there are up to 2.5 times as
 /// many ticks.
 const TICK_ROOM: f64 = 85.0;
 /// Smallest numbers of ticks that a short and a long axis should have.
@@ -30,7 +30,7 @@ pub(crate) struct Tick {
 /// Linear or logarithmic scale: a range of values on a range of pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
-    /// Whether the range is that of decimal logarithms.
+    /// Whether the range is a range of decimal logarithms.
     logarithmic: bool,
     /// Value at the first pixel.
     low: f64,
@@ -38,13 +38,13 @@ pub(crate) struct Scale {
     high: f64,
     /// First pixel.
     from: f64,
-    /// Last pixel; smaller than the first where the values increase upwards.
+    /// Last pixel. It is smaller than `from` where the values increase upwards.
     to: f64,
 }
 
 impl Scale {
-    /// Returns the scale that maps the range of values, with a margin, to the pixels between two
-    /// bounds.
+    /// Returns the scale that maps the range of `values`, with a margin, to the pixels `from` to
+    /// `to`.
     pub(crate) fn around(values: impl Iterator<Item = f64>, [from, to]: [f64; 2]) -> Scale {
         let (low, high) = values
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
@@ -56,61 +56,61 @@ impl Scale {
         Scale { logarithmic: false, low: low - margin, high: high + margin, from, to }
     }
 
-    /// Returns the logarithmic scale of positive values.
+    /// Returns the logarithmic scale of positive `values` on `pixels`.
     pub(crate) fn around_logarithms(values: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Scale {
         Scale { logarithmic: true, ..Scale::around(values.map(f64::log10), pixels) }
     }
 
-    /// Returns the scale of the places 1 to a number, with half a place free at either end.
+    /// Returns the scale of the positions 1 to `count`, with half a position free at either end.
     pub(crate) fn places(count: usize, [from, to]: [f64; 2]) -> Scale {
         Scale { logarithmic: false, low: 0.5, high: count as f64 + 0.5, from, to }
     }
 
-    /// Returns the scale of the same range on other pixels.
+    /// Returns the scale of this range on the pixels `from` to `to`.
     pub(crate) fn on(self, [from, to]: [f64; 2]) -> Scale {
         Scale { from, to, ..self }
     }
 
-    /// First and last pixel.
+    /// Returns the pixels `from` and `to`.
     pub(crate) fn ends(&self) -> [f64; 2] {
         [self.from, self.to]
     }
 
-    /// Width of the range.
+    /// Returns the width of the range, `high` minus `low`.
     pub(crate) fn width(&self) -> f64 {
         self.high - self.low
     }
 
-    /// Returns the scale with its range widened evenly on both sides.
+    /// Returns the scale with its range widened evenly on both sides to a `width`.
     pub(crate) fn widened(self, width: f64) -> Scale {
-        let more = 0.5 * (width - self.width());
-        Scale { low: self.low - more, high: self.high + more, ..self }
+        let margin = 0.5 * (width - self.width());
+        Scale { low: self.low - margin, high: self.high + margin, ..self }
     }
 
-    /// Returns the pixel of a value.
+    /// Returns the pixel of a `value`.
     pub(crate) fn pixel(&self, value: f64) -> f64 {
         let value = if self.logarithmic { value.log10() } else { value };
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
-    /// Returns whether a value lies on a linear scale.
+    /// Returns whether a `value` lies on a linear scale.
     pub(crate) fn holds(&self, value: f64) -> bool {
         !self.logarithmic && (self.low..=self.high).contains(&value)
     }
 
-    /// Returns whether the scale is logarithmic.
+    /// Returns whether the scale is `logarithmic`.
     pub(crate) fn logarithmic(&self) -> bool {
         self.logarithmic
     }
 
-    /// Returns the value at pixel 0 and the value per pixel, from which a reader of the plot
-    /// recovers values.
+    /// Returns the value at pixel 0 and the value per pixel. The script of a page computes values
+    /// from them, as `pixel 0 + pixel × value per pixel`.
     pub(crate) fn inverse(&self) -> [f64; 2] {
         let per_pixel = (self.high - self.low) / (self.to - self.from);
         [self.low - self.from * per_pixel, per_pixel]
     }
 
-    /// Returns ticks at round values.
+    /// Returns a [`Tick`] at each round value.
     pub(crate) fn ticks(&self) -> Vec<Tick> {
         if self.logarithmic {
             return self.decades();
@@ -124,6 +124,7 @@ impl Scale {
             .into_iter()
             .find(|step| *step <= rough)
             .unwrap_or(power);
+
         let first = (self.low / step).ceil() as i64;
         let last = (self.high / step).floor() as i64;
         let largest = step * first.abs().max(last.abs()) as f64;
@@ -131,12 +132,13 @@ impl Scale {
         values.map(|value| self.tick(value, label(value, step, largest))).collect()
     }
 
+    /// Returns the tick of a `value` with its `label`.
     fn tick(&self, value: f64, label: String) -> Tick {
         Tick { at: px(self.pixel(value)), label }
     }
 
-    /// Returns ticks of a logarithmic scale at powers of ten, and at 2 and 5 times them where there
-    /// are few.
+    /// Returns the [`Tick`]s of a logarithmic scale at powers of ten. An axis with few powers also
+    /// has ticks at 2 and 5 times each power.
     fn decades(&self) -> Vec<Tick> {
         let factors: &[f64] = if self.width() > DECADES { &[1.0] } else { &[1.0, 2.0, 5.0] };
         let powers = self.low.floor() as i32..=self.high.ceil() as i32;
@@ -150,13 +152,14 @@ impl Scale {
     }
 }
 
-/// Number of powers of ten up to which a logarithmic axis has ticks between them.
+/// Largest number of decades of a logarithmic axis that has ticks between its powers of ten.
 const DECADES: f64 = 2.5;
 
-/// Range of the largest label of an axis outside of which labels have a power of ten.
+/// Labels of an axis whose largest label is outside this range have a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e5;
 
-/// Returns the label of a tick, with as many digits as the step between ticks needs.
+/// Returns the label of a tick at `value`, with as many digits as the `step` between ticks needs.
+/// The `largest` label decides on the power of ten.
 fn label(value: f64, step: f64, largest: f64) -> String {
     let power = |number: f64| number.log10().floor() as i32;
     let exponent = if PLAIN.contains(&largest) { 0 } else { power(largest) };

@@ -7,9 +7,11 @@ use crate::error::Error;
 use crate::picture::{Colour, Picture};
 use crate::text::base64::encode;
 
-/// Width of the picture, height of a row of names, and room around the names, in px.
+/// Width of the picture, in px.
 const WIDTH: f64 = 1200.0;
+/// Height of a row of names, in px.
 const ROW: f64 = 22.0;
+/// Room around the names, in px.
 const EDGE: f64 = 16.0;
 
 /// Number of names in a row.
@@ -24,6 +26,7 @@ pub struct SeamKey {
     pub colour: Colour,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/seams.svg", escape = "html")]
 struct View {
@@ -35,7 +38,7 @@ struct View {
     names: Vec<Name>,
 }
 
-/// Name at its place.
+/// Name at its position, in px.
 struct Name {
     x: f64,
     y: f64,
@@ -43,13 +46,14 @@ struct Name {
     colour: String,
 }
 
-/// Draws a picture above the names of its seams, as one self-contained SVG file.
+/// Draws a `picture` above the names of its `seams`, as one self-contained SVG file.
 ///
 /// # Errors
-/// Names that cannot be shown, a picture that is none.
+/// Names that cannot be shown, or a picture that cannot be encoded.
 pub fn seams_svg(picture: &Picture, seams: &[SeamKey]) -> Result<String, Error> {
     let picture_height = WIDTH * f64::from(picture.height()) / f64::from(picture.width().max(1));
     let column = (WIDTH - 2.0 * EDGE) / COLUMNS as f64;
+
     let name = |(number, seam): (usize, &SeamKey)| {
         check::text("the name of a seam", &seam.name)?;
         let [red, green, blue] = seam.colour;
@@ -61,6 +65,7 @@ pub fn seams_svg(picture: &Picture, seams: &[SeamKey]) -> Result<String, Error> 
         })
     };
     let names: Result<Vec<Name>, Error> = seams.iter().enumerate().map(name).collect();
+
     let rows = seams.len().div_ceil(COLUMNS) as f64;
     let view = View {
         width: WIDTH,

@@ -10,7 +10,7 @@ use super::svg::{line, px};
 use crate::check;
 use crate::error::Error;
 
-/// Shadow of a specimen on the disc of a drapemeter: all lengths in m.
+/// Shadow of a specimen on the disc of a drapemeter. All lengths are in m.
 ///
 /// ```
 /// use drape_report::plot::{ShadowPlot, shadow_svg};
@@ -33,7 +33,7 @@ pub struct ShadowPlot {
 }
 
 impl ShadowPlot {
-    /// Refuses a shadow without an edge, and lengths that are not finite and positive.
+    /// Refuses a shadow without an `edge`, and lengths that are not finite and positive.
     ///
     /// # Errors
     /// The first fault.
@@ -66,6 +66,7 @@ const ROOM: f64 = 8.0;
 /// Length of the scale, in m.
 const SCALE: f64 = 0.05;
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/shadow.svg", escape = "html")]
 struct ShadowFigure<'a> {
@@ -81,16 +82,16 @@ struct ShadowFigure<'a> {
     scale_y: String,
 }
 
-/// Draws a shadow as an SVG file.
+/// Draws the shadow `plot` as an SVG file.
 ///
 /// # Errors
-/// Those of [`ShadowPlot::check`].
+/// Errors of [`ShadowPlot::check`].
 pub fn shadow_svg(plot: &ShadowPlot) -> Result<String, Error> {
     plot.check()?;
     Ok(shadow_figure(plot, Placement::Standalone))
 }
 
-/// Draws a shadow that has been checked.
+/// Draws the shadow `plot`, which has been checked.
 pub(crate) fn shadow_figure(plot: &ShadowPlot, placement: Placement) -> String {
     let middle = 0.5 * SIZE;
     let largest = plot.edge.iter().copied().fold(plot.specimen.max(plot.disc), f64::max);
@@ -100,6 +101,7 @@ pub(crate) fn shadow_figure(plot: &ShadowPlot, placement: Placement) -> String {
         let angle = TAU * index as f64 / count;
         [middle + scale * radius * angle.cos(), middle + scale * radius * angle.sin()]
     };
+
     let half = 0.5 * scale * SCALE;
     let figure = ShadowFigure {
         title: &plot.title,

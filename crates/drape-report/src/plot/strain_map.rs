@@ -10,10 +10,13 @@ use crate::text::base64::encode;
 /// Number of steps of a colour bar.
 const STEPS: usize = 64;
 
-/// Width of a map, width of the bar below it, and room above and below the pictures, in px.
+/// Width of a map, in px.
 const WIDTH: f64 = 460.0;
+/// Width of the colour bar below a map, in px.
 const BAR: f64 = 260.0;
+/// Room above the pictures, in px.
 const HEAD: f64 = 34.0;
+/// Room below the pictures, in px.
 const FOOT: f64 = 56.0;
 
 /// Picture of cloth coloured by a quantity, such as the strain along the warp.
@@ -21,7 +24,8 @@ const FOOT: f64 = 56.0;
 pub struct StrainMap {
     /// Caption of the map.
     pub caption: String,
-    /// Value at the ends of the scale, in the unit of the map; see [`diverging`].
+    /// Value at the ends of the scale, in the unit of the map. The scale is the one of
+    /// [`diverging`].
     pub limit: f64,
     /// Unit, as in "%".
     pub unit: String,
@@ -29,6 +33,7 @@ pub struct StrainMap {
     pub picture: Picture,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/strain.svg", escape = "html")]
 struct View<'a> {
@@ -37,6 +42,7 @@ struct View<'a> {
     maps: Vec<MapView<'a>>,
 }
 
+/// Map in the figure. Lengths are in px.
 struct MapView<'a> {
     map: &'a StrainMap,
     left: f64,
@@ -64,7 +70,8 @@ struct Mark {
 }
 
 impl<'a> MapView<'a> {
-    /// Lays out a map by its number from the left and the height of the tallest picture, in px.
+    /// Lays out a `map` by its `number` from the left and the height of the `tallest` picture, in
+    /// px.
     fn new(map: &'a StrainMap, number: usize, tallest: f64) -> Result<Self, Error> {
         check::text("the caption of a map", &map.caption)?;
         check::text("the unit of a map", &map.unit)?;
@@ -81,10 +88,12 @@ impl<'a> MapView<'a> {
             let colour = format!("#{red:02x}{green:02x}{blue:02x}");
             Step { x: start + k as f64 * step, width, colour }
         });
+
         let mark = |part: f64| Mark {
             x: middle + 0.5 * part * BAR,
             text: mark(part * map.limit, &map.unit),
         };
+
         Ok(Self {
             map,
             left,
@@ -99,15 +108,15 @@ impl<'a> MapView<'a> {
     }
 }
 
-/// Returns the height of the picture of a map in the figure, in px.
+/// Returns the height of the picture of a `map` in the figure, in px.
 fn height(map: &StrainMap) -> f64 {
     WIDTH * f64::from(map.picture.height()) / f64::from(map.picture.width().max(1))
 }
 
-/// Draws maps side by side, each above its scale, as one self-contained SVG file.
+/// Draws `maps` side by side, each above its scale, as one self-contained SVG file.
 ///
 /// # Errors
-/// No maps, a limit that is not positive, texts that cannot be shown.
+/// No maps, a limit that is not positive, or texts that cannot be shown.
 pub fn strain_svg(maps: &[StrainMap]) -> Result<String, Error> {
     if maps.is_empty() {
         return Err(Error::EmptyReport { name: "the map of strains".to_owned() });
@@ -120,7 +129,7 @@ pub fn strain_svg(maps: &[StrainMap]) -> Result<String, Error> {
     Ok(view.render().expect("writing to a string does not fail"))
 }
 
-/// Returns the text of a mark.
+/// Returns the text of a mark at a `value` in a `unit`.
 fn mark(value: f64, unit: &str) -> String {
     let number = format!("{value:+.3}");
     let number = number.trim_end_matches('0').trim_end_matches('.');

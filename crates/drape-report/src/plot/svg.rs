@@ -1,13 +1,14 @@
 //! Path data and lengths of SVG.
 
-/// Returns a length in px with two decimals, finer than any printer at the usual size of a figure.
+/// Returns a `length` in px with two decimals, finer than any printer at the usual size of a
+/// figure.
 pub(crate) fn px(length: f64) -> String {
     let text = format!("{length:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// Returns a line through pixels as path data.
+/// Returns a line through `pixels` as path data.
 pub(crate) fn line(pixels: impl Iterator<Item = [f64; 2]>) -> String {
     let mut data = String::new();
     for (index, [x, y]) in pixels.enumerate() {
@@ -17,7 +18,8 @@ pub(crate) fn line(pixels: impl Iterator<Item = [f64; 2]>) -> String {
     data
 }
 
-/// Returns dots at pixels as path data: lines without length, which a round line cap makes visible.
+/// Returns dots at `pixels` as path data: lines without length, which a round line cap makes
+/// visible.
 pub(crate) fn dots(pixels: impl Iterator<Item = [f64; 2]>) -> String {
     pixels.map(|[x, y]| format!("M{} {}h0", px(x), px(y))).collect()
 }
@@ -25,7 +27,7 @@ pub(crate) fn dots(pixels: impl Iterator<Item = [f64; 2]>) -> String {
 /// Half the length of a mark, in px.
 const MARK: f64 = 16.0;
 
-/// Returns short level lines at pixels as path data.
+/// Returns short level lines at `pixels` as path data.
 pub(crate) fn marks(pixels: impl Iterator<Item = [f64; 2]>) -> String {
     pixels.map(|[x, y]| format!("M{} {}h{}", px(x - MARK), px(y), px(2.0 * MARK))).collect()
 }

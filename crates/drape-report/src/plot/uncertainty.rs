@@ -17,14 +17,14 @@ pub struct UncertaintyPlot<'a> {
     pub parameters: &'a [Parameter],
 }
 
-/// Largest deviation that the axis shows, as a ratio; beyond it bars end in arrows.
+/// Largest deviation that the axis shows, as a ratio. Longer bars end in arrows.
 ///
-/// A parameter known no better than its own magnitude is unknown; how much worse does not matter.
+/// A parameter with an error as large as its value is unknown. A larger error says no more.
 const LARGEST: f64 = 1.0;
 /// Smallest deviation at the end of the axis, as a ratio.
 const SMALLEST: f64 = 0.001;
 
-/// Width of the plot, in px: it stands beside the correlations.
+/// Width of the plot, in px. The plot stands beside the correlations.
 const WIDTH: f64 = 540.0;
 /// Height of a row, in px.
 const ROW: f64 = 26.0;
@@ -37,20 +37,23 @@ const LEFT: f64 = 48.0;
 /// Room for the text of the error, in px.
 const RIGHT: f64 = 78.0;
 
+/// Row of the plot.
 struct Row<'a> {
     symbol: Symbol<'a>,
     middle: String,
     baseline: String,
-    /// Ends of the interval and of the standard error.
+    /// Ends of the interval.
     interval: Option<[String; 2]>,
+    /// Ends of the standard error.
     error: Option<[String; 2]>,
     /// Arrows where a bar leaves the axis or has no end.
     arrows: [Option<String>; 2],
-    /// Text in place of a bar; the full reason is too long for a plot.
+    /// Text in place of a bar. The full reason is too long for a plot.
     reason: Option<&'static str>,
     size: String,
 }
 
+/// What the SVG template shows.
 #[derive(Template)]
 #[template(path = "plot/uncertainty.svg", escape = "html")]
 struct UncertaintyFigure<'a> {
@@ -69,11 +72,11 @@ struct UncertaintyFigure<'a> {
     rows: Vec<Row<'a>>,
 }
 
-/// Draws the relative uncertainty of parameters as an SVG file: 95 % intervals with standard errors
-/// inside.
+/// Draws the relative uncertainty of the parameters of `plot` as an SVG file: 95 % intervals with
+/// standard errors inside.
 ///
 /// # Errors
-/// No parameters, or those of [`Parameter::check`].
+/// No parameters, or the errors of [`Parameter::check`].
 pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, Error> {
     if plot.parameters.is_empty() {
         return Err(Error::EmptyPlot {
@@ -87,13 +90,14 @@ pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, Error> {
     Ok(uncertainty_figure(plot, Placement::Standalone))
 }
 
-/// Draws parameters that have been checked.
+/// Draws the parameters of `plot`, which have been checked.
 pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, placement: Placement) -> String {
     let spans = plot.parameters.iter().map(deviations);
     let spans: Vec<Deviations> = spans.collect();
     let sizes = spans.iter().flat_map(|span| span.bounds.iter().chain(&span.error));
     let finite = sizes.map(|d| d.abs()).filter(|d| d.is_finite() && *d <= LARGEST);
     let largest = finite.fold(SMALLEST, f64::max);
+
     let across = [LEFT, WIDTH - RIGHT];
     let scale = Scale::around([-100.0 * largest, 100.0 * largest].into_iter(), across);
     let pixel = |deviation: f64| px(scale.pixel(100.0 * deviation).clamp(across[0], across[1]));
@@ -116,6 +120,7 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, placement: Placemen
             size: error.map_or_else(String::new, |error| format!("± {}", percent(error))),
         }
     });
+
     let rows: Vec<Row<'_>> = rows.collect();
     let bottom = TOP + ROW * rows.len() as f64;
     let figure = UncertaintyFigure {
@@ -136,13 +141,15 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, placement: Placemen
     figure.render().expect("writing to a string does not fail")
 }
 
-/// Deviations of an interval and the standard error from the value, over its magnitude.
+/// Deviations of an interval and the standard error from the value, divided by the magnitude of the
+/// value.
 struct Deviations {
-    /// Ends of the interval; a missing end is infinite, a missing interval NaN.
+    /// Ends of the interval. A missing end is infinite, a missing interval is NaN.
     bounds: [f64; 2],
     error: Option<f64>,
 }
 
+/// Returns the deviations of a `parameter`.
 fn deviations(parameter: &Parameter) -> Deviations {
     let size = parameter.value.abs();
     if size == 0.0 {
@@ -158,7 +165,7 @@ fn deviations(parameter: &Parameter) -> Deviations {
     Deviations { bounds, error: parameter.relative_error() }
 }
 
-/// Returns an arrow head at an end of the axis, pointing outwards, as path data.
+/// Returns an arrow head at `end` 0 or 1 of the axis, pointing outwards, as path data.
 fn arrow(x: f64, y: f64, end: usize) -> String {
     let out = if end == 0 { -7.0 } else { 7.0 };
     format!("M{} {}L{} {}L{} {}Z", px(x), px(y - 4.5), px(x + out), px(y), px(x), px(y + 4.5))

@@ -4,17 +4,17 @@ use super::scene::{Scene, Surface, check_range};
 use super::vector::{Bounds, Vector, add, cross, dot, perpendiculars, scale, subtract};
 use crate::error::Error;
 
-/// Number of directions in which an extent keeps the farthest point of its shapes.
+/// Number of directions in which an extent stores the farthest point of its shapes.
 const DIRECTIONS: usize = 160;
 
-/// Angle from one of these directions to the next, in rad, which distributes them evenly.
+/// Angle between successive directions, in rad, which distributes the directions evenly.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// Fraction of the picture that the scene fills.
 const FILL: f64 = 0.9;
 
-/// Margin around the cloths within which bodies count for the framing, over the radius of the cloths: a
-/// table is shown, a room does not shrink the cloth to a dot.
+/// Margin around the cloths within which bodies count for the framing, over the radius of the
+/// cloths. A table is shown, but a room does not shrink the cloth to a dot.
 const MARGIN: f64 = 0.35;
 
 /// View of a scene: direction of the camera, field of view, size of the picture.
@@ -53,7 +53,7 @@ impl Default for View {
 }
 
 impl View {
-    /// Returns the camera that shows the whole of a scene.
+    /// Returns the camera that shows the whole `scene`.
     ///
     /// # Errors
     /// A number of the view or of the scene out of range, or a scene without triangles.
@@ -65,8 +65,8 @@ impl View {
         Ok(Camera::new(self, axes, eye))
     }
 
-    /// Returns the cameras of some views of the same size, in which shapes have one scale, and their
-    /// middle one place: pictures that can be compared.
+    /// Returns the cameras of `views` of equal size, for pictures that can be compared. The shapes
+    /// of `extent` have one scale in all pictures, and their middle has one position.
     ///
     /// # Errors
     /// A number of a view out of range, or an extent without points.
@@ -76,7 +76,7 @@ impl View {
             return Err(Error::EmptyScene);
         }
         let bounds = Bounds::of(extent.points.iter().copied());
-        // Distance of the camera from the middle at which a point is within the frame.
+        // Smallest distance of the camera from the middle at which a point is within the frame.
         let distance = |view: &View, point: &Vector| {
             let [right, up, forward] = view.axes();
             let from = subtract(*point, bounds.center);
@@ -87,6 +87,7 @@ impl View {
         let distances =
             views.iter().flat_map(|view| extent.points.iter().map(|p| distance(view, p)));
         let farthest = distances.fold(1e-3, f64::max);
+
         let camera = |view: &View| {
             let axes = view.axes();
             Camera::new(view, axes, add(bounds.center, scale(axes[2], -farthest)))
@@ -94,27 +95,30 @@ impl View {
         Ok(views.iter().map(camera).collect())
     }
 
-    /// Returns unit vectors to the right of the picture, up in it and along the line of sight.
+    /// Returns unit vectors to the right of the picture, up in the picture and along the line of
+    /// sight, for `azimuth_deg` and `elevation_deg`.
     fn axes(&self) -> [Vector; 3] {
         let (sine, cosine) = self.azimuth_deg.to_radians().sin_cos();
         let (rise, level) = self.elevation_deg.to_radians().sin_cos();
         let forward = [-level * sine, -rise, -level * cosine];
         let [mut right, mut up] = perpendiculars(forward);
         if self.elevation_deg.abs() > 87.0 {
-            // Straight down or up, the azimuth still decides which direction is up in the picture.
+            // In a view straight down or up, the azimuth still decides which direction is up in the
+            // picture.
             right = [cosine, 0.0, -sine];
             up = cross(right, forward);
         }
         [right, up, forward]
     }
 
-    /// Returns the slopes of lines of sight to the sides and up, within which the scene is.
+    /// Returns the slopes of lines of sight to the sides and up, within which the scene must lie,
+    /// from `field_deg`.
     fn slopes(&self) -> [f64; 2] {
         let slope = FILL * (0.5 * self.field_deg).to_radians().tan();
         [slope * f64::from(self.width) / f64::from(self.height), slope]
     }
 
-    /// Refuses numbers out of range.
+    /// Refuses numbers out of range, as [`Error::OutOfRange`].
     fn check(&self) -> Result<(), Error> {
         let within = |what, value: f64, range, least, most| {
             check_range(what, value, range, (least..=most).contains(&value))
@@ -144,13 +148,13 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Position of the camera, in m.
+    /// Returns the position `eye` of the camera, in m.
     #[must_use]
     pub fn eye(&self) -> [f64; 3] {
         self.eye
     }
 
-    /// Returns the projection of a point; points with a depth of 0 or less are not visible.
+    /// Returns the projection of a `point`. Points with a depth of 0 or less are not visible.
     #[must_use]
     pub fn project(&self, point: [f64; 3]) -> ScreenPoint {
         let ray = subtract(point, self.eye);
@@ -162,30 +166,31 @@ impl Camera {
         }
     }
 
-    /// Width of the picture, in pixels.
+    /// Returns the `width` of the picture, in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Height of the picture, in pixels.
+    /// Returns the `height` of the picture, in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Unit vector to the right of the picture.
+    /// Returns the unit vector to the `right` of the picture.
     pub(crate) fn right(&self) -> Vector {
         self.right
     }
 
-    /// Direction of the line of sight through a point of the picture, in pixels.
+    /// Returns the direction of the line of sight through the point `x`, `y` of the picture, in
+    /// pixels.
     pub(crate) fn ray(&self, [x, y]: [f64; 2]) -> Vector {
         let [across, along] = [x - self.middle[0], self.middle[1] - y].map(|k| k / self.focal);
         add(self.forward, add(scale(self.right, across), scale(self.up, along)))
     }
 
-    /// Returns the camera of a view at a place.
+    /// Returns the camera of a `view` at the position `eye`.
     fn new(view: &View, [right, up, forward]: [Vector; 3], eye: Vector) -> Camera {
         let middle = [view.width, view.height].map(|size| 0.5 * f64::from(size));
         let focal = middle[1] / (0.5 * view.field_deg).to_radians().tan();
@@ -194,22 +199,22 @@ impl Camera {
     }
 }
 
-/// What pictures of some scenes must show: cloths, and bodies as far as they are near.
+/// Points that pictures of some scenes must show: cloths, and the parts of bodies near them.
 ///
-/// Of the shapes those points are kept that are farthest in one of many directions.
+/// The extent stores the points that are farthest in one of many directions.
 #[derive(Debug, Clone, Default)]
 pub struct Extent {
     points: Vec<Vector>,
 }
 
 impl Extent {
-    /// Returns the extent of a scene.
+    /// Returns the extent of a `scene`.
     #[must_use]
     pub fn of(scene: &Scene) -> Extent {
         Extent::default().with(scene)
     }
 
-    /// Returns the extent widened by that of another scene.
+    /// Returns the extent widened by the extent of a further `scene`.
     #[must_use]
     pub fn with(self, scene: &Scene) -> Extent {
         let all: Vec<Vector> = self.points.into_iter().chain(points(scene)).collect();
@@ -235,7 +240,7 @@ pub struct ScreenPoint {
     pub depth: f64,
 }
 
-/// Returns the points that must be in the picture.
+/// Returns the points of a `scene` that must be in the picture.
 fn points(scene: &Scene) -> Vec<Vector> {
     let used = |surfaces: &[Surface]| -> Vec<Vector> {
         surfaces.iter().flat_map(|s| s.points()).collect()
@@ -253,16 +258,18 @@ fn points(scene: &Scene) -> Vec<Vector> {
     cloth
 }
 
-/// Returns the smallest or largest coordinates of points.
+/// Returns the smallest or largest coordinates of `points`, as `choose` decides.
 fn extreme(points: &[Vector], start: f64, choose: fn(f64, f64) -> f64) -> Vector {
     points.iter().fold([start; 3], |sum, p| std::array::from_fn(|k| choose(sum[k], p[k])))
 }
 
-/// Returns the position of the camera from which all points are within slopes to the sides and up and down.
+/// Returns the position of the camera from which all `points` lie within `slopes` to the sides and
+/// up and down.
 ///
-/// In the axes of the camera a point `$(x, z)$` is within the slope `$t$` if `$|x - x_0| \le t\,(z - z_0)$`.
-/// The two sides give the largest `$x - tz$` and the largest `$-x - tz$`; half of their difference is
-/// `$x_0$`, and half of their sum over `$-t$` the closest `$z_0$`.
+/// In the axes of the camera a point `$(x, z)$` lies within the slope `$t$` if
+/// `$|x - x_0| \le t\,(z - z_0)$`. The two sides give the largest `$x - tz$` and the largest
+/// `$-x - tz$`. Half of their difference is `$x_0$`, and half of their sum over `$-t$` is the
+/// closest `$z_0$`.
 fn fit(points: &[Vector], [right, up, forward]: [Vector; 3], slopes: [f64; 2]) -> Vector {
     let mut eye = [0.0; 3];
     let mut closest = f64::MAX;
@@ -275,7 +282,7 @@ fn fit(points: &[Vector], [right, up, forward]: [Vector; 3], slopes: [f64; 2]) -
         eye = add(eye, scale(axis, 0.5 * (plus - minus)));
         closest = closest.min(-0.5 * (plus + minus) / slope);
     }
-    // With a single point the camera would be at that point.
+    // A single point would put the camera at the point itself.
     let front = points.iter().map(|p| dot(*p, forward)).fold(f64::MAX, f64::min);
     add(eye, scale(forward, closest.min(front - 1e-3)))
 }

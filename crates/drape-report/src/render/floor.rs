@@ -1,8 +1,8 @@
-//! Floor: a level plane of which only the shadows show, on the ground of the picture.
+//! Floor: a level plane that shows only shadows, on the ground of the picture.
 //!
 //! The light of the sky is known on a grid that is finer in the middle. The shadow of the key light
-//! on a plane is a picture of its own: the shapes projected along the light, blurred, since the
-//! lamp has a size.
+//! on a plane is a separate picture: the shapes are projected along the light and blurred, since
+//! the lamp has a size.
 
 use super::tessellation::{Part, Tessellation, Vertex};
 use super::triangle::PlaneTriangle;
@@ -17,10 +17,11 @@ const HALF_SIDE: f64 = 2.2;
 /// Size of the cells in the middle, over their mean size.
 const MIDDLE: f64 = 0.3;
 
-/// Texels of the shadow along the radius of the scene, and width of its blur in texels, which is
-/// done so many times.
+/// Number of texels of the shadow along the radius of the scene.
 const TEXELS: f64 = 200.0;
+/// Width of the blur of the shadow, in texels.
 const BLUR: usize = 5;
+/// Number of times that the shadow is blurred.
 const BLURS: usize = 3;
 
 /// Level plane below a scene.
@@ -32,13 +33,13 @@ pub(crate) struct Floor {
 }
 
 impl Floor {
-    /// Returns the floor at a height below a scene of some bounds.
+    /// Returns the floor at a `height` below a scene with `bounds`.
     pub(crate) fn new(height: f64, bounds: Bounds) -> Floor {
         let Bounds { center: [x, _, z], radius } = bounds;
         Floor { height, center: [x, z], radius }
     }
 
-    /// Returns the points of the grid, row by row.
+    /// Returns the points of the grid, row by row, each as [`Vector`].
     pub(crate) fn points(&self) -> Vec<Vector> {
         let place = |k: usize| {
             let part = 2.0 * k as f64 / CELLS as f64 - 1.0;
@@ -52,20 +53,22 @@ impl Floor {
             .collect()
     }
 
-    /// Returns the point of the floor that a ray from a point in a direction meets, along x and z.
+    /// Returns the point of the floor, along x and z, that a ray meets which starts at `from` in a
+    /// `direction`. Returns `None` for a ray from below.
     pub(crate) fn met(&self, from: Vector, direction: Vector) -> Option<[f64; 2]> {
         let distance = (self.height - from[1]) / direction[1];
-        // From below the floor would hide the scene.
+        // Seen from below the floor would hide the scene.
         let is_seen = direction[1] < 0.0 && distance > 0.0;
         is_seen.then(|| [0, 2].map(|k| from[k] + distance * direction[k]))
     }
 
-    /// Returns how far a point is from the middle: 0 there, 1 where the floor ends.
+    /// Returns the distance of the point `x`, `z` from the middle: 0 in the middle, 1 where the
+    /// floor ends.
     pub(crate) fn away(&self, [x, z]: [f64; 2]) -> f64 {
         (x - self.center[0]).hypot(z - self.center[1]) / (HALF_SIDE * self.radius)
     }
 
-    /// Returns the value at a point of the floor of one that is known on the grid.
+    /// Returns the value at a `point` of the floor, interpolated between the values of `grid`.
     pub(crate) fn value(&self, grid: &[f32], point: [f64; 2]) -> f64 {
         let place = |k: usize| {
             let part = (point[k] - self.center[k]) / (HALF_SIDE * self.radius);
@@ -81,7 +84,7 @@ impl Floor {
 
 /// Shadow of the key light on a floor.
 pub(crate) struct FloorShadow {
-    /// Place of the first texel, along x and z, in m.
+    /// Position of the first texel, along x and z, in m.
     origin: [f64; 2],
     texel: f64,
     columns: usize,
@@ -91,7 +94,7 @@ pub(crate) struct FloorShadow {
 }
 
 impl FloorShadow {
-    /// Returns the shadow of a scene in the light from a direction.
+    /// Returns the shadow of a `scene` on a `floor` in the light from a `direction`.
     pub(crate) fn new(floor: &Floor, scene: &Tessellation, direction: Vector) -> FloorShadow {
         let texel = (floor.radius / TEXELS).max(f64::MIN_POSITIVE);
         let fall = |vertex: &Vertex| {
@@ -99,6 +102,7 @@ impl FloorShadow {
             let drop = (y - floor.height) / direction[1];
             [x - drop * direction[0], z - drop * direction[2]]
         };
+
         let limit = HALF_SIDE * floor.radius;
         let places: Vec<[f64; 2]> = scene.vertices.iter().map(fall).collect();
         let margin = (BLURS * BLUR / 2 + 1) as f64 * texel;
@@ -110,6 +114,7 @@ impl FloorShadow {
         let high = [0, 1].map(|k| extreme(k, f64::MIN, f64::max) + margin);
         let count = |k: usize| (((high[k] - low[k]) / texel).ceil() as usize).clamp(1, 4096);
         let (columns, rows) = (count(0), count(1));
+
         let mut shade = vec![0.0; columns * rows];
         for facet in scene.facets.iter().filter(|facet| !matches!(facet.part, Part::Rim(_))) {
             let corners = facet.corners.map(|corner| places[corner as usize]);
@@ -119,6 +124,8 @@ impl FloorShadow {
                 shade[span.row * columns..][span.columns].fill(1.0);
             });
         }
+
+        // Repeated box filters approximate a Gaussian filter.
         for _ in 0..BLURS {
             shade = blurred_across(&shade, columns, rows);
             shade = blurred_across(&shade, rows, columns);
@@ -126,12 +133,12 @@ impl FloorShadow {
         FloorShadow { origin: low, texel, columns, rows, shade }
     }
 
-    /// Returns the shadow at a point of the floor, 0 to 1.
+    /// Returns the shadow at a `point` of the floor, 0 to 1.
     pub(crate) fn at(&self, point: [f64; 2]) -> f64 {
         let place = [0, 1].map(|k| (point[k] - self.origin[k]) / self.texel - 0.5);
         let (columns, rows) = (self.columns, self.rows);
         let ends = [columns as f64, rows as f64];
-        // Around the shadow there is none.
+        // The shadow ends at the border of its texels.
         if !(0..2).all(|k| place[k] >= 0.0 && place[k] <= ends[k] - 1.0) {
             return 0.0;
         }
@@ -139,7 +146,8 @@ impl FloorShadow {
     }
 }
 
-/// Returns a table of rows with the means over some cells of each row, transposed.
+/// Returns a `table` of rows in which each value is the mean over [`BLUR`] cells of its row. The
+/// result is transposed.
 fn blurred_across(table: &[f32], columns: usize, rows: usize) -> Vec<f32> {
     let half = BLUR / 2;
     let mut blurred = vec![0.0; table.len()];
@@ -154,8 +162,8 @@ fn blurred_across(table: &[f32], columns: usize, rows: usize) -> Vec<f32> {
     blurred
 }
 
-/// Returns the value between the values of a table at whole places; beyond its ends those of the
-/// ends.
+/// Returns the value at a `place` between the entries of a table with `counts` columns and rows.
+/// Beyond the ends the entry at the end counts.
 fn bilinear(place: [f64; 2], counts: [usize; 2], value: impl Fn(usize, usize) -> f32) -> f64 {
     let cell = |k: usize| {
         let last = counts[k] - 1;

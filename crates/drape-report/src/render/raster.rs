@@ -19,12 +19,12 @@ struct Fragment {
     item: u32,
     /// Number of samples that show it.
     count: usize,
-    /// Mean position of these samples in the pixel, 0 to 1.
     x: f64,
+    /// Mean vertical position of these samples in the pixel, 0 to 1.
     y: f64,
 }
 
-/// Facets on the screen, with those of each band.
+/// Facets on the screen, with the list of facets of each band.
 pub(crate) struct Bands {
     facets: Vec<ScreenFacet>,
     /// Numbers of the facets that each band may show.
@@ -32,7 +32,7 @@ pub(crate) struct Bands {
 }
 
 impl Bands {
-    /// Divides facets among the bands of a picture with some rows of pixels.
+    /// Divides `facets` among the bands of a picture with `rows` rows of pixels.
     pub(crate) fn new(facets: Vec<ScreenFacet>, rows: usize) -> Bands {
         let mut of_band = vec![Vec::new(); rows.div_ceil(BAND)];
         for (facet, number) in facets.iter().zip(0..) {
@@ -61,7 +61,7 @@ pub(crate) struct Band {
 }
 
 impl Band {
-    /// Returns the buffers of a band of a picture with some columns of pixels.
+    /// Returns the buffers of a band of a picture with `columns` columns of pixels.
     pub(crate) fn new(columns: usize) -> Band {
         let size = columns * BAND * SAMPLES * SAMPLES;
         Band {
@@ -72,7 +72,7 @@ impl Band {
         }
     }
 
-    /// Paints the pixels of a band, three bytes each.
+    /// Paints the `pixels` of the band `number`, three bytes each.
     pub(crate) fn paint(
         &mut self,
         bands: &Bands,
@@ -103,11 +103,13 @@ impl Band {
         }
     }
 
-    /// Finds the facet closest to the camera at each sample of some rows of samples.
+    /// Finds the facet closest to the camera at each sample of `rows` of samples of the band
+    /// `number`.
     fn resolve_visibility(&mut self, bands: &Bands, number: usize, rows: Range<usize>) {
         self.depths.fill(0.0);
         self.items.fill(NONE);
         let width = self.width;
+
         for &item in &bands.of_band[number] {
             let facet = &bands.facets[item as usize];
             let Some(samples) = facet.samples() else { continue };
@@ -119,29 +121,32 @@ impl Band {
                 let first = (span.row - rows.start) * width;
                 let range = first + span.columns.start..first + span.columns.end;
                 let (depths, holders) = (&mut self.depths[range.clone()], &mut self.items[range]);
-                // A counter of 32 bits, which is converted for several samples at a time.
+                // A counter of 32 bits can be converted for several samples at a time.
                 for (offset, (depth, holder)) in (0_i32..).zip(depths.iter_mut().zip(holders)) {
-                    let own = start + offset as f32 * slope;
-                    let is_closer = own > *depth;
-                    *depth = if is_closer { own } else { *depth };
+                    let inverse_depth = start + offset as f32 * slope;
+                    let is_closer = inverse_depth > *depth;
+                    *depth = if is_closer { inverse_depth } else { *depth };
                     *holder = if is_closer { item } else { *holder };
                 }
             });
         }
     }
 
-    /// Returns the facets that a pixel shows.
+    /// Returns the facets that the pixel at `row` and `column` of the band shows.
     fn fragments(&mut self, row: usize, column: usize) -> &[Fragment] {
         self.fragments.clear();
         let line = |j: usize| {
             let first = (row * SAMPLES + j) * self.width + column * SAMPLES;
             &self.items[first..first + SAMPLES]
         };
+
+        // Most pixels show a single facet.
         let item = line(0)[0];
         if (0..SAMPLES).all(|j| line(j) == [item; SAMPLES]) {
             self.fragments.push(Fragment { item, count: SAMPLES * SAMPLES, x: 0.5, y: 0.5 });
             return &self.fragments;
         }
+
         for j in 0..SAMPLES {
             for (i, &item) in line(j).iter().enumerate() {
                 let (x, y) = ((i as f64 + 0.5) / SAMPLES as f64, (j as f64 + 0.5) / SAMPLES as f64);
@@ -155,6 +160,7 @@ impl Band {
                 }
             }
         }
+
         for fragment in &mut self.fragments {
             fragment.x /= fragment.count as f64;
             fragment.y /= fragment.count as f64;

@@ -7,11 +7,11 @@ use super::smooth::Border;
 use super::tessellation::{Facet, Part, Tessellation, Vertex};
 use super::vector::{self, Vector, cross, dot, scale, subtract, unit};
 
-/// Least width of the band over the radius of the scene: about a pixel in the usual pictures. A
-/// thinner one would break into dots.
+/// Smallest width of the band over the radius of the scene: about a pixel in the usual pictures. A
+/// narrower band would break into dots.
 const LEAST: f64 = 1.0 / 420.0;
 
-/// Adds the rims of the cloths of a scene.
+/// Adds the rims of the cloths of a `scene` to its `tessellation`.
 pub(crate) fn add(scene: &Scene, tessellation: &mut Tessellation) {
     let Tessellation { vertices, facets, bounds, .. } = tessellation;
     let mut outwards: HashMap<u32, Vector> = HashMap::new();

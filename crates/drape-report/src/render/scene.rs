@@ -4,7 +4,7 @@ use super::vector::{Vector, at};
 use crate::error::Error;
 use crate::picture::Colour;
 
-/// Largest coordinate that can be drawn, in m; larger ones come from a failed simulation.
+/// Largest coordinate that can be drawn, in m. Larger coordinates come from a failed simulation.
 const MAX_COORDINATE: f64 = 1e6;
 
 /// Default colour of the front of a cloth: a light blue.
@@ -46,13 +46,13 @@ pub struct Surface<'a> {
     pub front: Colour,
     /// Colour of the back.
     pub back: Colour,
-    /// Thickness of a cloth, in m: the width of its rim along the hem. The rim is not thinner than
-    /// can be seen.
+    /// Thickness of a cloth, in m, which is the width of its rim along the hem. A rim has at least
+    /// the width that can be seen.
     pub thickness: f64,
 }
 
 impl<'a> Surface<'a> {
-    /// Returns a cloth in the default colours, without lines.
+    /// Returns a cloth of `triangles` in the default colours, without lines.
     #[must_use]
     pub fn cloth(positions: &'a [f64], triangles: &'a [[u32; 3]]) -> Surface<'a> {
         Surface {
@@ -68,36 +68,38 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Returns a body in the default grey.
+    /// Returns a body of `triangles` in the default grey.
     #[must_use]
     pub fn body(positions: &'a [f64], triangles: &'a [[u32; 3]]) -> Surface<'a> {
         Surface { front: BODY, back: BODY, ..Surface::cloth(positions, triangles) }
     }
 
-    /// Returns the surface with warp and weft lines at a spacing in m.
+    /// Returns the surface with warp and weft lines at `line_spacing`, in m, by its material
+    /// `coordinates`.
     #[must_use]
     pub fn with_lines(self, coordinates: &'a [f64], line_spacing: f64) -> Surface<'a> {
         Surface { coordinates: Some(coordinates), line_spacing, ..self }
     }
 
-    /// Returns the surface with a colour per vertex.
+    /// Returns the surface with `tints`, a colour per vertex.
     #[must_use]
     pub fn with_tints(self, tints: &'a [Colour]) -> Surface<'a> {
         Surface { tints: Some(tints), ..self }
     }
 
-    /// Returns the surface with colours of the front and the back for each triangle.
+    /// Returns the surface with `sides`, the colours of the front and the back of each triangle.
     #[must_use]
     pub fn with_sides(self, sides: &'a [[Colour; 2]]) -> Surface<'a> {
         Surface { sides: Some(sides), ..self }
     }
 
-    /// Returns the positions of the vertices, in m.
+    /// Returns the `positions` of the vertices, in m.
     pub(crate) fn points(&self) -> impl Iterator<Item = Vector> {
         (0..self.positions.len() / 3).map(|vertex| at(self.positions, vertex))
     }
 
-    /// Refuses incomplete lists, bad coordinates and vertices that do not exist.
+    /// Refuses incomplete lists, bad coordinates and vertices that do not exist. The error names
+    /// the surface by `surface`.
     fn check(&self, surface: impl Fn() -> String) -> Result<(), Error> {
         let vertices = self.positions.len() / 3;
         let bad_length = |what, length, expected| Error::BadLength {
@@ -106,6 +108,7 @@ impl<'a> Surface<'a> {
             length,
             expected,
         };
+
         if self.positions.len() != 3 * vertices {
             let expected = "three per vertex".to_string();
             return Err(bad_length("positions", self.positions.len(), expected));
@@ -120,6 +123,7 @@ impl<'a> Surface<'a> {
             let what = "the spacing of the warp and weft lines (m)";
             check_range(what, self.line_spacing, "above 0", self.line_spacing > 0.0)?;
         }
+
         if let Some(tints) = self.tints
             && tints.len() != vertices
         {
@@ -132,6 +136,7 @@ impl<'a> Surface<'a> {
             let expected = format!("one for each of {} triangles", self.triangles.len());
             return Err(bad_length("sides", sides.len(), expected));
         }
+
         let what = "the thickness of the cloth (m)";
         check_range(what, self.thickness, "from 0 to 1", (0.0..=1.0).contains(&self.thickness))?;
         for (triangle, indices) in self.triangles.iter().enumerate() {
@@ -143,14 +148,14 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// Refuses coordinates out of range, of lists with some numbers per vertex.
+/// Refuses coordinates out of range. The list `values` has `width` numbers per vertex.
 fn check_numbers(
     values: &[f64],
     width: usize,
     what: &'static str,
     surface: &impl Fn() -> String,
 ) -> Result<(), Error> {
-    // NaN is in no range.
+    // NaN lies in no range.
     let good = |value: &f64| (-MAX_COORDINATE..=MAX_COORDINATE).contains(value);
     match values.iter().position(|value| !good(value)) {
         None => Ok(()),
@@ -163,7 +168,7 @@ fn check_numbers(
     }
 }
 
-/// Refuses a value that is not finite or whose range does not hold.
+/// Refuses a `value` that is not finite, or whose range does not hold as `holds` says.
 pub(crate) fn check_range(
     what: &'static str,
     value: f64,
@@ -176,7 +181,7 @@ pub(crate) fn check_range(
     Err(Error::OutOfRange { what, value, range })
 }
 
-/// Colours of a picture behind its scene, which pass into each other from the top to the bottom.
+/// Colours of a picture behind its scene, with a gradient from the top to the bottom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ground {
     /// Colour at the top.
@@ -186,33 +191,33 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// White, as a page is.
+    /// White, like a page.
     pub const WHITE: Ground = Ground { top: [255; 3], bottom: [255; 3] };
 
-    /// Quiet grey, before which light and dark cloth stands out.
+    /// Quiet grey, in front of which light and dark cloth stands out.
     pub const GREY: Ground = Ground { top: [214, 218, 223], bottom: [233, 234, 235] };
 }
 
 impl Default for Ground {
-    /// Returns white.
+    /// Returns [`Ground::WHITE`].
     fn default() -> Ground {
         Ground::WHITE
     }
 }
 
-/// Scene of a picture; y is up.
+/// Scene of a picture. The y axis points up.
 #[derive(Debug, Clone, Default)]
 pub struct Scene<'a> {
-    /// Cloths; they fill the picture.
+    /// Cloths, which fill the picture.
     pub cloths: Vec<Surface<'a>>,
-    /// Bodies, framed as far as they are near the cloths.
+    /// Bodies. Their parts near the cloths are framed.
     pub bodies: Vec<Surface<'a>>,
-    /// Height of a floor of which only the shadows show, in m.
+    /// Height of a floor that shows only shadows, in m.
     pub floor: Option<f64>,
     /// Colours behind cloths and bodies.
     pub ground: Ground,
-    /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in
-    /// m.
+    /// Depth bias of bodies, in m: the distance by which bodies are moved back behind cloth in
+    /// depth tests.
     ///
     /// The chord between two particles on either side of a convex edge dips below the edge. With a
     /// bias of that depth the edge does not show through the cloth.
@@ -220,7 +225,7 @@ pub struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Refuses bad surfaces and a scene without triangles.
+    /// Refuses bad surfaces and a scene without triangles, as [`Error`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         for (k, cloth) in self.cloths.iter().enumerate() {
             cloth.check(|| format!("cloth {k}"))?;
@@ -228,6 +233,7 @@ impl Scene<'_> {
         for (k, body) in self.bodies.iter().enumerate() {
             body.check(|| format!("body {k}"))?;
         }
+
         if let Some(floor) = self.floor {
             check_range(
                 "the height of the floor (m)",
@@ -236,6 +242,7 @@ impl Scene<'_> {
                 floor.abs() <= MAX_COORDINATE,
             )?;
         }
+
         let bias = self.body_depth_bias;
         let what = "the depth bias of bodies (m)";
         check_range(what, bias, "from 0 to 1", (0.0..=1.0).contains(&bias))?;

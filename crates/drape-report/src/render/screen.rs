@@ -6,8 +6,8 @@ use super::triangle::PlaneTriangle;
 
 /// Number of samples along each side of a pixel.
 ///
-/// With sixteen samples a pixel, edges have sixteen steps, about as many as the eye can tell apart;
-/// colours are evaluated only once per pixel and facet.
+/// With sixteen samples a pixel, edges have sixteen steps, about as many as the eye can
+/// distinguish. Colours are evaluated only once per pixel and facet.
 pub(crate) const SAMPLES: usize = 4;
 
 /// Smallest depth of a corner that is projected, in m.
@@ -26,14 +26,14 @@ pub(crate) struct ScreenFacet {
 }
 
 impl ScreenFacet {
-    /// Projects the facets of a scene; those that cannot be seen are left out.
+    /// Projects the facets of a `scene` with a `camera`. Facets that cannot be seen are left out.
     pub(crate) fn all(scene: &Tessellation, camera: &Camera) -> Vec<ScreenFacet> {
         let points: Vec<ScreenPoint> =
             scene.vertices.iter().map(|vertex| camera.project(vertex.position)).collect();
         let project = |(facet, number): (&Facet, u32)| {
             let corners = facet.corners.map(|corner| points[corner as usize]);
-            // The camera is outside of the framed scene; facets that extend behind it are left out
-            // whole.
+            // The camera is outside the framed scene. Facets that extend behind the camera are left
+            // out whole.
             if corners.iter().any(|corner| corner.depth <= NEAREST) {
                 return None;
             }
@@ -47,17 +47,18 @@ impl ScreenFacet {
         scene.facets.iter().zip(0..).filter_map(project).collect()
     }
 
-    /// Returns the triangle in samples; `None` if it has no area there.
+    /// Returns the triangle in samples. Returns `None` if the triangle has no area there.
     pub(crate) fn samples(&self) -> Option<PlaneTriangle> {
         PlaneTriangle::new(self.pixels.corners.map(|corner| corner.map(|x| x * SAMPLES as f64)))
     }
 
-    /// Returns the inverse depths of the corners with the depth bias, in 1/m, for the depth test.
+    /// Returns the inverse depths of the corners with the depth `bias`, in 1/m, for the depth test.
     pub(crate) fn biased_depths(&self) -> [f64; 3] {
         self.inverse_depths.map(|inverse| inverse / (1.0 + self.bias * inverse))
     }
 
-    /// Returns the barycentric coordinates in space at a point of the picture, in pixels.
+    /// Returns the barycentric coordinates in space at the point `x`, `y` of the picture, in
+    /// pixels.
     pub(crate) fn barycentric(&self, x: f64, y: f64) -> [f64; 3] {
         let plane = self.pixels.barycentric(x, y);
         let weighted = [0, 1, 2].map(|k| plane[k] * self.inverse_depths[k]);

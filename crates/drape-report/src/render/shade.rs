@@ -1,8 +1,8 @@
 //! Shading: the colour of a facet at a pixel from its material, its lines and the lights.
 //!
-//! Diffuse light from the sky (`sky`), from a key light with soft shadows (`shadow_map`), from the
-//! ground and from the camera; on top of it warp lines, weft lines, hem and seams, drawn as ink.
-//! `raster` calls it once per pixel and visible facet.
+//! Diffuse light comes from the sky (`sky`), from a key light with soft shadows (`shadow_map`),
+//! from the ground and from the camera. Warp lines, weft lines, hem and seams are drawn on top as
+//! ink. `raster` calls the shader once per pixel and visible facet.
 
 use super::camera::Camera;
 use super::floor::{Floor, FloorShadow};
@@ -15,10 +15,10 @@ use super::tessellation::{Facet, Part, Tessellation, Vertex};
 use super::vector::{Vector, add, cross, dot, scale, subtract, unit};
 use crate::picture::{Colour, decode};
 
-// The lights were chosen by eye on a draped cube and a pleated curtain: a surface that faces the
-// key light is a little brighter than its colour, the ground of a fold a third as bright.
+// The lights were chosen by eye on a draped cube and a pleated curtain. A surface that faces the
+// key light is a little brighter than its colour, and the ground of a fold is a third as bright.
 
-/// Irradiance of the whole sky on an upward surface; 1 shows a colour as it is given.
+/// Irradiance of the whole sky on an upward surface. With 1 a surface shows its exact colour.
 const SKY: f64 = 0.62;
 
 /// Irradiance of the key light on a surface that faces it.
@@ -36,15 +36,16 @@ const KEY_ELEVATION: f64 = 0.85;
 /// Azimuth of the key light to the left of the camera, in rad.
 const KEY_AZIMUTH: f64 = 0.95;
 
-/// Texels along the shadow map of the key light, over the longer side of the picture, and their
-/// least and largest number: a texel is about a pixel.
+/// Texels along the shadow map of the key light, over the longer side of the picture. A texel is
+/// about a pixel.
 const KEY_TEXELS: f64 = 1.0;
+/// Smallest and largest number of texels along the shadow map of the key light.
 const KEY_TEXELS_WITHIN: [f64; 2] = [900.0, 3000.0];
 
-/// Radius of the filter of this map, in texels.
+/// Radius of the filter of the shadow map of the key light, in texels.
 const KEY_FILTER: i32 = 1;
 
-/// Strength of the shadows on the floor; 1 would be as dark as on a white body.
+/// Strength of the shadows on the floor. With 1 they would be as dark as on a white body.
 const FLOOR_SHADE: f64 = 0.75;
 
 /// Distance from the middle of the floor, over its size, where its shadows begin to fade.
@@ -53,17 +54,18 @@ const FLOOR_FADE: f64 = 0.55;
 /// Colours of the warp lines, the weft lines, the hem and the seams.
 const INK: [Colour; 4] = [[34, 58, 110], [150, 54, 44], [40, 44, 52], [40, 44, 52]];
 
-/// Opacity of these lines.
+/// Opacity of the warp lines, the weft lines, the hem and the seams.
 const INK_OPACITY: [f64; 4] = [0.72, 0.72, 0.5, 0.75];
 
-/// Linear light above which light is compressed, and the room above it.
+/// Linear light above which light is compressed.
 const SHOULDER: f64 = 0.6;
+/// Range of linear light into which brighter light is compressed.
 const SHOULDER_ROOM: f64 = 1.0 - SHOULDER;
 
-/// Part of white in the colour of a rim.
+/// Fraction of white in the colour of a rim.
 const RIM_WHITE: f64 = 0.25;
 
-/// Width of a line over the height of the picture; at least a pixel.
+/// Width of a line over the height of the picture. A line is at least a pixel wide.
 const LINE_WIDTH: f64 = 1.6 / 900.0;
 
 /// Distance of lines, in line widths, below which they fade into an even tone.
@@ -83,8 +85,8 @@ pub(crate) struct Shader<'a> {
     camera: &'a Camera,
     /// Colours of front and back of each cloth and then of each body, in linear light.
     colours: Vec<[Vector; 2]>,
-    /// Colours of front and back of each triangle, in linear light, of each cloth and then of each body
-    /// that has them.
+    /// Colours of front and back of each triangle, in linear light, for each cloth and then for
+    /// each body. Empty for a surface without them.
     sides: Vec<Vec<[Vector; 2]>>,
     /// Linear light of the colour of each vertex, where some surface has one per vertex.
     tints: Vec<[f32; 3]>,
@@ -101,7 +103,7 @@ pub(crate) struct Shader<'a> {
 }
 
 impl<'a> Shader<'a> {
-    /// Prepares the lights of a scene for a camera.
+    /// Prepares the lights of a `scene` for a `camera`.
     pub(crate) fn new(lit: &Lit<'a>, scene: &'a Scene<'a>, camera: &'a Camera) -> Shader<'a> {
         let (sine, cosine) = KEY_AZIMUTH.sin_cos();
         // Horizontal directions from the scene to the camera and to the left of it.
@@ -110,10 +112,13 @@ impl<'a> Shader<'a> {
         let level = subtract(scale(towards, cosine), scale(right, sine));
         let (rise, flat) = KEY_ELEVATION.sin_cos();
         let direction = add(scale(level, flat), [0.0, rise, 0.0]);
+
         let surfaces = || scene.cloths.iter().chain(&scene.bodies);
         let tessellation = lit.tessellation;
         let side = f64::from(camera.width().max(camera.height()));
         let texels = (KEY_TEXELS * side).clamp(KEY_TEXELS_WITHIN[0], KEY_TEXELS_WITHIN[1]);
+
+        // Colours and coordinates are computed only if some surface has them.
         let is_tinted = surfaces().any(|surface| surface.tints.is_some());
         let has_lines = surfaces().any(|surface| surface.coordinates.is_some());
         let vertices = &tessellation.vertices;
@@ -135,6 +140,7 @@ impl<'a> Shader<'a> {
             let all = surface.sides.unwrap_or_default().iter();
             all.map(|sides| sides.map(|colour| colour.map(decode))).collect()
         };
+
         Shader {
             scene,
             tessellation,
@@ -152,7 +158,7 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Returns the linear colour of the ground at a point of the picture, in pixels.
+    /// Returns the linear colour of the ground at the point `at` of the picture, in pixels.
     pub(crate) fn ground(&self, at: [f64; 2]) -> Vector {
         let part = at[1] / f64::from(self.camera.height());
         let [top, bottom] = self.ground;
@@ -169,7 +175,7 @@ impl<'a> Shader<'a> {
         scale(colour, 1.0 - FLOOR_SHADE * fade * lost / (SKY + KEY * cosine))
     }
 
-    /// Returns the linear colour of a facet at a point of the picture, in pixels.
+    /// Returns the linear colour of the facet `item` at the point `at` of the picture, in pixels.
     pub(crate) fn colour(&self, item: &ScreenFacet, at: [f64; 2]) -> Vector {
         let facet = &self.tessellation.facets[item.number as usize];
         let corners = self.tessellation.corners(facet);
@@ -177,6 +183,7 @@ impl<'a> Shader<'a> {
         let mix = |values: [Vector; 3]| -> Vector {
             std::array::from_fn(|k| (0..3).map(|c| weights[c] * values[c][k]).sum())
         };
+
         let position = mix(corners.map(|corner| corner.position));
         let to_eye = unit(subtract(self.camera.eye(), position));
         let smooth = unit(mix(corners.map(|corner| corner.normal)));
@@ -187,6 +194,8 @@ impl<'a> Shader<'a> {
             _ => -1.0,
         };
         let normal = scale(smooth, side);
+
+        // Light that arrives at the point.
         let sky = self.sky.at(facet, side > 0.0);
         let sky = (0..3).map(|c| weights[c] * sky[c]).sum::<f64>();
         let cosine = dot(normal, self.key.direction).max(0.0);
@@ -201,6 +210,8 @@ impl<'a> Shader<'a> {
             + KEY * key
             + GROUND * 0.5 * (1.0 - normal[1])
             + HEADLIGHT * dot(normal, to_eye).max(0.0);
+
+        // Colour of the material, with ink on cloth.
         let surface = surface(self.scene, facet.part);
         let part = match facet.part {
             Part::Cloth(k) | Part::Rim(k) => k,
@@ -222,7 +233,7 @@ impl<'a> Shader<'a> {
             Part::Rim(_) => base.map(|channel| channel + RIM_WHITE * (1.0 - channel)),
             _ => base,
         };
-        let own = match facet.part {
+        let material = match facet.part {
             Part::Cloth(_) => {
                 let ink = self.ink(item, facet, at);
                 self.inks.iter().zip(ink).fold(base, |below, (ink, cover)| {
@@ -231,11 +242,11 @@ impl<'a> Shader<'a> {
             }
             _ => base,
         };
-        own.map(|channel| compressed(channel * light))
+        material.map(|channel| compressed(channel * light))
     }
 
-    /// Returns the coverage of a point of a cloth by the warp lines, the weft lines, the hem and the
-    /// seams, 0 to 1.
+    /// Returns the opacity of the warp lines, the weft lines, the hem and the seams at the point
+    /// `x`, `y` of the `facet`, 0 to 1.
     fn ink(&self, item: &ScreenFacet, facet: &Facet, [x, y]: [f64; 2]) -> [f64; 4] {
         let surface = surface(self.scene, facet.part);
         let corners = self.tessellation.corners(facet);
@@ -248,6 +259,7 @@ impl<'a> Shader<'a> {
             let [across, along] = [right, down].map(|there| value(there) - here);
             (here, (across * across + along * along).sqrt())
         };
+
         let half = 0.5 * self.line_width;
         let cover = |pixels: f64| (half + 0.5 - pixels).clamp(0.0, 1.0);
         let mut ink = [0.0; 4];
@@ -256,14 +268,14 @@ impl<'a> Shader<'a> {
                 let places = facet.corners.map(|corner| self.coordinates[corner as usize][axis]);
                 let (coordinate, slope) =
                     with_slope(places.map(|place| place / surface.line_spacing));
-                // Lines that are too close merge into a tone of the same mean coverage, up to a
-                // limit.
+                // Lines that are too close merge into a tone of equal mean coverage, up to a limit.
                 let apart = 1.0 / (slope * self.line_width);
                 let sharp = (apart / LINES_MERGE - 1.0).clamp(0.0, 1.0);
                 let line = cover((coordinate - coordinate.round()).abs() / slope);
                 *ink = sharp * line + (1.0 - sharp) / apart.max(LINES_MERGE);
             }
         }
+
         let number = |border: Border| match border {
             Border::None => None,
             Border::Hem => Some(2),
@@ -287,14 +299,14 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// Returns linear light as a picture can show it: bright light is compressed, so that folds of white
-/// cloth are seen.
+/// Returns linear `light` as a picture can show it. Bright light is compressed, so that folds of
+/// white cloth are seen.
 fn compressed(light: f64) -> f64 {
     let above = light - SHOULDER;
     if above > 0.0 { 1.0 - SHOULDER_ROOM * (-above / SHOULDER_ROOM).exp() } else { light }
 }
 
-/// Returns the surface that a part belongs to.
+/// Returns the surface of the `scene` that a `part` belongs to.
 fn surface<'a>(scene: &'a Scene<'a>, part: Part) -> &'a Surface<'a> {
     match part {
         Part::Cloth(k) | Part::Rim(k) => &scene.cloths[k],

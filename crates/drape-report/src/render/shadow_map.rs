@@ -1,10 +1,10 @@
 //! Shadow maps of distant lights.
 //!
-//! A shadow map holds for each texel the height towards the light of the first surface \[Wil78\]; a
+//! A shadow map holds for each texel the height towards the light of the first surface \[Wil78\]. A
 //! point is lit if no surface lies above it. Looking up the texels around it and averaging the
 //! answers gives soft edges: percentage-closer filtering \[RSC87\], here with weights that fall
 //! linearly to zero, so that the edges show no steps. `sky` looks up many maps with few texels
-//! each, `shade` the map of the key light.
+//! each, `shade` looks up the map of the key light.
 
 use super::tessellation::{Part, Tessellation, Vertex};
 use super::triangle::PlaneTriangle;
@@ -13,13 +13,13 @@ use super::vector::{Vector, add, dot, perpendiculars, scale};
 /// Texels around the shapes that stay empty.
 const MARGIN: f64 = 2.0;
 
-/// Normal offset: distance by which a point is moved out along its normal before the look-up, in
-/// texels, so that its own surface does not shade it.
+/// Normal offset, in texels: distance by which a point is moved out along its normal before the
+/// look-up, so that the surface does not shade itself.
 const NORMAL_OFFSET: f64 = 1.2;
 
-/// Least cosine between normal and light for the slope of a surface in the frame of the light;
-/// with a smaller one the look-ups of a surface that the light grazes would spread over a depth in
-/// which other surfaces are.
+/// Smallest cosine between normal and light that is used for the slope of a surface in the frame of
+/// the light. A grazed surface has a steep slope. With a smaller cosine its look-ups would spread
+/// over a depth in which other surfaces lie.
 const LEAST_COSINE: f64 = 0.2;
 
 /// Shadow map of one distant light: the height towards the light of the first surface in each
@@ -29,7 +29,7 @@ pub(crate) struct ShadowMap {
     pub(crate) direction: Vector,
     /// Unit vectors to the right of the map and down.
     axes: [Vector; 2],
-    /// Place of the first texel along them, in m.
+    /// Position of the first texel along `axes`, in m.
     origin: [f64; 2],
     /// Side of a texel, in m.
     texel: f64,
@@ -39,7 +39,8 @@ pub(crate) struct ShadowMap {
 }
 
 impl ShadowMap {
-    /// Renders the map of cloths and bodies, with a number of texels along its longer side.
+    /// Renders the map of the cloths and bodies of a `scene` for light from a `direction`, with
+    /// `texels` texels along its longer side.
     pub(crate) fn new(scene: &Tessellation, direction: Vector, texels: usize) -> ShadowMap {
         let [right, up] = perpendiculars(scale(direction, -1.0));
         let axes = [right, scale(up, -1.0)];
@@ -51,10 +52,12 @@ impl ShadowMap {
             .fold(([f64::MAX; 2], [f64::MIN; 2]), |(low, high), p| {
                 ([0, 1].map(|k| p[k].min(low[k])), [0, 1].map(|k| p[k].max(high[k])))
             });
+
         let longest = (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
         let texel = longest / (texels as f64 - 2.0 * MARGIN);
         let count = |k: usize| ((high[k] - low[k]) / texel + 2.0 * MARGIN).ceil() as usize;
         let [columns, rows] = [count(0), count(1)].map(|count| count.clamp(1, texels));
+
         let mut map = ShadowMap {
             direction,
             axes,
@@ -68,6 +71,7 @@ impl ShadowMap {
         map
     }
 
+    /// Draws the facets of a `scene`. Rims cast no shadow.
     fn draw(&mut self, scene: &Tessellation) {
         let places: Vec<Vector> = scene
             .vertices
@@ -77,6 +81,7 @@ impl ShadowMap {
                 [x, y, height - scene.depth_bias(vertex.part)]
             })
             .collect();
+
         let solid = scene.facets.iter().filter(|facet| !matches!(facet.part, Part::Rim(_)));
         for facet in solid {
             let corners = facet.corners.map(|corner| places[corner as usize]);
@@ -89,40 +94,41 @@ impl ShadowMap {
                 let start = span.start(heights) as f32;
                 let row = &mut self.heights[span.row * self.columns..][span.columns];
                 for (offset, held) in (0_i32..).zip(row) {
-                    let own = start + offset as f32 * slope;
-                    *held = if own > *held { own } else { *held };
+                    let height = start + offset as f32 * slope;
+                    *held = if height > *held { height } else { *held };
                 }
             });
         }
     }
 
-    /// Returns a point in the frame of the light: texels to the right and down, and height towards
-    /// the light in m.
+    /// Returns a `point` in the frame of the light: texels to the right and down, and height
+    /// towards the light in m.
     fn to_light(&self, point: Vector) -> Vector {
         let place = |k: usize| (dot(point, self.axes[k]) - self.origin[k]) / self.texel;
         [place(0), place(1), dot(point, self.direction)]
     }
 
-    /// Returns the fraction of the light that arrives at a point of a surface that faces it,
-    /// filtered over a square with a radius in texels, 0 to 1.
+    /// Returns the fraction of the light that arrives at a `point` of a surface that faces the
+    /// light, 0 to 1, filtered over a square with a `radius` in texels.
     pub(crate) fn visibility(&self, point: Vector, normal: Vector, radius: i32) -> f64 {
         let offset = NORMAL_OFFSET * self.texel;
         let [x, y, height] = self.to_light(add(point, scale(normal, offset)));
         let (x, y) = (x - 0.5, y - 0.5);
-        // Rounded down: the casts round towards 0, and saturate in a scene without extent, in which
-        // texels have no size.
+        // Positions are rounded down. The casts round towards 0, and saturate in a scene without
+        // extent, in which texels have no size.
         let whole = |at: f64| at as i64 - i64::from(at < 0.0);
         let (column, row) = (whole(x), whole(y));
         let (right, down) = ((x - column as f64) as f32, (y - row as f64) as f32);
-        // Height of the surface's plane at other texels.
+        // Slopes of the plane of the surface, from one texel to the next.
         let cosine = dot(normal, self.direction).max(LEAST_COSINE);
         let slope = |k: usize| (-self.texel * dot(normal, self.axes[k]) / cosine) as f32;
         let [across, along] = [slope(0), slope(1)];
-        // Beyond its border the map is as empty as on it.
+        // Beyond its border the map is empty, as on its border.
         let height = height as f32;
         let within = |at: i64, offset: i32, count: usize| {
             at.saturating_add(offset.into()).clamp(0, count as i64 - 1) as usize
         };
+
         let reach = (radius + 1) as f32;
         let (mut sum, mut whole) = (0.0, 0.0);
         for j in -radius..=radius + 1 {

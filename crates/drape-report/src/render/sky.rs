@@ -1,10 +1,10 @@
 //! Light of a uniform sky: ambient occlusion.
 //!
-//! The irradiance at a vertex with the normal `$n$` is
-//! `$\frac1\pi\int V(\omega)\,(n\cdot\omega)\, \mathrm{d}\omega$` over the upper half sphere, with
-//! the visibility `$V$` of the sky in the direction `$\omega$`; it is 1 where an upward normal sees
-//! all of the sky. The integral is a sum over evenly distributed directions, each with a shadow
-//! map. `shade` interpolates the result over the facets, `floor` over its grid.
+//! The irradiance at a vertex with the normal `$n$` is `$\frac1\pi\int V(\omega)\,(n\cdot\omega)\,
+//! \mathrm{d}\omega$` over the upper half sphere, with the visibility `$V$` of the sky in the
+//! direction `$\omega$`. It is 1 where an upward normal sees all of the sky. The integral is a sum
+//! over evenly distributed directions, each with a shadow map. `shade` interpolates the result over
+//! the facets, `floor` over its grid.
 
 use rayon::prelude::*;
 
@@ -13,16 +13,17 @@ use super::shadow_map::ShadowMap;
 use super::tessellation::{Facet, Tessellation, Vertex};
 use super::vector::{Vector, dot, scale};
 
-/// Number of directions of the sky. With fewer, steps show in the shade; more cost time.
+/// Number of directions of the sky. With fewer directions the shade shows steps. More directions
+/// cost time.
 const DIRECTIONS: usize = 64;
 
 /// Texels along the longer side of the shadow map of one direction.
 ///
-/// A texel is 0.5 % of the width of the scene: smaller ones would only sharpen single directions of
-/// a light that is soft.
+/// A texel is 0.5 % of the width of the scene. Smaller texels would only sharpen single directions
+/// of a soft light.
 const TEXELS: usize = 200;
 
-/// Angle from one direction of the sky to the next, in rad, which distributes them evenly.
+/// Angle between successive directions of the sky, in rad, which distributes them evenly.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// Number of directions whose contributions are held at the same time, which bounds the memory.
@@ -30,7 +31,7 @@ const GROUP: usize = 8;
 
 /// Light of a uniform sky on the surfaces of a scene and on its floor.
 ///
-/// It does not depend on the view or on colours: pictures of the same shapes share it.
+/// The light does not depend on the view or on colours, so pictures of one set of shapes share it.
 #[derive(Debug, Clone)]
 pub(crate) struct SkyLight {
     /// Irradiance at each vertex, on its front and on its back.
@@ -40,7 +41,7 @@ pub(crate) struct SkyLight {
 }
 
 impl SkyLight {
-    /// Computes the light on a tessellation and a floor.
+    /// Computes the light on the tessellation `scene` and on a `floor`.
     pub(crate) fn on(scene: &Tessellation, floor: Option<&Floor>) -> SkyLight {
         let below = floor.map_or_else(Vec::new, Floor::points);
         let mut vertices = vec![[0.0; 2]; scene.vertices.len()];
@@ -62,16 +63,18 @@ impl SkyLight {
         SkyLight { vertices, floor: of_floor }
     }
 
-    /// Returns the irradiance at the corners of a facet, on its front or on its back.
+    /// Returns the irradiance at the corners of a `facet`, on its `front` or on its back.
     pub(crate) fn at(&self, facet: &Facet, front: bool) -> [f64; 3] {
         facet.corners.map(|corner| self.vertices[corner as usize][usize::from(!front)].into())
     }
 }
 
-/// Returns the contribution of one direction of the sky to each vertex, above 0 on its front, below
-/// on its back, and then to each point of the floor.
+/// Returns the contribution of the direction `number` of the sky to each vertex and then to each
+/// point of the `floor`. A contribution is above 0 on the front of a vertex and below 0 on its
+/// back.
 fn directional_light(scene: &Tessellation, floor: &[Vector], number: usize) -> Vec<f32> {
-    // Equal areas of the half sphere, rotated by the golden angle from one to the next.
+    // Each direction represents an equal area of the half sphere. The golden angle separates
+    // successive directions.
     let rise = (number as f64 + 0.5) / DIRECTIONS as f64;
     let level = (1.0 - rise * rise).sqrt();
     let (sine, cosine) = (number as f64 * GOLDEN_ANGLE).sin_cos();

@@ -1,7 +1,7 @@
-//! Smooth normals: those of the vertices of a surface, and which of its edges are borders.
+//! Smooth normals of the vertices of a surface, and the borders among its edges.
 //!
-//! Cloth is smooth everywhere, across seams too: vertices of different panels at one place share a
-//! normal unless the cloth turns there by more than a right angle. A body is smooth but at its
+//! Cloth is smooth everywhere, across seams too. Vertices of different panels at one position share
+//! a normal unless the cloth turns there by more than a right angle. A body is smooth except at its
 //! creases, where a vertex has a normal for each side.
 
 use std::collections::{BTreeMap, HashMap};
@@ -9,39 +9,40 @@ use std::collections::{BTreeMap, HashMap};
 use super::scene::Surface;
 use super::vector::{Vector, add, at, cross, dot, norm, scale, subtract, unit};
 
-/// Cosine of the angle between triangles below which the edge between them is a crease of a body:
-/// 50°, so that a cylinder of eight sides is round and a cube is not.
+/// Cosine of the largest angle between triangles whose common edge is smooth on a body, 50°. A
+/// cylinder of eight sides is therefore round and a cube is not.
 const CREASE: f64 = 0.643;
 
 /// Border of a cloth along an edge of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Border {
-    /// None: there is cloth on both sides.
+    /// No border: there is cloth on both sides.
     None,
     /// End of the cloth.
     Hem,
-    /// Edge of another panel at the same place.
+    /// Edge of another panel at the same position.
     Seam,
 }
 
 /// Vertices of a surface with their normals.
 pub(crate) struct Smooth {
-    /// Vertex of the surface and normal; a vertex on a crease is there more than once.
+    /// Vertex of the surface and normal. A vertex on a crease has several entries.
     pub(crate) vertices: Vec<(u32, Vector)>,
-    /// Numbers of these vertices, of each triangle that has an area.
+    /// Triangles that have an area.
     pub(crate) triangles: Vec<SmoothTriangle>,
 }
 
 /// Triangle with an area.
 pub(crate) struct SmoothTriangle {
-    /// Number in the surface.
+    /// Number of the triangle in the surface.
     pub(crate) number: u32,
+    /// Indices of the corners in the list of smooth vertices.
     pub(crate) corners: [u32; 3],
     /// Border along the edge opposite to each corner.
     pub(crate) borders: [Border; 3],
 }
 
-/// Vectors across the triangles of a surface, with a length of twice the area.
+/// Returns the vectors across the triangles of a `surface`, with a length of twice the area.
 fn area_vectors(surface: &Surface) -> Vec<Vector> {
     let area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|index| at(surface.positions, index as usize));
@@ -50,13 +51,14 @@ fn area_vectors(surface: &Surface) -> Vec<Vector> {
     surface.triangles.iter().map(area).collect()
 }
 
-/// Returns the edge opposite to a corner, by its vertices, the smaller first.
+/// Returns the edge opposite to a `corner` of a `triangle`, as the numbers of its vertices, the
+/// smaller number first.
 fn edge(triangle: &[u32; 3], corner: usize) -> [u32; 2] {
     let [a, b] = [1, 2].map(|k| triangle[(corner + k) % 3]);
     [a.min(b), a.max(b)]
 }
 
-/// Returns the smooth normals of a cloth, and its borders.
+/// Returns the smooth normals of the cloth `surface`, and its borders.
 pub(crate) fn cloth(surface: &Surface) -> Smooth {
     let areas = area_vectors(surface);
     let count = surface.positions.len() / 3;
@@ -70,7 +72,7 @@ pub(crate) fn cloth(surface: &Surface) -> Smooth {
         }
     }
     let is_border = |triangle: &[u32; 3], k: usize| sides.get(&edge(triangle, k)) == Some(&1);
-    // Vertices on borders at one place are joined; the order is that of the triangles.
+    // Vertices on borders at one position are joined, in the order of the triangles.
     let bits = |vertex: u32| at(surface.positions, vertex as usize).map(f64::to_bits);
     let mut places: BTreeMap<[u64; 3], Vec<u32>> = BTreeMap::new();
     let mut edges: HashMap<[[u64; 3]; 2], u32> = HashMap::new();
@@ -89,19 +91,24 @@ pub(crate) fn cloth(surface: &Surface) -> Smooth {
             }
         }
     }
-    let own = sums.clone();
+    let separate = sums.clone();
     for here in places.values().filter(|here| here.len() > 1) {
-        let shared = here.iter().fold([0.0; 3], |sum, vertex| add(sum, own[*vertex as usize]));
+        let shared = here.iter().fold([0.0; 3], |sum, vertex| add(sum, separate[*vertex as usize]));
         for vertex in here {
-            if dot(shared, own[*vertex as usize]) > 0.0 {
+            if dot(shared, separate[*vertex as usize]) > 0.0 {
                 sums[*vertex as usize] = shared;
             }
         }
     }
-    let border = |triangle: &[u32; 3], k: usize| match is_border(triangle, k) {
-        false => Border::None,
-        true if edges.get(&ends(triangle, k)) == Some(&1) => Border::Hem,
-        true => Border::Seam,
+
+    let border = |triangle: &[u32; 3], k: usize| {
+        if !is_border(triangle, k) {
+            Border::None
+        } else if edges.get(&ends(triangle, k)) == Some(&1) {
+            Border::Hem
+        } else {
+            Border::Seam
+        }
     };
     let triangles = surface.triangles.iter().zip(&areas).zip(0..);
     let triangles = triangles.filter(|((_, area), _)| norm(**area) > 0.0);
@@ -117,11 +124,12 @@ pub(crate) fn cloth(surface: &Surface) -> Smooth {
     }
 }
 
-/// Returns the normals of a body, smooth but at its creases.
+/// Returns the normals of the body `surface`, smooth except at its creases.
 pub(crate) fn body(surface: &Surface) -> Smooth {
     let areas = area_vectors(surface);
     let normals: Vec<Vector> = areas.iter().map(|area| unit(*area)).collect();
-    // Corners of triangles that share a smooth edge are joined; the smaller number is the root.
+    // Corners of triangles that share a smooth edge are joined. The smallest number of a group is
+    // its root.
     let mut root: Vec<u32> = (0..3 * areas.len() as u32).collect();
     let mut open: HashMap<[u32; 2], u32> = HashMap::with_capacity(2 * areas.len());
     let place = |triangle: u32, vertex: u32| {
@@ -142,6 +150,8 @@ pub(crate) fn body(surface: &Surface) -> Smooth {
             }
         }
     }
+
+    // Each group of joined corners becomes a vertex.
     let mut numbers = vec![u32::MAX; root.len()];
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for ((triangle, area), number) in surface.triangles.iter().zip(&areas).zip(0..) {
@@ -164,7 +174,7 @@ pub(crate) fn body(surface: &Surface) -> Smooth {
     Smooth { vertices, triangles }
 }
 
-/// Returns the root of a corner.
+/// Returns the root of the group of a `corner`, and shortens the path to it in `root`.
 fn find(root: &mut [u32], mut corner: u32) -> u32 {
     while root[corner as usize] != corner {
         root[corner as usize] = root[root[corner as usize] as usize];
@@ -173,8 +183,8 @@ fn find(root: &mut [u32], mut corner: u32) -> u32 {
     corner
 }
 
-/// Returns a point moved from a flat triangle towards the curved surface that its normals describe:
-/// away from the triangle, where the surface bulges \[Han21\].
+/// Returns a `point` of a flat triangle moved towards the curved surface that the normals of the
+/// `corners` describe: away from the triangle, where the surface bulges \[Han21\].
 pub(crate) fn bulged(point: Vector, corners: [(Vector, Vector); 3], weights: [f64; 3]) -> Vector {
     let shift = |sum: Vector, ((corner, normal), weight): ((Vector, Vector), f64)| {
         let below = dot(subtract(point, corner), normal).min(0.0);

@@ -8,8 +8,8 @@ use super::vector::{Bounds, Vector, add, at, cross, norm, scale, subtract, unit}
 
 /// Longest edge of a facet, over the radius of the scene.
 ///
-/// The light of the sky is evaluated at corners and interpolated, so large triangles are split
-/// until they can resolve the shade at the foot of a body.
+/// The light of the sky is evaluated at corners and interpolated. Large triangles are therefore
+/// split until they can resolve the shade at the foot of a body.
 const LONGEST_EDGE: f64 = 1.0 / 24.0;
 
 /// Part of the scene to which a facet belongs.
@@ -21,7 +21,7 @@ pub(crate) enum Part {
     Body(usize),
 }
 
-/// Place in a surface: a triangle, and the weights of its first two corners.
+/// Position in a surface: a triangle, and the weights of its first two corners.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Source {
     pub(crate) triangle: u32,
@@ -29,7 +29,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Returns the value at the place of a quantity that each vertex has.
+    /// Returns the value of a quantity at this position. `at` gives the quantity at each vertex.
     pub(crate) fn value<const N: usize>(
         self,
         triangles: &[[u32; 3]],
@@ -50,7 +50,7 @@ pub(crate) struct Vertex {
     pub(crate) normal: Vector,
     pub(crate) part: Part,
     pub(crate) source: Source,
-    /// Border of the cloth that it lies on.
+    /// Border of the cloth on which the vertex lies.
     pub(crate) border: Border,
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct Vertex {
 #[derive(Debug, Clone)]
 pub(crate) struct Facet {
     pub(crate) part: Part,
-    /// Numbers of its vertices.
+    /// Numbers of the vertices of the facet.
     pub(crate) corners: [u32; 3],
     /// Border of the cloth along the edge opposite to each corner.
     pub(crate) borders: [Border; 3],
@@ -75,7 +75,7 @@ pub(crate) struct Tessellation {
 }
 
 impl Tessellation {
-    /// Subdivides a scene.
+    /// Subdivides a `scene`.
     pub(crate) fn new(scene: &Scene) -> Tessellation {
         let surfaces = scene.cloths.iter().chain(&scene.bodies);
         let bounds = Bounds::of(surfaces.flat_map(|surface| surface.points()));
@@ -91,18 +91,18 @@ impl Tessellation {
         Tessellation { vertices, facets, bounds, body_depth_bias: scene.body_depth_bias }
     }
 
-    /// Returns the vertices of a facet.
+    /// Returns the vertices of a `facet`.
     pub(crate) fn corners(&self, facet: &Facet) -> [&Vertex; 3] {
         facet.corners.map(|corner| &self.vertices[corner as usize])
     }
 
-    /// Returns the vector across a facet with a length of twice its area.
+    /// Returns the vector across a `facet` with a length of twice its area.
     pub(crate) fn area_vector(&self, facet: &Facet) -> Vector {
         let [a, b, c] = self.corners(facet).map(|corner| corner.position);
         cross(subtract(b, a), subtract(c, a))
     }
 
-    /// Returns the depth bias of a part, in m.
+    /// Returns the depth bias of a `part`, in m.
     pub(crate) fn depth_bias(&self, part: Part) -> f64 {
         match part {
             Part::Body(_) => self.body_depth_bias,
@@ -122,23 +122,24 @@ struct Builder {
     longest: f64,
 }
 
-/// Triangle on its way to facets.
+/// Piece of a triangle that is subdivided into facets.
 #[derive(Clone, Copy)]
 struct Piece {
     corners: [u32; 3],
-    /// Places of the corners in the triangle of the surface.
+    /// Positions of the corners in the triangle of the surface.
     weights: [[f32; 2]; 3],
     borders: [Border; 3],
 }
 
 impl Builder {
-    /// Adds the facets of a surface.
+    /// Adds the facets of a `surface`, which is a `part` of the scene.
     ///
-    /// Vertices that no triangle with an area has are left out: they have no source.
+    /// Only vertices of triangles with an area are added. Other vertices have no source.
     fn add(&mut self, surface: &Surface, smooth: Smooth, part: Part) {
         let mut numbers = vec![None; smooth.vertices.len()];
         for triangle in &smooth.triangles {
-            // Each corner gets its vertex at the first triangle, and its source at the last.
+            // Each corner gets its vertex at its first triangle, and its source at its last
+            // triangle.
             let weights = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
             let corners = [0, 1, 2].map(|k| {
                 let corner = triangle.corners[k] as usize;
@@ -168,7 +169,7 @@ impl Builder {
         }
     }
 
-    /// Bisects the longest edge of a piece of a triangle until none is too long.
+    /// Bisects the longest edge of a `piece` of a `triangle` until no edge is too long.
     ///
     /// An edge is only cut at its midpoint, and its length alone decides, so that neighbours agree.
     fn split(&mut self, piece: Piece, triangle: u32, part: Part) {
@@ -180,23 +181,25 @@ impl Builder {
             self.facets.push(Facet { part, corners, borders });
             return;
         }
+
         let (b, c) = ((k + 1) % 3, (k + 2) % 3);
         let weights = [0, 1].map(|i| 0.5 * (piece.weights[b][i] + piece.weights[c][i]));
         let ends = [b, c].map(|end| piece.corners[end]);
-        let [one, other] = ends.map(|end| self.vertices[end as usize]);
+        let [first, second] = ends.map(|end| self.vertices[end as usize]);
         let middle = *self
             .middles
             .entry([ends[0].min(ends[1]), ends[0].max(ends[1])])
             .or_insert(self.vertices.len() as u32);
         if middle as usize == self.vertices.len() {
             self.vertices.push(Vertex {
-                position: scale(add(one.position, other.position), 0.5),
-                normal: unit(add(one.normal, other.normal)),
+                position: scale(add(first.position, second.position), 0.5),
+                normal: unit(add(first.normal, second.normal)),
                 part,
                 source: Source { triangle, weights },
                 border: piece.borders[k],
             });
         }
+
         for (replaced, cut) in [(c, b), (b, c)] {
             let mut half = piece;
             half.corners[replaced] = middle;

@@ -18,14 +18,16 @@ pub(crate) struct PlaneTriangle {
 }
 
 impl PlaneTriangle {
-    /// Returns a triangle; `None` if it has no area or corners that are not finite.
+    /// Returns a triangle with `corners`. Returns `None` if it has no area or corners that are not
+    /// finite.
     pub(crate) fn new(corners: [[f64; 2]; 3]) -> Option<PlaneTriangle> {
         let [a, b, c] = corners;
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         (area.is_finite() && area != 0.0).then_some(PlaneTriangle { corners, area })
     }
 
-    /// Returns the barycentric coordinates of a point; all are between 0 and 1 inside.
+    /// Returns the barycentric coordinates of the point `x`, `y`. Inside all of them are between 0
+    /// and 1.
     pub(crate) fn barycentric(&self, x: f64, y: f64) -> [f64; 3] {
         let [a, b, c] = self.corners;
         let over = |p: [f64; 2], q: [f64; 2]| {
@@ -34,19 +36,21 @@ impl PlaneTriangle {
         [over(b, c), over(c, a), over(a, b)]
     }
 
-    /// Returns the rows that the triangle can cover, of those below a count.
+    /// Returns the rows that the triangle can cover, below `count`.
     pub(crate) fn rows(&self, count: usize) -> Range<usize> {
         span(self.corners.map(|c| c[1]), count)
     }
 
-    /// Returns the change, from one column to the next, of a value that is linear in the triangle.
+    /// Returns the change from one column to the next of a quantity that is linear in the triangle
+    /// and has `values` at the corners.
     pub(crate) fn slope(&self, values: [f64; 3]) -> f64 {
         let [a, b, c] = self.corners;
         let rise = |p: [f64; 2], q: [f64; 2], value: f64| (p[1] - q[1]) * value;
         (rise(b, c, values[0]) + rise(c, a, values[1]) + rise(a, b, values[2])) / self.area
     }
 
-    /// Visits the rows of some rows in which the triangle has cells whose centres are inside.
+    /// Visits the cells whose centres are inside the triangle, row by row of `rows`, below
+    /// `columns`.
     pub(crate) fn spans(&self, columns: usize, rows: Range<usize>, mut visit: impl FnMut(Span)) {
         let across = span(self.corners.map(|c| c[0]), columns);
         if across.is_empty() || rows.is_empty() {
@@ -60,6 +64,7 @@ impl PlaneTriangle {
         let down = [0, 1, 2].map(|k| below[k] - start[k]);
         let run = step.map(|step| -1.0 / step);
         let last = (across.end - across.start) as f64 - 1.0;
+
         for (number, row) in rows.enumerate() {
             let here = [0, 1, 2].map(|k| start[k] + number as f64 * down[k]);
             // First and last column, counted from the left, in which no coordinate is below zero.
@@ -90,22 +95,23 @@ impl PlaneTriangle {
 pub(crate) struct Span {
     pub(crate) row: usize,
     pub(crate) columns: Range<usize>,
-    /// Barycentric coordinates of the first of them.
+    /// Barycentric coordinates of the first cell.
     pub(crate) first: [f64; 3],
 }
 
 impl Span {
-    /// Returns the value at the first cell of a value that is linear in the triangle.
+    /// Returns the value at the first cell of a quantity that is linear in the triangle and has
+    /// `values` at the corners.
     pub(crate) fn start(&self, values: [f64; 3]) -> f64 {
         (0..3).map(|k| self.first[k] * values[k]).sum()
     }
 }
 
-/// Returns the cells below a count whose centres are between the extremes of three values.
+/// Returns the cells below `count` whose centres are between the extremes of `values`.
 fn span(values: [f64; 3], count: usize) -> Range<usize> {
     let low = values.iter().fold(f64::MAX, |low, v| low.min(*v));
     let high = values.iter().fold(f64::MIN, |high, v| high.max(*v));
-    // The casts round down, and map numbers that are too small or too large to the nearest.
+    // The casts round down, and map numbers that are too small or too large to the nearest number.
     let whole = (low - 0.5) as usize;
     let first = whole + usize::from(low - 0.5 > whole as f64);
     let last = (high + 0.5) as usize;

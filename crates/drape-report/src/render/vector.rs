@@ -2,7 +2,7 @@
 
 pub(crate) type Vector = [f64; 3];
 
-/// Returns the vector at an index of flat coordinates.
+/// Returns the vector `index` of the `flat` coordinates.
 pub(crate) fn at(flat: &[f64], index: usize) -> Vector {
     [flat[3 * index], flat[3 * index + 1], flat[3 * index + 2]]
 }
@@ -31,13 +31,13 @@ pub(crate) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Returns the unit vector in the direction of a vector; the zero vector stays as it is.
+/// Returns the unit vector in the direction of `a`. The zero vector stays unchanged.
 pub(crate) fn unit(a: Vector) -> Vector {
     let length = norm(a);
     if length > 0.0 { scale(a, 1.0 / length) } else { a }
 }
 
-/// Returns two unit vectors perpendicular to a direction and to each other; the first is
+/// Returns two unit vectors perpendicular to a `direction` and to each other. The first vector is
 /// horizontal.
 pub(crate) fn perpendiculars(direction: Vector) -> [Vector; 2] {
     let up = if direction[1].abs() > 0.999 {
@@ -59,7 +59,7 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// Returns the bounds of points.
+    /// Returns the bounds of `points`.
     pub(crate) fn of(points: impl Iterator<Item = Vector>) -> Bounds {
         let (low, high) = points.fold(([f64::MAX; 3], [f64::MIN; 3]), |(low, high), p| {
             (std::array::from_fn(|k| low[k].min(p[k])), std::array::from_fn(|k| high[k].max(p[k])))

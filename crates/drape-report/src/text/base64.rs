@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// Returns the base64 form of bytes (RFC 4648, section 4).
+/// Returns the base64 form of `bytes` (RFC 4648, section 4).
 pub(crate) fn encode(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }

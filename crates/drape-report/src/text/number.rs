@@ -3,7 +3,8 @@
 /// Number of significant digits of a number without a known uncertainty.
 pub(crate) const DIGITS: i32 = 4;
 
-/// Number of significant digits of an uncertainty; the value is rounded to the same decimal place.
+/// Number of significant digits of an uncertainty. The value is rounded to the decimal place of its
+/// uncertainty.
 const ERROR_DIGITS: i32 = 2;
 
 /// Largest number of significant digits of a value, however small its uncertainty.
@@ -15,13 +16,13 @@ const PLAIN: std::ops::Range<i32> = -3..5;
 /// Notation in which a value, its error and its bounds are written together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Notation {
-    /// Power of ten that is split off; 0 in plain notation.
+    /// Power of ten that is split off. 0 in plain notation.
     pub(crate) exponent: i32,
     decimals: usize,
 }
 
 impl Notation {
-    /// Returns the notation that shows a value to the precision of its uncertainty.
+    /// Returns the notation that shows a `value` to the precision of its `uncertainty`.
     pub(crate) fn of(value: f64, uncertainty: Option<f64>) -> Notation {
         let error = uncertainty.filter(|error| *error > 0.0);
         let error_top = error.map(power_of_ten);
@@ -40,7 +41,7 @@ impl Notation {
         Notation { exponent, decimals: usize::try_from(exponent - last).unwrap_or(0) }
     }
 
-    /// Returns a number in this notation, without the power of ten.
+    /// Returns a `number` in this notation, without the power of ten.
     pub(crate) fn mantissa(&self, number: f64) -> String {
         let text = format!("{:.*}", self.decimals, shift(number, -self.exponent));
         if text.trim_start_matches('-').chars().all(|c| "0.".contains(c)) {
@@ -50,33 +51,35 @@ impl Notation {
         }
     }
 
-    /// Returns whether a number has at most nine digits before its decimal point in this notation.
+    /// Returns whether a `number` has at most nine digits before its decimal point in this
+    /// notation.
     pub(crate) fn suits(&self, number: f64) -> bool {
         shift(number, -self.exponent).abs() < 10f64.powi(MOST_DIGITS)
     }
 
-    /// Returns a number with its power of ten: in this notation, or with four significant digits
-    /// where that would be too long.
+    /// Returns a `number` with its power of ten: in this notation, or with four significant digits
+    /// where this notation would be too long.
     pub(crate) fn whole(&self, number: f64) -> String {
-        match self.suits(number) {
-            true => self.mantissa(number) + &self.power(),
-            false => significant(number, DIGITS),
+        if self.suits(number) {
+            self.mantissa(number) + &self.power()
+        } else {
+            significant(number, DIGITS)
         }
     }
 
-    /// Returns the power of ten as text: "e-5", or nothing.
+    /// Returns the power of ten as text: `e-5`, or nothing.
     pub(crate) fn power(&self) -> String {
         if self.exponent == 0 { String::new() } else { format!("e{}", self.exponent) }
     }
 }
 
-/// Returns a number times a power of ten, without intermediate overflow.
+/// Returns a `number` times ten to a `power`, without intermediate overflow.
 fn shift(number: f64, power: i32) -> f64 {
     let half = power / 2;
     number * 10f64.powi(half) * 10f64.powi(power - half)
 }
 
-/// Returns the power of ten of the leading digit after rounding; 0 for zero.
+/// Returns the power of ten of the leading digit of a `number` after rounding. Returns 0 for zero.
 fn power_of_ten(number: f64) -> i32 {
     if number == 0.0 || !number.is_finite() {
         return 0;
@@ -86,7 +89,7 @@ fn power_of_ten(number: f64) -> i32 {
     text.rsplit_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
 }
 
-/// Returns a number with some significant digits, in plain notation where that is short.
+/// Returns a `number` with `digits` significant digits, in plain notation where this is short.
 pub(crate) fn significant(number: f64, digits: i32) -> String {
     let top = power_of_ten(number);
     let exponent = if PLAIN.contains(&top) { 0 } else { top };
@@ -95,7 +98,7 @@ pub(crate) fn significant(number: f64, digits: i32) -> String {
     notation.mantissa(number) + &notation.power()
 }
 
-/// Returns a ratio in per cent with three significant digits at most, such as "0.97 %".
+/// Returns a `ratio` in per cent with three significant digits at most, such as "0.97 %".
 pub(crate) fn percent(ratio: f64) -> String {
     let percent = 100.0 * ratio;
     let size = percent.abs();
@@ -115,13 +118,13 @@ pub(crate) fn percent(ratio: f64) -> String {
     format!("{percent:.decimals$} %")
 }
 
-/// Returns a ratio in per cent with its sign, such as "+0.97 %".
+/// Returns a `ratio` in per cent with its sign, such as "+0.97 %".
 pub(crate) fn signed_percent(ratio: f64) -> String {
     let sign = if ratio > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(ratio))
 }
 
-/// Returns a text with its numbers typeset: true minus signs, and powers of ten as superscripts.
+/// Returns a `text` with its numbers typeset: true minus signs, and powers of ten as superscripts.
 pub(crate) fn typeset(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let at = |index: usize| letters.get(index).copied().unwrap_or(' ');
@@ -144,7 +147,7 @@ pub(crate) fn typeset(text: &str) -> String {
     printed
 }
 
-/// Returns a minus sign or a digit as a superscript.
+/// Returns a minus sign or a digit, `letter`, as a superscript.
 fn superscript(letter: char) -> char {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     letter.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])

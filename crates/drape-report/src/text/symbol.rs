@@ -1,6 +1,6 @@
 //! Symbols with an index.
 
-/// Symbol split at its underscore: `k_t` is a k with the index t.
+/// Symbol split at its underscore. `k_t` is a k with the index t.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Symbol<'a> {
     pub(crate) base: &'a str,
@@ -8,7 +8,7 @@ pub(crate) struct Symbol<'a> {
 }
 
 impl<'a> Symbol<'a> {
-    /// Returns a symbol split at its first underscore.
+    /// Returns the symbol `text` split at its first underscore.
     pub(crate) fn new(text: &'a str) -> Symbol<'a> {
         let (base, index) = text.split_once('_').unwrap_or((text, ""));
         Symbol { base, index }

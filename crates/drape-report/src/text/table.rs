@@ -9,7 +9,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Returns a table with a head; the columns of the list are set flush right.
+    /// Returns a table with a `head`. The columns of the list `right` are set flush right.
     pub(crate) fn new(head: &[&str], right: &[usize]) -> Table {
         Table {
             rows: vec![head.iter().map(|cell| (*cell).to_owned()).collect()],
@@ -17,12 +17,13 @@ impl Table {
         }
     }
 
-    /// Adds a row.
+    /// Adds a row of `cells`.
     pub(crate) fn row(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
     }
 
-    /// Returns the lines of the table; columns that are empty below their head are left out.
+    /// Returns the lines of the table, each after `indent` blanks. Columns that are empty below
+    /// their head are left out.
     pub(crate) fn lines(&self, indent: usize) -> Vec<String> {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let cell = |row: &'_ [String], column: usize| -> String {
@@ -36,6 +37,7 @@ impl Table {
             widths.max().unwrap_or(0)
         };
         let widths: Vec<usize> = columns.iter().map(|&column| width(column)).collect();
+
         let lines = self.rows.iter().map(|row| {
             let mut line = " ".repeat(indent);
             for (&column, &width) in columns.iter().zip(&widths) {

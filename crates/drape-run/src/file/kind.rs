@@ -1,4 +1,5 @@
-//! Kinds of files: what a file is, by its ending, its first bytes or its keys, and which command takes it.
+//! Kinds of files: the kind of a file by its ending, its first bytes or its keys, and the commands
+//! that take the file.
 
 use std::fmt;
 use std::path::Path;
@@ -8,7 +9,7 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_pattern::Pattern;
 use toml::{Table, Value};
 
-/// Kind of a file or folder that a command or a function may be given.
+/// Kind of a file or folder that can be given to a command or a function.
 ///
 /// ```
 /// use drape_run::file::FileKind;
@@ -52,30 +53,31 @@ pub enum FileKind {
     Page,
 }
 
-/// Keys at the top of a sheet, one of which is in every sheet that has something measured.
+/// Keys at the top of a sheet. Every sheet with a measurement has one of them.
 const SHEET_KEYS: [&str; 19] = [
     "curve", "warp", "weft", "mean", "W", "T", "T0", "TM", "LC", "WC", "RC", "MIU", "MMD", "SMD",
     "B", "2HB", "G", "2HG", "EM",
 ];
 
-/// Keys of scenes alone; `panel` is another where its panels are in a row.
+/// Keys that only scenes have. `panel` is a further one if its panels are in a list.
 const SCENE_KEYS: [&str; 7] = ["garment", "time", "collider", "pin", "sew", "settle", "solver"];
 
-/// Keys of which a study has one, a text, beside the tables of [`STUDY_TABLES`].
+/// Keys with a text. A study has one of them, in addition to the tables of [`STUDY_TABLES`].
 const STUDY_KEYS: [&str; 3] = ["scene", "fit", "test"];
 
 /// Tables of studies.
 const STUDY_TABLES: [&str; 4] = ["axis", "sample", "covariance", "measure"];
 
 impl FileKind {
-    /// Returns the kind of a file or folder; none where it cannot be read, or is like none.
+    /// Returns the kind of the file or folder at `path`. Returns `None` if it cannot be read or has
+    /// no known kind.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         if path.is_dir() {
             return Self::of_folder(path);
         }
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        // Files of a run end like others.
+        // Files of a run have the endings of other files.
         let is_of_run = || path.parent().is_some_and(Recording::exists);
         let kind = match ending.as_str() {
             "json" | "npy" if is_of_run() => Self::Run,
@@ -94,6 +96,7 @@ impl FileKind {
         path.exists().then_some(kind)
     }
 
+    /// Returns the kind of a `folder`.
     fn of_folder(folder: &Path) -> Option<Self> {
         let has = |name: &str| folder.join(name).exists();
         if has("sheet.toml") {
@@ -102,7 +105,7 @@ impl FileKind {
         (Recording::exists(folder) || has("status.json")).then_some(Self::Run)
     }
 
-    /// Returns the kind of a document, by its keys; none where it is like none.
+    /// Returns the kind of a `document`, by its keys. Returns `None` if it has no known kind.
     #[must_use]
     pub fn of_document(document: &Document) -> Option<Self> {
         let path = document.path();
@@ -114,6 +117,7 @@ impl FileKind {
         let has = |key: &&str| table.contains_key(*key);
         let is_text = |key: &&str| table.get(*key).is_some_and(Value::is_str);
         let are_in_row = |key: &&str| table.get(*key).is_some_and(Value::is_array);
+
         if STUDY_KEYS.iter().any(is_text) || STUDY_TABLES.iter().any(are_in_row) {
             return Some(Self::Study);
         }
@@ -123,6 +127,7 @@ impl FileKind {
         if has(&"panel") || SCENE_KEYS.iter().any(has) {
             return Some(Self::Scene);
         }
+
         let has_law =
             |yarns: &&str| table.get(*yarns).is_some_and(|laws| laws.get("traction").is_some());
         if has(&"density") || has(&"shear") || ["warp", "weft"].iter().any(has_law) {
@@ -131,11 +136,11 @@ impl FileKind {
         SHEET_KEYS.iter().any(has).then_some(Self::Sheet)
     }
 
-    /// Refuses a file or folder that is of another kind than those that are wanted, and says what it
-    /// is and which command takes it. What is like no kind is left to whoever reads it.
+    /// Refuses a file or folder at `path` whose kind is not `wanted`. The message names its kind
+    /// and the command that takes it. A file without a known kind is not refused.
     ///
     /// # Errors
-    /// The file is of another kind.
+    /// The file has another kind.
     pub fn expect(path: &Path, wanted: &[Self]) -> Result<(), Diagnostics> {
         match Self::of(path) {
             Some(Self::Run) if path.is_file() => Err(Self::Run.refused(path, wanted).into()),
@@ -144,10 +149,10 @@ impl FileKind {
         }
     }
 
-    /// Refuses a document likewise.
+    /// Refuses a `document` whose kind is not `wanted`, as [`FileKind::expect`] does.
     ///
     /// # Errors
-    /// The document is of another kind.
+    /// The document has another kind.
     pub fn expect_document(document: &Document, wanted: &[Self]) -> Result<(), Diagnostics> {
         match Self::of_document(document) {
             Some(kind) if !wanted.contains(&kind) => {
@@ -157,7 +162,7 @@ impl FileKind {
         }
     }
 
-    /// Returns the mistake that a file is of this kind and not of those that are wanted.
+    /// Returns the mistake that the file at `path` has this kind and none of `wanted`.
     #[must_use]
     pub fn refused(self, path: &Path, wanted: &[Self]) -> Diagnostic {
         let wanted = listed(wanted);
@@ -171,7 +176,7 @@ impl FileKind {
         }
     }
 
-    /// Returns the commands that take a file of this kind, as a sentence.
+    /// Returns the commands that take the file at `path` of this kind, as a sentence.
     #[must_use]
     pub fn remedy(self, path: &Path) -> String {
         // A scene names the file of a sheet, not its folder.
@@ -179,6 +184,7 @@ impl FileKind {
         let (path, file) = (path.display().to_string(), file.display());
         // Standard input is typed as a dash.
         let path = if path.starts_with('<') { "-".into() } else { path };
+
         match self {
             Self::Scene => {
                 format!("`drape run {path}` simulates it, `drape check {path}` describes it")
@@ -215,7 +221,7 @@ impl FileKind {
 }
 
 impl fmt::Display for FileKind {
-    /// Writes the kind with its article.
+    /// Writes the kind with its article to `f`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Scene => "a scene",
@@ -236,7 +242,7 @@ impl fmt::Display for FileKind {
     }
 }
 
-/// Returns kinds as a list of words.
+/// Returns `kinds` as a list of words.
 fn listed(kinds: &[FileKind]) -> String {
     let words: Vec<String> = kinds.iter().map(FileKind::to_string).collect();
     match words.split_last() {
@@ -245,7 +251,7 @@ fn listed(kinds: &[FileKind]) -> String {
     }
 }
 
-/// Returns whether a file in JSON is a pattern of GarmentCode or FreeSewing, by its keys.
+/// Returns whether the JSON file at `path` is a pattern of GarmentCode or FreeSewing, by its keys.
 fn holds_panels(path: &Path) -> bool {
     let text = Document::read(path).ok();
     let value = text.and_then(|document| serde_json::from_str(document.text()).ok());

@@ -1,4 +1,4 @@
-//! CheckpointWriter of a run: writes its checkpoints and its status, and watches its limits.
+//! Writer of the checkpoints and the status of a run, which watches the limits of the run.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ use super::status::{Advance, StatusFile};
 /// Name of the section of the recorder in a checkpoint.
 const RECORDER: &str = "recorder";
 
-/// CheckpointWriter of a run.
+/// Writer of the checkpoints and the status of a run.
 pub(super) struct CheckpointWriter {
     folder: PathBuf,
     identity: Identity,
@@ -33,7 +33,8 @@ pub(super) struct SavedRun {
 }
 
 impl CheckpointWriter {
-    /// CheckpointWriter of a run of a scene in a folder, with a checkpoint after every so many seconds.
+    /// Returns the writer of the run of a `scene` in a `folder`, with a checkpoint after `every`
+    /// seconds.
     pub(super) fn new(folder: &Path, scene: &Scene, every: f64, options: &RunOptions) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -46,24 +47,25 @@ impl CheckpointWriter {
         }
     }
 
-    /// Takes a step into account, and looks after the limits from time to time.
+    /// Takes the progress of a step, `advance`, into account, and checks the limits from time to
+    /// time.
     pub(super) fn step(&mut self, advance: Advance) {
         if self.status.step(advance) && self.reached.is_none() {
             self.reached = self.limits.reached(self.status.begin(), &self.folder);
         }
     }
 
-    /// Returns the limit that the run has reached, in words.
+    /// Returns the limit that the run has `reached`, in words.
     pub(super) fn reached(&self) -> Option<&str> {
         self.reached.as_deref()
     }
 
-    /// Returns whether it is time for a checkpoint.
+    /// Returns whether a checkpoint is due, which is every `every` seconds.
     pub(super) fn is_due(&self) -> bool {
         self.last.elapsed() >= self.every
     }
 
-    /// Writes a checkpoint.
+    /// Writes a checkpoint of a `simulation` and its `recorder`.
     pub(super) fn keep(
         &mut self,
         simulation: &SavedSimulation,
@@ -77,26 +79,27 @@ impl CheckpointWriter {
         Ok(())
     }
 
-    /// Returns what changed since a checkpoint was written.
+    /// Returns the changes of the input since a `checkpoint` was written, in words.
     pub(super) fn changes(&self, checkpoint: &Checkpoint) -> Vec<String> {
         self.identity.changes(checkpoint.identity())
     }
 
-    /// Tells how the run ended.
+    /// Writes the `outcome` of the run to its status, with a `message`.
     pub(super) fn end(&mut self, outcome: &str, message: Option<String>) {
         self.status.end(outcome, message);
     }
 }
 
 impl SavedRun {
-    /// Takes what a checkpoint holds.
+    /// Returns the states that a `checkpoint` holds.
     pub(super) fn read(checkpoint: &Checkpoint) -> Result<Self, Error> {
         let simulation = SavedSimulation::read(checkpoint)?;
         Ok(Self { simulation, recorder: checkpoint.get(RECORDER)? })
     }
 }
 
-/// Identity of a run: the program, to the last byte, and all that the scene was read from.
+/// Returns the identity of a run: all bytes of the `program`, and all files from which the `scene`
+/// was read.
 fn identity(scene: &Scene, program: &Path) -> Identity {
     let identity = Identity::new(concat!("drape ", env!("CARGO_PKG_VERSION")));
     let parts = scene.source.parts.iter();

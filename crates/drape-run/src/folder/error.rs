@@ -1,10 +1,10 @@
-//! Errors of a run that is kept in a folder, each with its remedy.
+//! Errors of a run in a folder, each with its remedy.
 
 use std::path::PathBuf;
 
 use drape_input::Diagnostics;
 
-/// Reason why a run cannot begin, go on or be kept.
+/// Reason why a run cannot begin, continue or be stored.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -14,7 +14,7 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
-    /// The folder holds a run that was interrupted: go on with it, or allow it to be replaced.
+    /// The folder holds an interrupted run: continue the run, or allow it to be replaced.
     #[error(
         "{place} holds a run that was interrupted; go on with `drape resume {place}`, or begin anew \
          with --force",
@@ -41,7 +41,7 @@ pub enum Error {
         /// Length of a step, in s.
         step: f64,
     },
-    /// No run was begun in the folder: name another one.
+    /// No run was begun in the folder: name another folder.
     #[error("{}: {reason}; a folder that `drape run` has begun has it", path.display())]
     NotBegun {
         /// File of the request.
@@ -49,7 +49,7 @@ pub enum Error {
         /// Reason, in words.
         reason: String,
     },
-    /// The run has come to its end: extend it.
+    /// The run has reached its end: extend it.
     #[error(
         "{}: the run has ended ({status}); go on beyond its end with --extend SECONDS",
         folder.display()
@@ -72,7 +72,7 @@ pub enum Error {
         /// Status of its summary.
         status: String,
     },
-    /// No checkpoint is left that could be extended: run the scene anew.
+    /// No checkpoint exists that could be extended: run the scene anew.
     #[error("{}: no checkpoint is left to extend", folder.display())]
     NoCheckpoint {
         /// The folder.
@@ -81,7 +81,7 @@ pub enum Error {
     /// The cloth has come to rest, which ends a run.
     #[error("the cloth is at rest, by which the run is over; there is nothing to extend")]
     AtRest,
-    /// The folder cannot be made: check space and permissions.
+    /// The folder cannot be created: check space and permissions.
     #[error("cannot write {}: {reason}", folder.display())]
     Folder {
         /// The folder.
@@ -92,7 +92,7 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] crate::file::Error),
-    /// The scene, or what a checkpoint was made from, has mistakes.
+    /// The scene, or an input of a checkpoint, has mistakes.
     #[error(transparent)]
     Input(#[from] Diagnostics),
     /// The simulation cannot be set up, or its results cannot be written.

@@ -1,4 +1,4 @@
-//! Run of a scene that is kept in a folder, from its start or from a checkpoint to its summary.
+//! Run of a scene in a folder, from its start or from a checkpoint to its summary.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use drape_export::write_obj;
 use drape_frames::Recording;
 use drape_scene::Scene;
 
-/// Run of a scene in a folder that is its own.
+/// Run of a scene in a folder that no other run uses.
 pub struct FolderRun {
     pub(super) scene: Scene,
     pub(super) folder: PathBuf,
@@ -30,19 +30,20 @@ pub struct FolderRun {
     pub(super) give_up: Arc<AtomicBool>,
     /// Whether the state is hashed after each step.
     pub(super) state_hash: bool,
-    /// Checkpoint from which it goes on.
+    /// Checkpoint from which the run continues.
     pub(super) resumption: Option<Resumption>,
 }
 
-/// Checkpoint from which a run goes on, and by how much it goes on beyond its end, in s.
+/// Checkpoint from which a run continues, and the time by which the run is extended beyond its end,
+/// in s.
 pub(super) struct Resumption {
     pub(super) saved: SavedRun,
     pub(super) extend: Option<f64>,
 }
 
-/// Run that has ended. It keeps its folder until it is dropped.
+/// Run that has ended. It locks its folder until it is dropped.
 pub struct EndedRun {
-    /// Summary, which `summary.json` holds too.
+    /// Summary, which is also in `summary.json`.
     pub summary: Summary,
     /// Folder of the results.
     pub output: Output,
@@ -52,7 +53,7 @@ pub struct EndedRun {
     _lock: Lock,
 }
 
-/// Gives a scene another end, in s.
+/// Sets the end of a `scene` to `end`, in s.
 ///
 /// # Errors
 /// An end before the first step.
@@ -66,11 +67,11 @@ pub fn end_at(scene: &mut Scene, end: f64) -> Result<(), Error> {
 }
 
 impl FolderRun {
-    /// Begins a run of a scene in a folder, by a request that was made of it.
+    /// Begins a run of a `scene` in a `folder`, with a `request` for this scene.
     ///
     /// # Errors
-    /// A folder that another run writes to, that holds results or an interrupted run and may not be
-    /// replaced, that cannot be written, or that has not the space.
+    /// Another run writes to the folder, the folder holds results or an interrupted run and may not
+    /// be replaced, the folder cannot be written, or the disk is full.
     pub fn begin(
         scene: Scene,
         folder: &Path,
@@ -85,6 +86,7 @@ impl FolderRun {
         if graded_by.is_some() && graded_by == place(folder) {
             return Err(Error::GradedBy { folder: folder.to_owned() });
         }
+
         check_space(&scene, folder)?;
         let lock = Lock::take(folder)?;
         let output = prepare_folder(folder, options.replace)?;
@@ -102,16 +104,17 @@ impl FolderRun {
         })
     }
 
-    /// Returns the scene.
+    /// Returns the `scene`.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Runs it to its end and writes its results; a run that fails has a summary too.
+    /// Runs the scene to its end and writes its results, while `watcher` sees the progress. A run
+    /// that fails has a summary too.
     ///
     /// # Errors
-    /// A simulation that cannot be set up, or results that cannot be written.
+    /// The simulation cannot be set up, or results cannot be written.
     pub fn run(self, watcher: &mut dyn Watcher) -> Result<EndedRun, Error> {
         let Self { scene, folder, output, writer, lock, give_up, state_hash, resumption } = self;
         let mut simulation = Simulation::new(scene)?;
@@ -129,17 +132,20 @@ impl FolderRun {
                 output.resume(saved.recorder)?
             }
         };
+
         let goal = Goal::new(&simulation);
         let mut progress = FolderProgress { recorder, writer, goal, last: None, watcher };
         let mut summary = simulation.run(&mut progress)?;
         let FolderProgress { mut writer, last, recorder, .. } = progress;
         let recorded = recorder.save()?;
         drop(recorder);
+
         if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
             summary.reason = Some(limit.to_owned());
         }
         output.summary(&summary)?;
-        // A run that is cut off before here repeats its last steps, to the same summary.
+        // A run that is interrupted before this point repeats its last steps and reaches the same
+        // summary.
         if matches!(summary.status, Status::Ok | Status::DidNotSettle) {
             writer.keep(&simulation.saved(), &recorded)?;
         }
@@ -153,7 +159,8 @@ impl FolderRun {
 }
 
 impl EndedRun {
-    /// Tells other programs how the run ended, and leaves the folder to them.
+    /// Writes the outcome of the run for other programs, releases the folder and returns the
+    /// [`Summary`].
     #[must_use]
     pub fn close(mut self) -> Summary {
         let state = serde_json::to_value(&self.summary.status).unwrap_or_default();
@@ -162,7 +169,7 @@ impl EndedRun {
     }
 }
 
-/// Saves the last frame as `last.obj`, which any program opens.
+/// Saves the last frame in `folder` as `last.obj`, which any program opens.
 fn save_last(folder: &Path) -> Result<(), Error> {
     let recording = Recording::open(folder)?;
     let frame = recording.frame(recording.frame_count() - 1)?;

@@ -1,46 +1,50 @@
-//! Goal of a run, and how much of it is done: a number that grows from step to step, and is 1 at the end.
+//! Goal of a run, and the fraction of the run that is done: a number that grows from step to step,
+//! and is 1 at the end.
 //!
-//! A run has phases, on several grids; the time that each takes is not known before. Each has a weight,
-//! the steps that such phases took on garments and drapes times what a step costs, and a part that is
-//! done:
+//! A run has phases on several grids. The time that a phase takes is not known before. Each phase
+//! has a weight and a fraction that is done. The weight is the number of steps that such phases
+//! took on garments and drapes, times the cost of a step. The fraction is
 //!
-//! * of sewing and motion, the part of their time;
-//! * on the way to rest, the part of the decades from the largest speed and imbalance to those that count
-//!   as rest, the mean of both. Cloth that still falls comes no nearer; so the steps themselves count too.
+//! * for sewing and motion, the fraction of their time,
+//! * for the relaxation to rest, the mean over speed and imbalance of the covered fraction of the
+//! decades from the largest value to the value that counts as rest. Falling cloth comes no nearer
+//! to rest, so the number of steps counts too.
 
 use drape_dynamics::{PhaseName, PlannedPhase, Simulation, Step};
 use drape_scene::Relaxation;
 
-/// Steps that sewing takes, by the shipped garments: 9 to 28. A step costs as much as two others.
+/// Number of steps that sewing takes. The shipped garments take 9 to 28. A step costs as much as
+/// two other steps.
 const SEWING_WORK: f64 = 40.0;
 
-/// Steps to rest, by the shipped garments and drapes: 20 to 150.
+/// Number of steps to rest. The shipped garments and drapes take 20 to 150.
 const REST_WORK: f64 = 40.0;
 
-/// Cost of a step in time, over that of one to rest.
+/// Cost of a step in time, over the cost of a step to rest.
 const MOTION_COST: f64 = 0.3;
 
-/// Power of the number of particles with which the time of a step grows, by the shipped garment on three
-/// grids.
+/// Exponent of the number of particles in the time of a step, fitted to the shipped garment on
+/// three grids.
 const GROWTH: f64 = 0.7;
 
-/// Part of a sewing that is done when the seams are to be closed; some take longer.
+/// Fraction of a sewing that is done at the time at which the seams are to be closed. Some sewings
+/// take longer.
 const SEWN: f64 = 0.9;
 
-/// Steps to rest after which most of the part is reached that the number of steps alone can give, without
-/// inertia and with it.
+/// Number of steps to rest after which most of [`BY_STEPS`] is reached, without inertia and with
+/// inertia.
 const PATIENCE: [f64; 2] = [100.0, 1000.0];
 
-/// Largest part of the way to rest that the number of steps alone can give.
+/// Largest fraction of a relaxation that the number of steps alone can give.
 const BY_STEPS: f64 = 0.5;
 
-/// Largest part that is done while a step is left.
+/// Largest fraction that is reported while a step remains.
 const NEARLY: f64 = 0.999;
 
-/// Goal of a run, by which it is known how much of it is done.
+/// Goal of a run, which says what fraction of the run is done.
 #[derive(Debug, Clone)]
 pub struct Goal {
-    /// Phases that are to come, the current one first.
+    /// Remaining phases, the current phase first.
     planned: Vec<PlannedPhase>,
     rest: Option<Relaxation>,
     /// Length of a whole step, in s.
@@ -48,24 +52,24 @@ pub struct Goal {
     /// Work of the phases that are over.
     over: f64,
     current: CurrentPhase,
-    /// Part that is done so far.
+    /// Fraction that is done so far.
     done: f64,
 }
 
 /// Phase that the run is in.
 #[derive(Debug, Clone, Default)]
 struct CurrentPhase {
-    /// Time before its first step, in s; none before that.
+    /// Time before the first step of the phase, in s. `None` before this step.
     start: Option<f64>,
     steps: usize,
-    /// Largest speed and imbalance, over those that count as rest.
+    /// Largest speed and imbalance, over the values that count as rest.
     farthest: [f64; 2],
-    /// Part of the way to rest so far.
+    /// Fraction of the relaxation so far, by speed and imbalance.
     way: f64,
 }
 
 impl Goal {
-    /// Returns the goal of a simulation, from now on.
+    /// Returns the goal of a `simulation`, from its current state on.
     #[must_use]
     pub fn new(simulation: &Simulation) -> Self {
         Self {
@@ -78,24 +82,26 @@ impl Goal {
         }
     }
 
-    /// Returns how much of the run is done after a step, 0 to 1. It never falls, and is 1 after the last
-    /// step alone.
+    /// Returns the fraction of the run that is done after a `step`, 0 to 1. The fraction never
+    /// falls, and is 1 after the last step alone.
     pub fn done(&mut self, step: &Step) -> f64 {
         if step.finished {
             self.done = 1.0;
             return 1.0;
         }
+
         self.begin(step);
         let Some(phase) = self.planned.first().copied() else { return self.done };
         let work = self.work(&phase);
-        let left: f64 = self.planned.iter().map(|phase| self.work(phase)).sum();
+        let remaining: f64 = self.planned.iter().map(|phase| self.work(phase)).sum();
         let part = self.current.part(step, &phase, self.rest);
-        let done = (self.over + part * work) / (self.over + left);
+        let done = (self.over + part * work) / (self.over + remaining);
         self.done = self.done.max(done.min(NEARLY));
         self.done
     }
 
-    /// Begins the phase of a step, if it is another; those before it are over.
+    /// Begins the phase of a `step`, if the step belongs to another phase. The phases before it are
+    /// over.
     fn begin(&mut self, step: &Step) {
         let is_of = |phase: &PlannedPhase| {
             phase.name == step.phase && phase.coarser_grid == step.coarser_grid
@@ -103,24 +109,25 @@ impl Goal {
         if self.planned.first().is_none_or(is_of) {
             return;
         }
+
         self.current = CurrentPhase::default();
         match self.planned.iter().position(is_of) {
             Some(index) => {
                 let over: Vec<PlannedPhase> = self.planned.drain(..index).collect();
                 self.over += over.iter().map(|phase| self.work(phase)).sum::<f64>();
             }
-            // A grid whose cloth could not be carried to the next, which sews once more.
+            // The cloth of a grid could not be carried to the next grid, which sews once more.
             None => {
                 let first =
-                    self.planned.iter().position(|own| own.coarser_grid == step.coarser_grid);
-                let own = first.map_or(self.planned[0], |index| self.planned[index]);
+                    self.planned.iter().position(|phase| phase.coarser_grid == step.coarser_grid);
+                let phase = first.map_or(self.planned[0], |index| self.planned[index]);
                 self.planned.drain(..first.unwrap_or(0));
-                self.planned.insert(0, PlannedPhase { name: step.phase, ..own });
+                self.planned.insert(0, PlannedPhase { name: step.phase, ..phase });
             }
         }
     }
 
-    /// Returns the work of a phase, in steps to rest of one particle.
+    /// Returns the work of a `phase`, in steps to rest of one particle.
     fn work(&self, phase: &PlannedPhase) -> f64 {
         let steps = match (phase.name, phase.seconds) {
             (PhaseName::Sew, _) => SEWING_WORK,
@@ -132,7 +139,8 @@ impl Goal {
 }
 
 impl CurrentPhase {
-    /// Takes a step into account; returns the part of the phase that is done, 0 to 1.
+    /// Takes a `step` of the `phase` into account. Returns the fraction of the phase that is done,
+    /// 0 to 1.
     fn part(&mut self, step: &Step, phase: &PlannedPhase, rest: Option<Relaxation>) -> f64 {
         self.steps += 1;
         let start = *self.start.get_or_insert(step.time - step.dt);
@@ -144,7 +152,8 @@ impl CurrentPhase {
         }
     }
 
-    /// Returns the part of the way to rest: of the decades of speed and imbalance, and by the steps.
+    /// Returns the fraction of the relaxation that is done after a `step`: of the decades of speed
+    /// and imbalance, and by the number of steps.
     fn part_to_rest(&mut self, step: &Step, rest: &Relaxation) -> f64 {
         let distances = [step.speed_max / rest.speed, step.imbalance / rest.residual];
         let mut way = 0.0;
@@ -155,6 +164,7 @@ impl CurrentPhase {
             way += if decades > 0.0 { 0.5 * (1.0 - distance.ln() / decades) } else { 0.5 };
         }
         self.way = self.way.max(way);
+
         let [quick, slow] = PATIENCE;
         let patience = if rest.inertia { slow } else { quick };
         let by_steps = BY_STEPS * (1.0 - (-(self.steps as f64) / patience).exp());
@@ -162,7 +172,8 @@ impl CurrentPhase {
     }
 }
 
-/// Returns the part of a sewing at a time over that at which the seams are to be closed.
+/// Returns the fraction of a sewing that is done at a `time`. The time is a multiple of the time at
+/// which the seams are to be closed.
 fn part_of_sewing(time: f64) -> f64 {
     if time < 1.0 { SEWN * time } else { 1.0 - (1.0 - SEWN) * (1.0 - time).exp() }
 }

@@ -1,9 +1,9 @@
-//! Limits that a user sets to a run: time, memory, disk.
+//! Limits that a user sets for a run: time, memory, disk.
 
 use std::path::Path;
 use std::time::Instant;
 
-/// Limits of a run. One that is reached ends it with a checkpoint.
+/// Limits of a run. A run that reaches a limit ends with a checkpoint.
 #[derive(Debug, Clone, Default)]
 pub struct Limits {
     /// Time, in s.
@@ -18,8 +18,8 @@ pub struct Limits {
 const MEGABYTE: f64 = 1e6;
 
 impl Limits {
-    /// Returns the limit that is reached, in words: by a run that began at a time and writes to a
-    /// folder.
+    /// Returns the first limit, in words, that is reached by a run that began at `begin` and writes
+    /// to `folder`.
     pub fn reached(&self, begin: Instant, folder: &Path) -> Option<String> {
         let over = |limit: Option<f64>, now: Option<f64>| {
             limit.zip(now).filter(|(limit, now)| now >= limit)
@@ -27,6 +27,8 @@ impl Limits {
         if let Some((limit, now)) = over(self.max_wall, Some(begin.elapsed().as_secs_f64())) {
             return Some(format!("--max-wall: it has taken {now:.0} s, of {limit} s"));
         }
+
+        // Memory and disk are measured only where they are limited.
         let memory = || resident_bytes().map(|bytes| bytes / MEGABYTE);
         if let Some((limit, now)) = over(self.max_memory, self.max_memory.and_then(|_| memory())) {
             return Some(format!("--max-memory: it takes {now:.0} MB, of {limit} MB"));
@@ -39,7 +41,8 @@ impl Limits {
     }
 }
 
-/// Returns the resident memory of the program, in bytes; `None` where the system does not report it.
+/// Returns the resident memory of the program, in bytes, by `/proc`. Returns `None` where the
+/// system does not report it.
 fn resident_bytes() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
@@ -47,10 +50,10 @@ fn resident_bytes() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// Bytes of the files of a folder.
+/// Returns the size of the files of a `folder`, in bytes.
 fn bytes_in(folder: &Path) -> f64 {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.filter_map(|entry| entry.metadata().ok()).map(|found| found.len() as f64).sum()
+    entries.filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len() as f64).sum()
 }
 
 #[cfg(test)]

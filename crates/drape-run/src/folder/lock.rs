@@ -1,17 +1,17 @@
-//! Lock of a folder: one run writes to it at a time.
+//! Lock of a folder. Only one run at a time writes to the folder.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
 
 use super::Error;
 
-/// Lock of a folder, until it is dropped or its process ends, however it does.
+/// Lock of a folder until the value is dropped or the process ends, by whatever cause.
 pub(super) struct Lock {
     _file: File,
 }
 
 impl Lock {
-    /// Takes the lock of a folder, which is created.
+    /// Takes the lock of a `folder`, which is created.
     pub(super) fn take(folder: &Path) -> Result<Self, Error> {
         let fail = |reason| Error::Folder { folder: folder.to_owned(), reason };
         std::fs::create_dir_all(folder).map_err(fail)?;

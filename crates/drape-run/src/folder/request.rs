@@ -1,4 +1,4 @@
-//! Request of a run: its scene and options, with which `drape resume` creates the simulation again.
+//! Request of a run: its scene and options. `drape resume` creates the simulation from it again.
 
 use std::path::{Path, PathBuf};
 
@@ -8,18 +8,18 @@ use serde::{Deserialize, Serialize};
 use super::Error;
 use crate::file;
 
-/// Name of its file.
+/// Name of the file of the request.
 const NAME: &str = "run.json";
 
-/// What stands for a scene without a file: one from standard input, or a text.
+/// Path of a scene without a file: a scene from standard input, or a text.
 const STANDARD: &str = "-";
 
 /// Options of a run: its scene, its end and the interval of its checkpoints.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct RunRequest {
-    /// Scene, as a whole path, or `-` for standard input.
+    /// Path of the scene from the root, or `-` for standard input.
     pub scene: PathBuf,
-    /// End of the run, in s, if it is not that of the scene.
+    /// End of the run, in s, if it differs from the end of the scene.
     pub until: Option<f64>,
     /// Time between two checkpoints, in s.
     pub checkpoint_every: f64,
@@ -32,14 +32,15 @@ pub struct RunRequest {
 }
 
 impl RunRequest {
-    /// Makes the request of a scene.
+    /// Returns the request of a run of `scene` that ends at `until` and writes a checkpoint every
+    /// `checkpoint_every` seconds.
     #[must_use]
     pub fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
         let scene = whole_path(scene);
         Self { scene, until, checkpoint_every, state_hash: false, set: Vec::new() }
     }
 
-    /// Returns the keys of the scene that were set.
+    /// Returns the keys of the scene that were set, each as a [`Setting`].
     ///
     /// # Errors
     /// A text that sets no key.
@@ -54,12 +55,12 @@ impl RunRequest {
         settings.collect()
     }
 
-    /// Gives the scene another place.
+    /// Replaces the path of the scene by `scene`.
     pub fn move_scene(&mut self, scene: &Path) {
         self.scene = whole_path(scene);
     }
 
-    /// Writes it to a folder.
+    /// Writes the request to a `folder`.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -68,7 +69,7 @@ impl RunRequest {
         Ok(file::write(&folder.join(NAME), text + "\n")?)
     }
 
-    /// Reads that of a folder.
+    /// Reads the request of the run in a `folder`.
     ///
     /// # Errors
     /// No run was begun in the folder.
@@ -82,13 +83,14 @@ impl RunRequest {
         serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
     }
 
-    /// Returns whether the scene has no file: it came from standard input, or is a text.
+    /// Returns whether the scene has no file, because it came from standard input ([`STANDARD`]) or
+    /// is a text.
     #[must_use]
     pub fn has_no_file(&self) -> bool {
         self.scene.as_os_str() == STANDARD
     }
 
-    /// Returns whether a folder holds a run that was begun and has not ended.
+    /// Returns whether a `folder` holds a run that was begun and has not ended.
     #[must_use]
     pub fn is_interrupted(folder: &Path) -> bool {
         let ended = status_of(folder).is_some_and(|status| status != "interrupted");
@@ -96,17 +98,17 @@ impl RunRequest {
     }
 }
 
-/// Returns a path from the root of the file system; that of standard input stays.
+/// Returns the path `scene` from the root of the file system. The path of standard input stays.
 fn whole_path(scene: &Path) -> PathBuf {
     let whole = std::path::absolute(scene).ok().filter(|_| scene.as_os_str() != STANDARD);
     whole.unwrap_or_else(|| scene.to_owned())
 }
 
-/// Returns the `status` of a run's summary; `None` without a summary.
+/// Returns the `status` in the summary of the run in `folder`. Returns `None` without a summary.
 pub(super) fn status_of(folder: &Path) -> Option<String> {
     let path = folder.join("summary.json");
     // Reading a pipe would wait for ever.
-    let is_file = std::fs::metadata(&path).is_ok_and(|found| found.is_file());
+    let is_file = std::fs::metadata(&path).is_ok_and(|metadata| metadata.is_file());
     let text = is_file.then(|| std::fs::read(&path).ok())??;
     let summary: serde_json::Value = serde_json::from_slice(&text).ok()?;
     Some(summary["status"].as_str()?.to_owned())

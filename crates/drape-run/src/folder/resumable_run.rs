@@ -1,5 +1,5 @@
-//! Run to resume: one that was interrupted, from its last checkpoint, or one that has ended, beyond
-//! its end.
+//! Run to resume: an interrupted run continues from its last checkpoint, and a run that has ended
+//! continues beyond its end.
 
 use std::path::{Path, PathBuf};
 
@@ -14,21 +14,22 @@ use drape_dynamics::{Output, prepare_folder};
 use drape_input::Diagnostic;
 use drape_scene::Scene;
 
-/// Run in a folder that is to go on.
+/// Run in a folder that is to continue.
 pub struct ResumableRun {
-    /// Request by which it began.
+    /// Request with which the run began.
     pub request: RunRequest,
     folder: PathBuf,
-    /// Time to go on beyond its end, in s.
+    /// Time to continue beyond the end of the run, in s.
     extend: Option<f64>,
     lock: Lock,
 }
 
 impl ResumableRun {
-    /// Opens a run, to go on to its end, or for so many seconds beyond it.
+    /// Opens the run in `folder`, to continue to its end, or for `extend` seconds beyond its end.
     ///
     /// # Errors
-    /// A folder in which no run was begun, to which one writes, or whose run cannot go on.
+    /// No run was begun in the folder, another run writes to the folder, or the run cannot
+    /// continue.
     pub fn open(folder: &Path, extend: Option<f64>) -> Result<Self, Error> {
         let request = RunRequest::read(folder)?;
         let lock = Lock::take(folder)?;
@@ -36,11 +37,12 @@ impl ResumableRun {
         Ok(Self { request, folder: folder.to_owned(), extend, lock })
     }
 
-    /// Returns the run of its scene, which was read again, from the last checkpoint; with notes on
+    /// Returns the run of `scene`, which was read again, from the last checkpoint, with notes on
     /// checkpoints that are damaged or missing.
     ///
     /// # Errors
-    /// A scene or a program that has changed since, or no checkpoint to extend.
+    /// The scene or the program has changed since the run was begun, or there is no checkpoint to
+    /// extend.
     pub fn go_on(
         self,
         scene: Scene,
@@ -48,16 +50,17 @@ impl ResumableRun {
     ) -> Result<(FolderRun, Vec<String>), Error> {
         let Self { request, folder, extend, lock } = self;
         let writer = CheckpointWriter::new(&folder, &scene, request.checkpoint_every, options);
-        let found = Store::new(&folder).read().map_err(drape_dynamics::Error::from)?;
-        let damaged = found.damaged.iter().map(|damaged| {
+        let stored = Store::new(&folder).read().map_err(drape_dynamics::Error::from)?;
+        let damaged = stored.damaged.iter().map(|damaged| {
             let (path, fault) = (damaged.path.display(), &damaged.fault);
             format!("warning: {path} is damaged: {fault}; an earlier state is used")
         });
         let mut notes: Vec<String> = damaged.collect();
-        let resumption = match &found.newest {
+
+        let resumption = match &stored.newest {
             Some(checkpoint) => {
                 check_identity(&writer, checkpoint, &scene)?;
-                found.remove_damaged().map_err(drape_dynamics::Error::from)?;
+                stored.remove_damaged().map_err(drape_dynamics::Error::from)?;
                 Some(Resumption { saved: SavedRun::read(checkpoint)?, extend })
             }
             None if extend.is_some() => return Err(Error::NoCheckpoint { folder }),
@@ -66,6 +69,7 @@ impl ResumableRun {
                 None
             }
         };
+
         let output = match &resumption {
             Some(_) => Output::resumed(&folder),
             None => prepare_folder(&folder, true)?,
@@ -78,7 +82,7 @@ impl ResumableRun {
     }
 }
 
-/// Refuses a run that has ended, unless it is to go on beyond an end that time gave it.
+/// Refuses a run that has ended, unless it is to `extend` an end that was set by time.
 fn refuse_ended(folder: &Path, extend: Option<f64>) -> Result<(), Error> {
     let Some(status) = status_of(folder) else { return Ok(()) };
     let folder = folder.to_owned();
@@ -89,7 +93,7 @@ fn refuse_ended(folder: &Path, extend: Option<f64>) -> Result<(), Error> {
     }
 }
 
-/// Refuses a checkpoint that was written by another program, or from other input.
+/// Refuses a `checkpoint` that was written by another program, or from another input.
 fn check_identity(
     writer: &CheckpointWriter,
     checkpoint: &Checkpoint,

@@ -1,11 +1,11 @@
-//! Space: what a run needs of memory and disk, and whether the disk has it.
+//! Space: the memory and the disk that a run needs, and whether the disk has enough space.
 
 use std::path::{Path, PathBuf};
 
 use drape_input::{Diagnostic, Diagnostics};
 use drape_scene::{Needs, Scene};
 
-/// Returns what a run needs, in words.
+/// Returns the `needs` of a run, in words.
 #[must_use]
 pub fn describe_needs(needs: &Needs) -> String {
     let up_to = if needs.may_rest { "up to " } else { "" };
@@ -17,7 +17,7 @@ pub fn describe_needs(needs: &Needs) -> String {
     )
 }
 
-/// Refuses a run whose results do not fit where its folder is.
+/// Refuses a run of `scene` whose results do not fit on the disk of `folder`.
 pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostics> {
     let Some(free) = free(folder) else { return Ok(()) };
     let needs = scene.needs();
@@ -34,16 +34,17 @@ pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostic
     Err(Diagnostic::new(&scene.source.file, message).help(help).into())
 }
 
-/// Returns the space that is free where a folder is or would be, in bytes, if the system says it.
+/// Returns the free space of the disk that has or would have `folder`, in bytes. Returns `None` if
+/// the system does not report it.
 fn free(folder: &Path) -> Option<u64> {
     let folder = std::path::absolute(folder).ok()?;
-    let there: PathBuf = folder.ancestors().find(|path| path.is_dir())?.to_owned();
-    let found = rustix::fs::statvfs(&there).ok()?;
-    // Some systems of files do not count.
-    (found.f_blocks > 0).then(|| found.f_bavail.saturating_mul(found.f_frsize))
+    let existing: PathBuf = folder.ancestors().find(|path| path.is_dir())?.to_owned();
+    let statistics = rustix::fs::statvfs(&existing).ok()?;
+    // Some file systems do not count their blocks.
+    (statistics.f_blocks > 0).then(|| statistics.f_bavail.saturating_mul(statistics.f_frsize))
 }
 
-/// Returns a number of bytes in words.
+/// Returns a size in `bytes` in words.
 fn in_words(bytes: u64) -> String {
     let bytes = bytes as f64;
     match bytes {

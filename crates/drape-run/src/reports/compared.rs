@@ -1,4 +1,4 @@
-//! Page of `drape fabric compare`: what was measured on fabrics, and their laws beside it.
+//! Page of `drape fabric compare`: measured values of fabrics, with the values of their laws.
 
 use drape_fabric::Fabric;
 use drape_fit::{FitSettings, fabric_values};
@@ -16,28 +16,28 @@ use super::{kes_value, quantity};
 /// Tests whose curves are overlaid, in the order of the page.
 const MEASURED: [Test; 4] = [Test::Tensile, Test::Bending, Test::LoopBending, Test::Shear];
 
-/// Relative difference of the loads of two tensile tests above which their values are not compared.
+/// Largest relative difference of the loads of tensile tests whose values are compared.
 const SAME_LOAD: f64 = 0.01;
 
 /// Values that the model does not use, or uses for contact alone, by their symbols.
 const OTHERS: [&str; 6] = ["TM", "LC", "WC", "RC", "MMD", "SMD"];
 
-/// Fabric that is compared, with the sheet of its measurements where that is at hand.
+/// Fabric that is compared, with the sheet of its measurements if there is one.
 #[derive(Clone, Copy)]
 pub struct ComparedFabric<'a> {
-    /// Its laws.
+    /// Fabric with its laws.
     pub fabric: &'a Fabric,
-    /// What was measured.
+    /// Measurements of the fabric.
     pub sheet: Option<&'a Sheet>,
 }
 
 impl ComparedFabric<'_> {
-    /// Returns the points at which its KES values are read.
+    /// Returns the points at which KES values are read, by the `sheet`.
     fn points(&self) -> EvaluationPoints {
         FitSettings::default().evaluation_points(self.sheet.unwrap_or(&Sheet::default()))
     }
 
-    /// Returns the numbers of a KES value, in SI.
+    /// Returns the numbers of the KES value `symbol` in a `direction`, in SI.
     pub(super) fn number(&self, direction: Direction, symbol: Symbol) -> ComparedNumber {
         let unit = kes_value::units(symbol.name()).kes.map_or(1.0, |unit| unit.in_si);
         let laws = fabric_values(self.fabric, direction, &self.points());
@@ -45,17 +45,20 @@ impl ComparedFabric<'_> {
         let Some(sheet) = self.sheet else {
             return ComparedNumber { law, ..ComparedNumber::default() };
         };
+
         let is_assumed = !is_known(sheet, direction, symbol);
         let stated = sheet.values(direction).get(symbol);
         let [measured, deviation] = match stated {
             Some(value) => [Some(value), deviation(sheet, symbol.name(), direction)],
             None => self.of_curve(sheet, direction, symbol),
         };
-        let [measured, deviation] = [measured, deviation].map(|own| own.map(|own| own * unit));
+        let [measured, deviation] =
+            [measured, deviation].map(|number| number.map(|number| number * unit));
         ComparedNumber { measured, deviation, law, is_assumed }
     }
 
-    /// Returns the value of a curve and its standard deviation over the repeats, in the laboratory's unit.
+    /// Returns the value `symbol` of a curve of `sheet` and its standard deviation over the
+    /// repeats, in the unit of the laboratory.
     fn of_curve(&self, sheet: &Sheet, direction: Direction, symbol: Symbol) -> [Option<f64>; 2] {
         let points = self.points();
         let Some(curve) = sheet.curves_of(symbol.test(), direction).next() else {
@@ -69,22 +72,28 @@ impl ComparedFabric<'_> {
         [value_of(curve), sample_deviation(&repeats)]
     }
 
-    /// Returns a value without direction, or of a direction, that no law has, in SI.
+    /// Returns the value `symbol` that no law has, in SI. The value has a `direction` or none.
     fn other(&self, symbol: &str, direction: Option<Direction>) -> Option<f64> {
         let unit = kes_value::units(symbol).kes.map_or(1.0, |unit| unit.in_si);
         let of_sheet = self.sheet.and_then(|sheet| {
             let listed = sheet.listed();
             let value =
-                listed.iter().find(|own| own.symbol == symbol && own.direction == direction);
-            value.map(|own| own.value)
+                listed.iter().find(|entry| entry.symbol == symbol && entry.direction == direction);
+            value.map(|entry| entry.value)
         });
-        let key = direction.map_or(symbol.to_owned(), |own| format!("{}.{symbol}", own.name()));
-        let kept = self.fabric.provenance.as_ref().and_then(|own| own.unused.get(&key).copied());
+        let key = direction
+            .map_or(symbol.to_owned(), |direction| format!("{}.{symbol}", direction.name()));
+        let kept = self
+            .fabric
+            .provenance
+            .as_ref()
+            .and_then(|provenance| provenance.unused.get(&key).copied());
         of_sheet.or(kept).map(|value| value * unit)
     }
 }
 
-/// Returns whether a sheet has a value: itself, by others or by a curve. There is one law of shear.
+/// Returns whether a `sheet` determines the value `symbol`: directly, by other values or by a
+/// curve. There is one law of shear.
 fn is_known(sheet: &Sheet, direction: Direction, symbol: Symbol) -> bool {
     let tests = match symbol.test() {
         Test::Bending => &[Test::Bending, Test::LoopBending][..],
@@ -92,15 +101,16 @@ fn is_known(sheet: &Sheet, direction: Direction, symbol: Symbol) -> bool {
         _ => &[Test::Tensile],
     };
     let directions = if symbol.test() == Test::Shear { &DIRECTIONS[..] } else { &[direction] };
-    // The recovered work is known of a curve that comes back only.
+    // Only a curve that comes back determines the recovered work.
     let comes_back = |curve: &Curve| curve.branches().iter().any(|branch| !branch.rising);
     let has_curve = |curve: &Curve| {
         let is_of_law = tests.contains(&curve.test) && directions.contains(&curve.direction);
         is_of_law && (symbol != Symbol::Rt || comes_back(curve))
     };
-    let has =
-        |symbol: Symbol| directions.iter().any(|own| sheet.values(*own).get(symbol).is_some());
-    // WT is LT times EM times half of the load.
+    let has = |symbol: Symbol| {
+        directions.iter().any(|direction| sheet.values(*direction).get(symbol).is_some())
+    };
+    // WT is LT times EM times half of the load, so two of these values determine the third.
     let others = match symbol {
         Symbol::Wt => [Symbol::Lt, Symbol::Em],
         Symbol::Lt => [Symbol::Wt, Symbol::Em],
@@ -110,7 +120,7 @@ fn is_known(sheet: &Sheet, direction: Direction, symbol: Symbol) -> bool {
     sheet.curves.iter().any(has_curve) || has(symbol) || others.into_iter().all(has)
 }
 
-/// Returns the sample standard deviation of two or more numbers.
+/// Returns the sample standard deviation of `values`, `None` for fewer than two.
 fn sample_deviation(values: &[f64]) -> Option<f64> {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -118,17 +128,19 @@ fn sample_deviation(values: &[f64]) -> Option<f64> {
     (values.len() > 1).then(|| (squares / (count - 1.0)).sqrt())
 }
 
-/// Returns the page of fabrics: their measured curves and their loops overlaid, what was measured and
-/// the laws side by side.
+/// Returns the page of `fabrics`: their measured curves and the loops of their laws overlaid, with
+/// measured values and values of laws side by side.
 #[must_use]
 pub fn compare_page(fabrics: &[ComparedFabric<'_>]) -> ComparePage {
-    let name = |own: &ComparedFabric<'_>| FabricName {
-        name: own.fabric.name.clone(),
-        source: own.fabric.source.clone(),
+    let name = |compared: &ComparedFabric<'_>| FabricName {
+        name: compared.fabric.name.clone(),
+        source: compared.fabric.source.clone(),
     };
+
     let measured = MEASURED.into_iter().filter_map(|test| measured_overlay(fabrics, test));
     let loops = TESTS.into_iter().map(|test| law_overlay(fabrics, test));
     let alike = loads_are_alike(fabrics);
+
     let mut values = given_values(fabrics);
     for direction in DIRECTIONS {
         values.extend(Symbol::ALL.map(|symbol| ComparedValue {
@@ -136,11 +148,12 @@ pub fn compare_page(fabrics: &[ComparedFabric<'_>]) -> ComparePage {
             name: kes_value::words(symbol).into(),
             direction: direction.name().into(),
             units: kes_value::units(symbol.name()),
-            numbers: fabrics.iter().map(|own| own.number(direction, symbol)).collect(),
+            numbers: fabrics.iter().map(|compared| compared.number(direction, symbol)).collect(),
             is_comparable: alike || symbol.test() != Test::Tensile,
         }));
     }
     values.extend(other_values(fabrics));
+
     ComparePage {
         fabrics: fabrics.iter().map(name).collect(),
         version: VERSION.into(),
@@ -151,15 +164,17 @@ pub fn compare_page(fabrics: &[ComparedFabric<'_>]) -> ComparePage {
     }
 }
 
-/// Returns what was assumed, each assumption once with the fabrics that share it.
+/// Returns the assumptions of `fabrics`. Each assumption appears once, with the names of its
+/// fabrics.
 fn assumptions(fabrics: &[ComparedFabric<'_>]) -> Vec<String> {
     let mut shared: Vec<(&str, Vec<&str>)> = Vec::new();
-    for own in fabrics {
-        let assumed = own.fabric.provenance.as_ref().map_or(&[][..], |own| &own.assumed);
+    for compared in fabrics {
+        let assumed =
+            compared.fabric.provenance.as_ref().map_or(&[][..], |provenance| &provenance.assumed);
         for text in assumed {
             match shared.iter_mut().find(|(known, _)| known == text) {
-                Some((_, names)) => names.push(&own.fabric.name),
-                None => shared.push((text, vec![&own.fabric.name])),
+                Some((_, names)) => names.push(&compared.fabric.name),
+                None => shared.push((text, vec![&compared.fabric.name])),
             }
         }
     }
@@ -171,10 +186,10 @@ fn assumptions(fabrics: &[ComparedFabric<'_>]) -> Vec<String> {
     shared.into_iter().map(line).collect()
 }
 
-/// Returns an overlay of the curves that were measured in a test; none where there is none.
+/// Returns an overlay of the measured curves of a `test`, `None` if no fabric has such a curve.
 fn measured_overlay(fabrics: &[ComparedFabric<'_>], test: Test) -> Option<OverlayPlot> {
-    let traces = |own: &ComparedFabric<'_>| -> Vec<Trace> {
-        let curves = own.sheet.map_or(&[][..], |sheet| &sheet.curves);
+    let traces = |compared: &ComparedFabric<'_>| -> Vec<Trace> {
+        let curves = compared.sheet.map_or(&[][..], |sheet| &sheet.curves);
         let of_test = curves.iter().filter(|curve| curve.test == test);
         of_test.map(|curve| trace(curve.direction.name(), curve)).collect()
     };
@@ -183,18 +198,19 @@ fn measured_overlay(fabrics: &[ComparedFabric<'_>], test: Test) -> Option<Overla
     are_some.then(|| overlay(fabrics, test, format!("{}, measured", test.name()), traces))
 }
 
-/// Returns an overlay of the loops that an ideal instrument draws.
+/// Returns an overlay of the loops of a `test` that an ideal instrument would draw.
 fn law_overlay(fabrics: &[ComparedFabric<'_>], test: Test) -> OverlayPlot {
     let trace_of = |fabric: &Fabric, direction: Direction| {
         let label = if test == Test::Shear { "shear" } else { direction.name() };
         trace(label, &loop_of(fabric, test, direction))
     };
-    let traces = fabrics.iter().map(|own| {
-        directions(test).iter().map(|&direction| trace_of(own.fabric, direction)).collect()
+    let traces = fabrics.iter().map(|compared| {
+        directions(test).iter().map(|&direction| trace_of(compared.fabric, direction)).collect()
     });
     overlay(fabrics, test, format!("{}, laws", test.name()), traces.collect())
 }
 
+/// Returns an overlay of `traces` of a `test`.
 fn overlay(
     fabrics: &[ComparedFabric<'_>],
     test: Test,
@@ -202,11 +218,11 @@ fn overlay(
     traces: Vec<Vec<Trace>>,
 ) -> OverlayPlot {
     let [deformation, load] = quantity::axes(test);
-    let fabrics = fabrics.iter().map(|own| own.fabric.name.clone()).collect();
+    let fabrics = fabrics.iter().map(|compared| compared.fabric.name.clone()).collect();
     OverlayPlot { title, deformation, load, fabrics, traces }
 }
 
-/// Returns mass, thickness and friction of the surface.
+/// Returns mass, thickness and surface friction of `fabrics`.
 fn given_values(fabrics: &[ComparedFabric<'_>]) -> Vec<ComparedValue> {
     let value = |symbol: &str,
                  name: &str,
@@ -221,19 +237,20 @@ fn given_values(fabrics: &[ComparedFabric<'_>]) -> Vec<ComparedValue> {
             is_comparable: true,
         }
     };
-    let mass = value("W", "mass per area", quantity::mass(), |own| {
-        number(own.sheet.map(Sheet::density), own.fabric.density)
+    let mass = value("W", "mass per area", quantity::mass(), |compared| {
+        number(compared.sheet.map(Sheet::density), compared.fabric.density)
     });
-    let thickness = value("T", "thickness", quantity::thickness(), |own| {
-        number(own.sheet.map(Sheet::thickness), own.fabric.thickness)
+    let thickness = value("T", "thickness", quantity::thickness(), |compared| {
+        number(compared.sheet.map(Sheet::thickness), compared.fabric.thickness)
     });
-    let friction = value("µ", "surface friction", quantity::ratio(), |own| {
-        number(own.sheet.map(surface_friction), own.fabric.surface_friction)
+    let friction = value("µ", "surface friction", quantity::ratio(), |compared| {
+        number(compared.sheet.map(surface_friction), compared.fabric.surface_friction)
     });
     vec![mass, thickness, friction]
 }
 
-/// Returns a number of a sheet, if there is one and it has the number, beside that of the fabric.
+/// Returns the number `of_sheet` with the number of the `law`. The outer `None` stands for a fabric
+/// without a sheet, the inner `None` for a sheet without the number.
 fn number(of_sheet: Option<Option<f64>>, law: f64) -> ComparedNumber {
     ComparedNumber {
         measured: of_sheet.flatten(),
@@ -243,32 +260,33 @@ fn number(of_sheet: Option<Option<f64>>, law: f64) -> ComparedNumber {
     }
 }
 
-/// Returns the coefficient of friction of a sheet, the mean over its directions.
+/// Returns the coefficient of friction of a `sheet`, the mean over its directions.
 fn surface_friction(sheet: &Sheet) -> Option<f64> {
     let values: Vec<f64> = [sheet.warp.miu, sheet.weft.miu].into_iter().flatten().collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     sheet.miu.or((!values.is_empty()).then_some(mean))
 }
 
-/// Returns the values that no law has, where one fabric has them.
+/// Returns the values that no law has, if one of `fabrics` has them.
 fn other_values(fabrics: &[ComparedFabric<'_>]) -> Vec<ComparedValue> {
     let both = DIRECTIONS.map(Some);
     let directions = |symbol: &str| match symbol {
         "MMD" | "SMD" => &both[..],
         _ => &[None][..],
     };
-    let rows =
-        OTHERS.iter().flat_map(|symbol| directions(symbol).iter().map(move |own| (symbol, *own)));
+    let rows = OTHERS
+        .iter()
+        .flat_map(|symbol| directions(symbol).iter().map(move |direction| (symbol, *direction)));
     let value = |(symbol, direction): (&&str, Option<Direction>)| {
-        let measured = |own: &ComparedFabric<'_>| ComparedNumber {
-            measured: own.other(symbol, direction),
+        let measured = |compared: &ComparedFabric<'_>| ComparedNumber {
+            measured: compared.other(symbol, direction),
             ..ComparedNumber::default()
         };
         let numbers: Vec<ComparedNumber> = fabrics.iter().map(measured).collect();
-        numbers.iter().any(|own| own.measured.is_some()).then(|| ComparedValue {
+        numbers.iter().any(|number| number.measured.is_some()).then(|| ComparedValue {
             symbol: (*symbol).into(),
             name: other_name(symbol).into(),
-            direction: direction.map_or(String::new(), |own| own.name().into()),
+            direction: direction.map_or(String::new(), |direction| direction.name().into()),
             units: kes_value::units(symbol),
             numbers,
             is_comparable: true,
@@ -277,6 +295,7 @@ fn other_values(fabrics: &[ComparedFabric<'_>]) -> Vec<ComparedValue> {
     rows.filter_map(value).collect()
 }
 
+/// Returns the name of the value `symbol` that no law has.
 fn other_name(symbol: &str) -> &'static str {
     match symbol {
         "TM" => "thickness at 50 gf/cm²",
@@ -288,17 +307,18 @@ fn other_name(symbol: &str) -> &'static str {
     }
 }
 
-/// Returns whether all tensile tests went to the same load.
+/// Returns whether the tensile tests of all `fabrics` went to one load.
 fn loads_are_alike(fabrics: &[ComparedFabric<'_>]) -> bool {
-    let loads = fabrics.iter().map(|own| own.points().maximum_tension);
+    let loads = fabrics.iter().map(|compared| compared.points().maximum_tension);
     let (least, most) = loads.fold((f64::MAX, 0.0_f64), |(a, b), load| (a.min(load), b.max(load)));
     most <= least * (1.0 + SAME_LOAD)
 }
 
-/// Returns why tensile values have no differences, if they have none.
+/// Returns the reason why tensile values have no differences. Returns `None` if the loads
+/// `are_alike`.
 fn load_note(fabrics: &[ComparedFabric<'_>], are_alike: bool) -> Option<String> {
-    let load = |own: &ComparedFabric<'_>| {
-        format!("{} {:.1} N/m", own.fabric.name, own.points().maximum_tension)
+    let load = |compared: &ComparedFabric<'_>| {
+        format!("{} {:.1} N/m", compared.fabric.name, compared.points().maximum_tension)
     };
     let loads = fabrics.iter().map(load).collect::<Vec<_>>().join(", ");
     (!are_alike)

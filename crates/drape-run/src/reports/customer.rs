@@ -1,5 +1,5 @@
-//! Report to a customer: the head, the values with their scatter, the loops with the fit, the drape, and
-//! what was assumed.
+//! Report to a customer: the head, the values with their scatter, the loops with the fit, the
+//! drape, and the assumptions.
 
 use drape_fabric::{Fabric, Provenance};
 use drape_fit::{Fit, FitSettings, fabric_values};
@@ -21,29 +21,32 @@ use super::{kes_value, quantity};
 /// Values that no law has, in the order of the page.
 const OTHERS: [&str; 12] = ["W", "T", "T0", "TM", "c", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM"];
 
-/// Deformation at which a law is read, over the largest that was measured, above which the law is continued.
+/// A law is continued beyond its measurements if it is read at more than this multiple of the
+/// largest measured deformation.
 const BEYOND: f64 = 1.05;
 
 /// Fabric of a report.
 pub struct CustomerSubject<'a> {
-    /// Its laws.
+    /// Fabric with its laws.
     pub fabric: &'a Fabric,
-    /// What was measured, with the fit; `None` for a fabric without a sheet.
+    /// Measurements, with the fit. `None` for a fabric without a sheet.
     pub measured: Option<(&'a Sheet, &'a Fit)>,
     /// Customer, article, laboratory, date and specimens.
     pub record: TestRecord,
     /// Fabric on a drapemeter.
     pub drape: Option<ReportedDrape>,
-    /// Further notes on it.
+    /// Further notes on the fabric.
     pub notes: Vec<String>,
 }
 
 impl CustomerSubject<'_> {
+    /// Returns the measurements of [`CustomerSubject::measured`].
     fn sheet(&self) -> Option<&Sheet> {
         self.measured.map(|(sheet, _)| sheet)
     }
 
-    /// Returns the sheet, or one with the mass per area of the fabric alone, by which ranges are chosen.
+    /// Returns the sheet by which ranges are chosen. A fabric without a sheet gets one that has
+    /// only its mass per area.
     fn sheet_for_ranges(&self) -> Sheet {
         let mass = quantity::mass().kes.map_or(1.0, |unit| unit.in_si);
         self.sheet().cloned().unwrap_or_else(|| {
@@ -53,17 +56,19 @@ impl CustomerSubject<'_> {
         })
     }
 
-    /// Returns the number of a KES value.
+    /// Returns the numbers of the KES value `symbol` in a `direction`.
     fn number(&self, direction: Direction, symbol: Symbol) -> ComparedNumber {
         let compared = ComparedFabric { fabric: self.fabric, sheet: self.sheet() };
         let number = compared.number(direction, symbol);
         let provenance = self.fabric.provenance.as_ref().filter(|_| self.measured.is_none());
-        let is_assumed = provenance.is_some_and(|own| was_assumed(own, direction, symbol));
+        let is_assumed =
+            provenance.is_some_and(|provenance| was_assumed(provenance, direction, symbol));
         let is_extrapolated = number.measured.is_none() && self.is_beyond(direction, symbol);
         ComparedNumber { is_assumed: number.is_assumed || is_assumed || is_extrapolated, ..number }
     }
 
-    /// Returns whether the law is read for a value beyond all that was measured of it.
+    /// Returns whether the law is read beyond all its measurements for the value `symbol` in a
+    /// `direction`.
     fn is_beyond(&self, direction: Direction, symbol: Symbol) -> bool {
         let points =
             FitSettings::default().evaluation_points(self.sheet().unwrap_or(&Sheet::default()));
@@ -78,15 +83,20 @@ impl CustomerSubject<'_> {
             Symbol::TwoHg => ("shear", Some(points.shear.width.sin())),
             Symbol::TwoHg5 => ("shear", Some(points.shear.wide.sin())),
         };
+
         let key = match key {
             "shear" => key.to_owned(),
             key => format!("{}.{key}", direction.name()),
         };
-        let measured = self.fabric.provenance.as_ref().and_then(|own| own.measured_range.get(&key));
+        let measured = self
+            .fabric
+            .provenance
+            .as_ref()
+            .and_then(|provenance| provenance.measured_range.get(&key));
         measured.zip(deformation).is_some_and(|(measured, read)| read > BEYOND * measured)
     }
 
-    /// Returns a note for each law that is read beyond what was measured.
+    /// Returns a note for each direction in which values are read beyond the measurements.
     fn extrapolated(&self) -> Vec<String> {
         let mut notes = Vec::new();
         for direction in DIRECTIONS {
@@ -95,8 +105,11 @@ impl CustomerSubject<'_> {
                 compared.number(direction, *symbol).measured.is_none()
                     && self.is_beyond(direction, *symbol)
             };
-            let beyond: Vec<&str> =
-                Symbol::ALL.iter().filter(|own| is_read(own)).map(|own| own.name()).collect();
+            let beyond: Vec<&str> = Symbol::ALL
+                .iter()
+                .filter(|symbol| is_read(symbol))
+                .map(|symbol| symbol.name())
+                .collect();
             if !beyond.is_empty() {
                 notes.push(format!(
                     "{} {}: no curve reaches so far, the law is continued beyond what was measured",
@@ -108,22 +121,23 @@ impl CustomerSubject<'_> {
         notes
     }
 
-    /// Returns the values that no law has, of the sheet or as far as the fabric keeps them.
+    /// Returns the values that no law has. A fabric without a sheet has only the values in its
+    /// file.
     fn others(&self) -> Vec<OtherValue> {
         let Some(sheet) = self.sheet() else { return self.others_of_fabric() };
         let of_law =
-            |value: &CheckedValue| Symbol::ALL.iter().any(|own| own.name() == value.symbol);
+            |value: &CheckedValue| Symbol::ALL.iter().any(|symbol| symbol.name() == value.symbol);
         let listed = sheet_values(sheet).into_iter().filter(|value| !of_law(value));
         let other = |value: CheckedValue| {
             // Deviation and value have the same unit, so SI is by the ratio of the value.
-            let deviation = value.deviation.map(|own| own * value.si / value.value);
+            let deviation = value.deviation.map(|deviation| deviation * value.si / value.value);
             OtherValue {
                 symbol: value.symbol.into(),
                 name: value.name.into(),
                 direction: value.direction.unwrap_or_default().into(),
                 number: ComparedNumber {
                     measured: Some(value.si),
-                    deviation: deviation.filter(|own| own.is_finite()),
+                    deviation: deviation.filter(|deviation| deviation.is_finite()),
                     ..ComparedNumber::default()
                 },
                 range: value.usual,
@@ -132,6 +146,7 @@ impl CustomerSubject<'_> {
         listed.map(other).collect()
     }
 
+    /// Returns the values of the fabric without a sheet that no law has.
     fn others_of_fabric(&self) -> Vec<OtherValue> {
         let fabric = self.fabric;
         let ranges = self.sheet_for_ranges();
@@ -146,43 +161,47 @@ impl CustomerSubject<'_> {
                 "T" => "thickness",
                 _ => "surface_friction",
             };
-            let assumed = fabric.provenance.iter().flat_map(|own| &own.assumed);
+            let assumed = fabric.provenance.iter().flat_map(|provenance| &provenance.assumed);
             let is_assumed = assumed.into_iter().any(|note| note.starts_with(key));
             OtherValue {
                 symbol: symbol.into(),
                 name: name.into(),
                 direction: String::new(),
                 number: ComparedNumber { law: Some(law), is_assumed, ..ComparedNumber::default() },
-                range: ranges.usual_range(symbol, None).map(|own| [*own.start(), *own.end()]),
+                range: ranges.usual_range(symbol, None).map(|range| [*range.start(), *range.end()]),
             }
         };
         of_law.into_iter().map(other).collect()
     }
 
-    /// Returns the loops, in the units of the laboratory.
+    /// Returns the loops, in the units of the laboratory, each as [`ReportedLoop`].
     fn loops(&self) -> Vec<ReportedLoop> {
         let Some((sheet, fit)) = self.measured else {
             let laws = TESTS
                 .into_iter()
                 .flat_map(|test| directions(test).iter().map(move |&direction| (test, direction)));
-            let own = |(test, direction)| {
+            let loop_of_law = |(test, direction)| {
                 let mut law = law(self.fabric, test, direction);
                 law.model = "the law alone, nothing measured is at hand".into();
                 law.plots.iter_mut().for_each(|plot| plot.law = "law".into());
                 reported(test, direction, law)
             };
-            return laws.map(own).collect();
+            return laws.map(loop_of_law).collect();
         };
         let curves = sheet.curves.iter().zip(&fit.curves);
         let of_curves =
-            curves.map(|(curve, own)| reported(curve.test, curve.direction, curve_law(curve, own)));
+            curves.map(|(curve, fit)| reported(curve.test, curve.direction, curve_law(curve, fit)));
         let of_values = value_laws(sheet, fit, &FitSettings::default()).into_iter();
         // An assumed law follows nothing that was measured, and is named below the loops.
-        let known = of_values.filter(|own| !own.is_assumed);
-        of_curves.chain(known.map(|own| reported(own.test, own.direction, own.law))).collect()
+        let known = of_values.filter(|value_law| !value_law.is_assumed);
+        of_curves
+            .chain(
+                known.map(|value_law| reported(value_law.test, value_law.direction, value_law.law)),
+            )
+            .collect()
     }
 
-    /// Returns what the report of the fabric is made from.
+    /// Returns the data that the report of the fabric is based on, in words.
     fn basis(&self) -> String {
         let Some(sheet) = self.sheet() else {
             return "a file of laws: no measured loops and no measured values are at hand".into();
@@ -201,20 +220,22 @@ impl CustomerSubject<'_> {
         if parts.is_empty() { "a sheet without measurements".into() } else { parts.join(", ") }
     }
 
-    /// Returns what was assumed in place of measurements, in plain words.
+    /// Returns the assumptions in place of measurements, without underscores.
     fn assumed(&self) -> Vec<String> {
         let assumed = match self.measured {
             Some((_, fit)) => &fit.assumed[..],
-            None => self.fabric.provenance.as_ref().map_or(&[][..], |own| &own.assumed),
+            None => {
+                self.fabric.provenance.as_ref().map_or(&[][..], |provenance| &provenance.assumed)
+            }
         };
         let assumed = assumed.iter().map(|note| note.replace('_', " "));
         assumed.chain(self.extrapolated()).collect()
     }
 
-    /// Returns warnings on the sheet and further notes.
+    /// Returns the warnings of the sheet and the further `notes`.
     fn notes(&self) -> Vec<String> {
         let warnings = self.sheet().map_or(&[][..], Sheet::warnings).iter();
-        // Standard deviations that no law uses are on the page.
+        // The page shows standard deviations that no law uses.
         let of_sheet = warnings.map(|warning| warning.message.clone());
         let of_sheet =
             of_sheet.filter(|message| !message.contains("standard deviation is not used"));
@@ -223,8 +244,8 @@ impl CustomerSubject<'_> {
 }
 
 impl CustomerSubject<'_> {
-    /// Returns the load to which the values of the tensile test belong, where it is not that of the standard
-    /// test.
+    /// Returns a note with the load of the values of the tensile test. Returns `None` for the load
+    /// of the standard test.
     fn tensile_load(&self) -> Option<String> {
         let sheet = self.sheet()?;
         let unit = quantity::tension().kes?;
@@ -246,7 +267,8 @@ struct OtherValue {
     range: Option<[f64; 2]>,
 }
 
-/// Returns whether a fabric without a sheet says that a value of a law was assumed.
+/// Returns whether the `provenance` of a fabric without a sheet says that the value `symbol` in a
+/// `direction` was assumed.
 fn was_assumed(provenance: &Provenance, direction: Direction, symbol: Symbol) -> bool {
     let name = direction.name();
     let begins: Vec<String> = match symbol {
@@ -266,11 +288,12 @@ fn was_assumed(provenance: &Provenance, direction: Direction, symbol: Symbol) ->
             vec![format!("{name} traction: not measured"), "traction: not measured".into()]
         }
     };
+
     let is_named = |note: &String| begins.iter().any(|begin| note.starts_with(begin.as_str()));
     provenance.assumed.iter().any(is_named)
 }
 
-/// Returns the loops of a law in the units of the laboratory.
+/// Returns the loops of a `law` of a `test` in the units of the laboratory.
 fn reported(test: Test, direction: Direction, mut law: LawReport) -> ReportedLoop {
     for plot in &mut law.plots {
         let [deformation, load] = quantity::laboratory_axes(test);
@@ -279,21 +302,22 @@ fn reported(test: Test, direction: Direction, mut law: LawReport) -> ReportedLoo
     ReportedLoop { test: test.name().into(), direction: direction.name().into(), law }
 }
 
-/// Returns the report of fabrics, side by side.
+/// Returns the report of the fabrics `subjects`, side by side.
 #[must_use]
 pub fn customer_page(subjects: &[CustomerSubject<'_>]) -> CustomerPage {
-    let fabric = |own: &CustomerSubject<'_>| ReportedFabric {
-        name: own.fabric.name.clone(),
-        source: own.fabric.source.clone(),
-        record: own
+    let fabric = |subject: &CustomerSubject<'_>| ReportedFabric {
+        name: subject.fabric.name.clone(),
+        source: subject.fabric.source.clone(),
+        record: subject
             .record
             .lines()
             .map(|(title, text)| [title.to_owned(), text.unwrap_or_default().to_owned()])
             .into(),
-        basis: own.basis(),
-        loops: own.loops(),
-        drape: own.drape.clone(),
+        basis: subject.basis(),
+        loops: subject.loops(),
+        drape: subject.drape.clone(),
     };
+
     CustomerPage {
         version: VERSION.into(),
         fabrics: subjects.iter().map(fabric).collect(),
@@ -305,24 +329,28 @@ pub fn customer_page(subjects: &[CustomerSubject<'_>]) -> CustomerPage {
     }
 }
 
-/// Returns the notes on each fabric, each text once.
+/// Returns the `notes` on each fabric. Each text appears once.
 fn shared(notes: &[Vec<String>]) -> Vec<ReportedNote> {
     let texts = notes
         .iter()
         .enumerate()
-        .flat_map(|(index, own)| own.iter().map(move |note| (index, note.as_str())));
+        .flat_map(|(index, texts)| texts.iter().map(move |note| (index, note.as_str())));
     ReportedNote::shared(texts)
 }
 
-/// Returns the values that laws have, where a fabric has them measured or its law was not assumed.
+/// Returns the values that laws have, if one of `subjects` has them measured or its law was not
+/// assumed.
 fn values(subjects: &[CustomerSubject<'_>]) -> Vec<ReportedValue> {
     let ranges: Vec<Sheet> = subjects.iter().map(CustomerSubject::sheet_for_ranges).collect();
-    let keys = Symbol::ALL.into_iter().flat_map(|symbol| DIRECTIONS.map(|own| (symbol, own)));
+    let keys =
+        Symbol::ALL.into_iter().flat_map(|symbol| DIRECTIONS.map(|direction| (symbol, direction)));
+
     let value = |(symbol, direction): (Symbol, Direction)| {
         let numbers: Vec<ComparedNumber> =
-            subjects.iter().map(|own| own.number(direction, symbol)).collect();
-        let is_known =
-            |own: &ComparedNumber| own.measured.is_some() || own.law.is_some() && !own.is_assumed;
+            subjects.iter().map(|subject| subject.number(direction, symbol)).collect();
+        let is_known = |number: &ComparedNumber| {
+            number.measured.is_some() || number.law.is_some() && !number.is_assumed
+        };
         numbers.iter().any(is_known).then(|| {
             let usual = |sheet: &Sheet| {
                 let range = sheet.usual_range(symbol.name(), Some(direction))?;
@@ -345,16 +373,18 @@ fn values(subjects: &[CustomerSubject<'_>]) -> Vec<ReportedValue> {
     keys.filter_map(value).collect()
 }
 
-/// Returns the values that no law has, where a fabric has them.
+/// Returns the values that no law has, if one of `subjects` has them.
 fn others(subjects: &[CustomerSubject<'_>]) -> Vec<ReportedValue> {
     let all: Vec<Vec<OtherValue>> = subjects.iter().map(CustomerSubject::others).collect();
     let mut values: Vec<ReportedValue> = Vec::new();
     for symbol in OTHERS {
         for direction in ["", "warp", "weft"] {
-            let is_own = |own: &&OtherValue| own.symbol == symbol && own.direction == direction;
-            let own: Vec<Option<&OtherValue>> =
-                all.iter().map(|values| values.iter().find(is_own)).collect();
-            let Some(first) = own.iter().flatten().next() else { continue };
+            let is_sought =
+                |other: &&OtherValue| other.symbol == symbol && other.direction == direction;
+            let found: Vec<Option<&OtherValue>> =
+                all.iter().map(|values| values.iter().find(is_sought)).collect();
+            let Some(first) = found.iter().flatten().next() else { continue };
+
             let length = || drape_report::Units::si("m").with_kes("cm", 1e-2);
             values.push(ReportedValue {
                 value: ComparedValue {
@@ -362,13 +392,13 @@ fn others(subjects: &[CustomerSubject<'_>]) -> Vec<ReportedValue> {
                     name: first.name.clone(),
                     direction: direction.into(),
                     units: if symbol == "c" { length() } else { kes_value::units(symbol) },
-                    numbers: own
+                    numbers: found
                         .iter()
-                        .map(|own| own.map(|own| own.number).unwrap_or_default())
+                        .map(|value| value.map(|value| value.number).unwrap_or_default())
                         .collect(),
                     is_comparable: true,
                 },
-                ranges: own.iter().map(|own| own.and_then(|own| own.range)).collect(),
+                ranges: found.iter().map(|value| value.and_then(|value| value.range)).collect(),
                 source: Sheet::usual_source(symbol).unwrap_or_default().into(),
             });
         }

@@ -1,4 +1,5 @@
-//! Results of specimens on a drapemeter, as `drape test --drape` stores them and a report shows them.
+//! Results of specimens on a drapemeter. `drape test --drape` stores the results, and a report
+//! shows them.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,11 +14,11 @@ const SPECIMENS_95: f64 = 1.96;
 /// Specimens of one fabric on a drapemeter. Lengths are in m, coefficients are ratios.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DrapeResult {
-    /// Program that simulated them.
+    /// Program that simulated the specimens.
     pub version: String,
     /// Name of the fabric.
     pub fabric: String,
-    /// Digest of its laws, by [`laws_digest`].
+    /// Digest of the laws of the fabric, by [`laws_digest`].
     pub laws: String,
     /// Instrument in words.
     pub meter: String,
@@ -27,13 +28,14 @@ pub struct DrapeResult {
     pub specimen: f64,
     /// Distance of the particles.
     pub spacing: f64,
-    /// Largest distance at which the coefficient is near those of finer grids.
+    /// Largest distance at which the coefficient is near the coefficients of finer grids.
     pub spacing_bound: f64,
-    /// Interval of the coefficient over what the sheet leaves open; its ends are equal where that is nothing.
+    /// Interval of the coefficient over the parameters that the sheet leaves open. Both ends are
+    /// equal if no parameter is open.
     pub interval: [f64; 2],
     /// The fabric with its friction first, then its variants.
     pub evaluations: Vec<DrapeEvaluation>,
-    /// Start of the first evaluation that the picture and the shadow show.
+    /// Index of the start of the first evaluation that the picture and the shadow show.
     pub shown: usize,
     /// File of the picture, beside the file of the result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -69,7 +71,7 @@ pub struct DrapeStart {
 }
 
 impl DrapeEvaluation {
-    /// Returns the evaluation of a variant by its study.
+    /// Returns the evaluation of the variant `of` by its `study`.
     #[must_use]
     pub fn new(of: &str, study: &Study) -> Self {
         let start = |drape: &Drape| DrapeStart {
@@ -89,13 +91,14 @@ impl DrapeEvaluation {
 }
 
 impl DrapeResult {
-    /// Returns what a report shows of the result, with the picture of its start; `None` for a result without
-    /// starts.
+    /// Returns the result as a report shows it, with the `picture` of its start. Returns `None` for
+    /// a result without starts.
     #[must_use]
     pub fn reported(&self, picture: Option<Picture>) -> Option<ReportedDrape> {
         let fitted = self.evaluations.first()?;
         let shown = fitted.starts.get(self.shown).or(fitted.starts.first())?;
         let [low, high] = self.interval;
+
         let is_open = low < high;
         let half = SPECIMENS_95 * fitted.deviation;
         let mut meaning = if is_open {
@@ -111,9 +114,11 @@ impl DrapeResult {
                 1e3 * self.spacing_bound
             );
         }
+
         let mut nodes: Vec<usize> = fitted.starts.iter().map(|start| start.nodes).collect();
         nodes.sort_unstable();
         let counts = nodes.chunk_by(|a, b| a == b);
+
         Some(ReportedDrape {
             meter: self.meter.clone(),
             computed: format!(
@@ -136,7 +141,7 @@ impl DrapeResult {
         })
     }
 
-    /// Returns the shadow of a start.
+    /// Returns the shadow of a `start`.
     fn shadow(&self, start: &DrapeStart) -> ShadowPlot {
         ShadowPlot {
             title: format!("shadow of {} from above", self.fabric),
@@ -146,14 +151,15 @@ impl DrapeResult {
         }
     }
 
-    /// Returns the shadow of the start that is shown, if there is one.
+    /// Returns the shadow of the start `shown`, if there is one.
     #[must_use]
     pub fn shown_shadow(&self) -> Option<ShadowPlot> {
         Some(self.shadow(self.evaluations.first()?.starts.get(self.shown)?))
     }
 }
 
-/// Returns a digest of the laws of a fabric: names, sources and where its numbers come from do not count.
+/// Returns a digest of the laws of a `fabric`. Names, sources and the provenance of numbers do not
+/// count.
 #[must_use]
 pub fn laws_digest(fabric: &Fabric) -> String {
     let laws =

@@ -1,4 +1,4 @@
-//! Page of `drape fabric show`: a fabric with the loops that an ideal instrument would draw of it.
+//! Page of `drape fabric show`: a fabric with the loops that an ideal instrument would draw.
 
 use drape_fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
@@ -14,20 +14,20 @@ use super::loop_plot::{Loads, loop_plot};
 use super::quantity::DIRECTIONS;
 use super::{kes_value, quantity};
 
-/// Points of a branch of a loop; enough for the trapezoids of WT to be right to a
+/// Number of points of a branch of a loop. With these points the trapezoids of WT are right to a
 /// hundred-thousandth.
 const POINTS: usize = 400;
 
 /// Tests of a fabric, in the order of the pages.
 pub const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
 
-/// Directions in which a test differs; there is one shear law.
+/// Returns the directions in which a `test` differs. There is one law of shear.
 pub fn directions(test: Test) -> &'static [Direction] {
     if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS }
 }
 
-/// Returns the page of a fabric, with the loops that an instrument would draw of it, and the values
-/// of the sheet that it comes from where that is at hand.
+/// Returns the page of a `fabric`, with the loops that an ideal instrument would draw and the
+/// values of the `sheet`, if there is one.
 #[must_use]
 pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     let given = |name: &str, value: f64, units| Quantity {
@@ -36,6 +36,7 @@ pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
         units,
         origin: String::new(),
     };
+
     let mut quantities = vec![
         given("mass per area", fabric.density, quantity::mass()),
         given("thickness", fabric.thickness, quantity::thickness()),
@@ -46,12 +47,14 @@ pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
         quantities.push(given("thickness at 50 gf/cm²", pressed, quantity::thickness()));
         quantities.push(given("compression linearity", linearity, quantity::ratio()));
     }
+
     match sheet {
         Some(sheet) => quantities.extend(sheet.listed().iter().map(kes_value::listed)),
         None => quantities.extend(fabric.provenance.iter().flat_map(|p| {
             p.unused.iter().map(|(symbol, value)| kes_value::unused(symbol, *value))
         })),
     }
+
     let laws = TESTS.into_iter().flat_map(|test| {
         directions(test).iter().map(move |&direction| law(fabric, test, direction))
     });
@@ -73,12 +76,12 @@ pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     }
 }
 
-/// Returns the loop that an ideal instrument draws of a fabric.
+/// Returns the loop that an ideal instrument draws of a `fabric` in a `test`.
 pub fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Curve {
     instrument::ideal(fabric, test, direction, POINTS)
 }
 
-/// Returns a law of a fabric, with its loop and its parameters.
+/// Returns the law of a `fabric` for a `test`, with its loop and its parameters.
 pub fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
     let curve = loop_of(fabric, test, direction);
     let title = match test {
@@ -99,6 +102,7 @@ pub fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
             incidental: named.incidental,
         }
     };
+
     LawReport {
         plots: vec![loop_plot(title.clone(), &curve, |i| Loads {
             fitted: Some(curve.load()[i]),
@@ -116,16 +120,19 @@ struct NamedValue {
     value: f64,
 }
 
+/// Returns `values` as a list.
 fn named<const N: usize>(values: [(&'static str, f64); N]) -> Vec<NamedValue> {
     values.map(|(name, value)| NamedValue { name, value }).into()
 }
 
-/// Returns the parameters of a law: of its backbone, then of its friction.
+/// Returns the parameters of the law of a `fabric` for a `test`: of its backbone, then of its
+/// friction.
 fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedValue> {
     let laws = match direction {
         Direction::Warp => &fabric.warp,
         Direction::Weft => &fabric.weft,
     };
+
     let (mut all, friction) = match test {
         Test::Tensile => {
             let backbone = match laws.traction.backbone {
@@ -166,10 +173,12 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedVal
             (backbone, elements(&fabric.shear.friction))
         }
     };
+
     all.extend(friction);
     all
 }
 
+/// Returns the parameters of the `friction` of traction.
 fn traction_friction(friction: &TractionFriction) -> Vec<NamedValue> {
     match friction {
         TractionFriction::Plateau(friction) => elements(friction),
@@ -181,6 +190,7 @@ fn traction_friction(friction: &TractionFriction) -> Vec<NamedValue> {
     }
 }
 
+/// Returns the parameters of a `law` with varying stiffness.
 fn varying_stiffness(law: &Varying) -> Vec<NamedValue> {
     named([
         ("initial_stiffness", law.initial_stiffness),
@@ -189,11 +199,13 @@ fn varying_stiffness(law: &Varying) -> Vec<NamedValue> {
     ])
 }
 
+/// Returns the parameters of a piecewise `law`.
 fn piecewise(law: &Piecewise) -> Vec<NamedValue> {
     named([("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)])
 }
 
-/// Returns the elements of a friction; those of the second have names of their own.
+/// Returns the parameters of the elements of a `friction`. The parameters of the second element
+/// have other names.
 fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
     let names = [["plateau", "length"], ["second plateau", "second length"]];
     let pairs = friction.elements.iter().zip(names).filter(|(element, _)| element.plateau != 0.0);

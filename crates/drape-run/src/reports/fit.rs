@@ -1,5 +1,5 @@
-//! Report of a fit: every law with its loop, its parameters and their intervals, and what was
-//! assumed.
+//! Report of a fit: every law with its loop, its parameters and their intervals, and the
+//! assumptions.
 
 use drape_fit::{Choice, CurveFit, Estimate, Fit, FitSettings};
 use drape_kes::{Curve, Sheet, Test};
@@ -15,7 +15,7 @@ use super::quantity;
 use super::sheet_value::{self, CheckedValue};
 use super::value_law::value_laws;
 
-/// Returns the report of a fit: all that shows whether it can be trusted.
+/// Returns the report of a `fit` to a `sheet`, with everything that is needed to judge the fit.
 #[must_use]
 pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> FitPage {
     let given = |name: &str, value: Option<f64>, taken: f64, units: Units| Quantity {
@@ -24,10 +24,12 @@ pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> FitPage {
         units,
         origin: if value.is_some() { "sheet" } else { "assumed" }.into(),
     };
+
     let fabric = &fit.fabric;
     let of_curves = sheet.curves.iter().zip(&fit.curves).map(|(c, f)| curve_law(c, f));
-    let of_values = value_laws(sheet, fit, settings).into_iter().map(|own| own.law);
+    let of_values = value_laws(sheet, fit, settings).into_iter().map(|value_law| value_law.law);
     let SheetValues { values, warnings } = kes_value::of_sheet(sheet, fabric, settings);
+
     FitPage {
         name: sheet.name.clone(),
         source: sheet.source.clone(),
@@ -51,8 +53,8 @@ pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> FitPage {
     }
 }
 
-/// Returns a warning for each shear stiffness that few fabrics of the sheet's mass per area have. The sheet
-/// itself warns about mass and bending.
+/// Returns a warning for each shear stiffness of a `sheet` that few fabrics of its mass per area
+/// have. The sheet itself warns about mass and bending.
 fn unusual_shear(sheet: &Sheet) -> Vec<String> {
     let values = sheet_value::sheet_values(sheet);
     let unusual =
@@ -60,7 +62,7 @@ fn unusual_shear(sheet: &Sheet) -> Vec<String> {
     unusual.filter_map(CheckedValue::warning).collect()
 }
 
-/// Returns the report of the law of a curve.
+/// Returns the report of the law of a `curve`.
 pub(super) fn curve_law(curve: &Curve, fit: &CurveFit) -> LawReport {
     let model = fit.candidates.get(fit.chosen).map_or(String::new(), |c| c.law.clone());
     let criteria = fit.candidates.iter().filter_map(|candidate| {
@@ -74,6 +76,8 @@ pub(super) fn curve_law(curve: &Curve, fit: &CurveFit) -> LawReport {
         })
     });
     let models: Vec<ModelScore> = criteria.collect();
+
+    // A single candidate is no comparison.
     LawReport {
         title: title(fit),
         plots: vec![plot(curve, fit)],
@@ -96,7 +100,7 @@ pub(super) fn curve_law(curve: &Curve, fit: &CurveFit) -> LawReport {
     }
 }
 
-/// Returns the curve's name with its direction.
+/// Returns the name of the curve of a `fit` with its direction.
 fn title(fit: &CurveFit) -> String {
     let direction = fit.direction.name();
     if fit.name.contains(direction) {
@@ -106,6 +110,7 @@ fn title(fit: &CurveFit) -> String {
     }
 }
 
+/// Returns the parameter of the law of a `test` with its `estimate`.
 fn parameter(test: Test, estimate: &Estimate) -> Parameter {
     let named = quantity::parameter(test, estimate.name);
     Parameter {
@@ -119,7 +124,7 @@ fn parameter(test: Test, estimate: &Estimate) -> Parameter {
     }
 }
 
-/// Returns the correlations of the parameters that have some.
+/// Returns the correlations of the parameters of a `fit` that have correlations with all others.
 fn correlation(fit: &CurveFit) -> Option<Correlation> {
     let whole = |&i: &usize| fit.correlations.get(i).is_some_and(|row| row[i].is_some());
     let kept: Vec<usize> = (0..fit.parameters.len()).filter(whole).collect();
@@ -133,6 +138,7 @@ fn correlation(fit: &CurveFit) -> Option<Correlation> {
 /// Autocorrelation above which the residuals are called systematic.
 const SYSTEMATIC: f64 = 0.5;
 
+/// Returns the notes on a `fit`: remarks, the choice of the law, repeats and systematic residuals.
 fn notes(fit: &CurveFit) -> Vec<String> {
     let mut notes = fit.remarks.clone();
     notes.extend(preference(fit));
@@ -155,17 +161,17 @@ fn notes(fit: &CurveFit) -> Vec<String> {
     notes
 }
 
-/// Returns why a law was taken before the others.
+/// Returns the reason why the law of a `fit` was chosen, `None` if there was no choice.
 fn preference(fit: &CurveFit) -> Option<String> {
     let chosen = fit.candidates.get(fit.chosen)?;
     (fit.choice != Choice::Only).then(|| format!("taken: {}; {}", chosen.law, fit.choice))
 }
 
-/// Returns the plot of the measured and the fitted loop.
+/// Returns the plot of the measured `curve` and the loop of its `fit`.
 fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
     let half_range = 0.5 * curve.load_range().span();
-    // A load equal to the measured one to the last bit marks a point that the fit left out. A band
-    // that is wider than its loop would tell nothing and hide the loop.
+    // A load that equals the measured load to the last bit marks a point that the fit left out. A
+    // band that is wider than its loop would say nothing and hide the loop.
     loop_plot(title(fit), curve, |i| {
         let measured = curve.load()[i];
         let fitted = Some(fit.load[i]).filter(|fitted| *fitted != measured);
@@ -175,7 +181,7 @@ fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
     })
 }
 
-/// Returns the reason why a search ended, in words.
+/// Returns the reason `stop` why a search ended, in words.
 fn stop(stop: Stop) -> &'static str {
     match stop {
         Stop::Reduction => "the sum of squares no longer falls",

@@ -1,5 +1,5 @@
-//! Page of `drape test`: the loops of simulated specimens overlaid on those of the laws, and their
-//! KES values.
+//! Page of `drape test`: the loops of simulated specimens and of their laws overlaid, and their KES
+//! values.
 
 use drape_fabric::Fabric;
 use drape_kes::{Curve, Direction, Test};
@@ -14,20 +14,21 @@ use super::{kes_value, quantity};
 /// Tests of a specimen, in the order of the page.
 pub const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
 
-/// A specimen's loop beside the law's.
+/// Loop of a specimen, with the loop of its law.
 pub struct TestedLoop {
     /// Test.
     pub test: Test,
     /// Direction of the specimen.
     pub direction: Direction,
-    /// Specimen and law.
+    /// Loops of the specimen and of the law.
     pub comparison: Comparison,
 }
 
-/// Returns the page of the loops of a fabric.
+/// Returns the page of the `loops` of a `fabric`.
 #[must_use]
 pub fn instruments_page(fabric: &Fabric, loops: &[TestedLoop]) -> ComparePage {
     let names = ["Simulated specimens", "Laws"].map(str::to_owned);
+
     let overlay = |test: Test| {
         let [deformation, load] = quantity::axes(test);
         let traces = |curve: fn(&Comparison) -> &Curve| -> Vec<Trace> {
@@ -48,6 +49,7 @@ pub fn instruments_page(fabric: &Fabric, loops: &[TestedLoop]) -> ComparePage {
         let values = tested.comparison.values().into_iter();
         values.map(|(symbol, values)| kes_value::simulated(tested.direction, symbol, values))
     });
+
     let source = format!("{}. {}", fabric.name, fabric.source);
     ComparePage {
         fabrics: names.clone().map(|name| FabricName { name, source: source.clone() }).into(),

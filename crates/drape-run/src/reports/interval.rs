@@ -3,15 +3,16 @@
 use drape_fit::Undetermined;
 use drape_report::Interval;
 
-/// Largest standard error and end of an interval that tells something, in SI.
+/// Largest standard error and end of an interval that a page shows, in SI.
 const LARGEST: f64 = 1e30;
 
-/// Returns whether a number tells something.
+/// Returns whether a page shows a `number`, which is at most [`LARGEST`].
 pub(super) fn is_shown(number: &f64) -> bool {
     number.abs() <= LARGEST
 }
 
-/// Returns an interval in SI, where `factor` is its unit; one without bounds is none.
+/// Returns an `interval` in SI, where `factor` is the unit of its ends. An interval whose ends are
+/// too large to show is unknown.
 pub(super) fn interval(interval: &Result<[f64; 2], Undetermined>, factor: f64) -> Interval {
     match interval {
         Ok(ends) if !ends.iter().all(|end| is_shown(&(end * factor))) => {

@@ -14,6 +14,7 @@ struct Named {
     units: Units,
 }
 
+/// Returns the name and the units of a `symbol`.
 fn named(symbol: Symbol) -> Named {
     let (words, units) = match symbol {
         Symbol::B => ("bending rigidity", quantity::rigidity()),
@@ -31,12 +32,14 @@ fn named(symbol: Symbol) -> Named {
 
 /// KES values of a sheet and of the fabric that was fitted to it.
 pub struct SheetValues {
+    /// Values that the sheet or its curves have.
     pub values: Vec<KesValue>,
     /// Values that disagree with each other, in words.
     pub warnings: Vec<String>,
 }
 
-/// Returns the values that a sheet or its curves have, each with that of the fitted fabric.
+/// Returns the values that a `sheet` or its curves have, each with the value of the fitted
+/// `fabric`.
 pub fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &FitSettings) -> SheetValues {
     let rows = compare_values(sheet, fabric, settings);
     let warnings = rows.iter().filter_map(ValueComparison::warning).collect();
@@ -47,7 +50,7 @@ pub fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &FitSettings) -> Sheet
     SheetValues { values: known.map(value).collect(), warnings }
 }
 
-/// Returns a value of a fitted law, with its interval.
+/// Returns the value of a fitted law, by its `estimate`, with its interval.
 pub fn of_law(estimate: &ValueEstimate) -> LawValue {
     let Named { words, units } = named(estimate.symbol);
     let unit = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
@@ -61,7 +64,7 @@ pub fn of_law(estimate: &ValueEstimate) -> LawValue {
     }
 }
 
-/// Returns a value of a sheet as a page shows it: with its symbol, and what the model uses it for.
+/// Returns a `value` of a sheet as a page shows it: with its symbol, and its use in the model.
 pub fn listed(value: &SheetValue) -> Quantity {
     let SheetValue { symbol, name, direction, value, used_for, .. } = *value;
     let direction = direction.map_or(String::new(), |direction| format!(" {}", direction.name()));
@@ -74,7 +77,7 @@ pub fn listed(value: &SheetValue) -> Quantity {
     Quantity { name: format!("{symbol}{direction}, {name}"), value: value * factor, units, origin }
 }
 
-/// Returns a value that a fabric keeps though its model does not use it.
+/// Returns the `value` of a `symbol` that a fabric keeps although its model does not use it.
 pub fn unused(symbol: &str, value: f64) -> Quantity {
     let units = units(symbol.rsplit('.').next().unwrap_or(symbol));
     let factor = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
@@ -82,12 +85,12 @@ pub fn unused(symbol: &str, value: f64) -> Quantity {
     Quantity { name: symbol.replace('.', " "), value: value * factor, units, origin }
 }
 
-/// Returns the words of a symbol.
+/// Returns the name of a `symbol` in words.
 pub fn words(symbol: Symbol) -> &'static str {
     named(symbol).words
 }
 
-/// Returns the units of a symbol of a sheet.
+/// Returns the units of a `symbol` of a sheet.
 pub fn units(symbol: &str) -> Units {
     if let Some(symbol) = Symbol::ALL.into_iter().find(|known| known.name() == symbol) {
         return named(symbol).units;
@@ -103,14 +106,15 @@ pub fn units(symbol: &str) -> Units {
     }
 }
 
-/// Returns the values of a fabric in a direction.
+/// Returns the values of a `fabric` in a `direction`.
 pub fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
     let points = FitSettings::default().evaluation_points(&Sheet::default());
     let values = fabric_values(fabric, direction, &points);
     Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
 }
 
-/// Returns a value of simulated specimens, and that of the laws, given in the laboratory's unit.
+/// Returns the value `symbol` of simulated specimens and of the laws. `numbers` has both in the
+/// unit of the laboratory.
 pub fn simulated(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
     let Named { words, units } = named(symbol);
     let unit = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
@@ -125,8 +129,8 @@ pub fn simulated(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> Com
     }
 }
 
-/// Returns a value as a page shows it; the numbers, of the sheet, the curve and the law, are in the
-/// laboratory's unit.
+/// Returns the value `symbol` as a page shows it. `numbers` of the sheet, the curve and the law are
+/// in the unit of the laboratory.
 fn shown(direction: Direction, symbol: Symbol, numbers: [Option<f64>; 3]) -> KesValue {
     let Named { words, units } = named(symbol);
     let unit = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);

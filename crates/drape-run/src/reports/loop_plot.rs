@@ -1,5 +1,4 @@
-//! Loops of a test as plots draw them: one history branch by branch, or a trace to overlay on
-//! others.
+//! Loops of a test as plots draw them: a history branch by branch, or a trace for an overlay.
 
 use drape_kes::{Curve, Test};
 use drape_report::plot::{Branch, BranchKind, LoopPlot, Point, Trace};
@@ -14,13 +13,14 @@ pub struct Loads {
     pub band: Option<[f64; 2]>,
 }
 
-/// Returns the plot of a history, branch by branch, with the measured and the fitted load at each
-/// point.
+/// Returns the plot of the history `curve`, branch by branch. `loads` gives the measured and the
+/// fitted load at each point.
 pub fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> Loads) -> LoopPlot {
     let [deformation, load] = quantity::axes(curve.test);
     let branches = curve.branches();
     let both_sides = matches!(curve.test, Test::Bending | Test::Shear);
     let first = branches.first().is_some_and(|branch| branch.rising);
+
     let point = |i: usize| {
         let Loads { measured, fitted, band } = loads(i);
         Point { deformation: curve.deformation()[i], measured, fitted, band }
@@ -39,7 +39,7 @@ pub fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> Loads) -
     LoopPlot { title, deformation, load, branches, law, marks: Vec::new() }
 }
 
-/// Returns a curve as an overlay plot draws it.
+/// Returns a `curve` as an overlay plot draws it, with the name `label`.
 pub fn trace(label: &str, curve: &Curve) -> Trace {
     let points = curve.deformation().iter().zip(curve.load());
     Trace { label: label.into(), points: points.map(|(&q, &f)| [q, f]).collect() }

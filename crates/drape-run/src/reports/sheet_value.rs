@@ -1,4 +1,5 @@
-//! Values of a sheet one by one: in the laboratory's unit, in SI, and whether most fabrics have such.
+//! Values of a sheet one by one: in the unit of the laboratory, in SI, and with the range of most
+//! fabrics.
 
 use serde::Serialize;
 
@@ -8,35 +9,36 @@ use drape_report::Units;
 
 use super::{kes_value, quantity};
 
-/// Value of a sheet, beside what fabrics usually have.
+/// Value of a sheet, with the range that fabrics usually have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CheckedValue {
-    /// Symbol of the laboratory; `c` is the bending length, which follows from B and W.
+    /// Symbol of the laboratory. `c` is the bending length, which follows from B and W.
     pub symbol: &'static str,
     /// Name in words.
     pub name: &'static str,
     /// Direction, where the value has one.
     pub direction: Option<&'static str>,
-    /// Value, in the laboratory's unit.
+    /// Value, in the unit of the laboratory.
     pub value: f64,
-    /// Standard deviation that the sheet states, in the laboratory's unit.
+    /// Standard deviation that the sheet states, in the unit of the laboratory.
     pub deviation: Option<f64>,
-    /// Laboratory's unit; empty for a ratio.
+    /// Unit of the laboratory. Empty for a ratio.
     pub unit: String,
     /// Value in SI.
     pub si: f64,
     /// Unit of SI.
     pub si_unit: String,
-    /// Range in SI that nine fabrics in ten have; none where it was not measured on many fabrics.
+    /// Range in SI that nine fabrics in ten have. `None` where the value was not measured on many
+    /// fabrics.
     pub usual: Option<[f64; 2]>,
-    /// Whether the value is in that range; none where the range is not known.
+    /// Whether the value is in the range `usual`. `None` where the range is not known.
     pub is_usual: Option<bool>,
-    /// Part of the model that it gives; none where the model does not use it.
+    /// Part of the model that the value determines. `None` where the model does not use the value.
     pub used_for: Option<&'static str>,
 }
 
 impl CheckedValue {
-    /// Returns a warning about a value that few fabrics have.
+    /// Returns a warning about a value outside the range `usual`.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let [least, most] = self.usual.filter(|_| self.is_usual == Some(false))?;
@@ -51,7 +53,7 @@ impl CheckedValue {
         ))
     }
 
-    /// Returns symbol and direction: `B warp`.
+    /// Returns `symbol` and `direction`: `B warp`.
     #[must_use]
     pub fn label(&self) -> String {
         match self.direction {
@@ -61,13 +63,14 @@ impl CheckedValue {
     }
 }
 
-/// Returns a number with four digits.
+/// Returns a `value` with four digits.
 #[must_use]
 pub fn brief(value: f64) -> String {
     figure(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
-/// Returns every value of a sheet, and the bending lengths, beside what fabrics usually have.
+/// Returns every value of a `sheet`, and the bending lengths, with the ranges that fabrics usually
+/// have.
 #[must_use]
 pub fn sheet_values(sheet: &Sheet) -> Vec<CheckedValue> {
     let lengths = quantity::DIRECTIONS.into_iter().filter_map(|direction| {
@@ -86,6 +89,7 @@ pub fn sheet_values(sheet: &Sheet) -> Vec<CheckedValue> {
     values.chain(lengths).collect()
 }
 
+/// Returns the value `listed` of a `sheet` with its range.
 fn checked(sheet: &Sheet, listed: &SheetValue, units: &Units) -> CheckedValue {
     let SheetValue { symbol, name, direction, value, unit, used_for } = *listed;
     let usual = sheet.usual_range(symbol, direction);
@@ -107,7 +111,8 @@ fn checked(sheet: &Sheet, listed: &SheetValue, units: &Units) -> CheckedValue {
     }
 }
 
-/// Returns the standard deviation that a sheet states for a value, in the laboratory's unit.
+/// Returns the standard deviation that a `sheet` states for the value `symbol` of a law, in the
+/// unit of the laboratory.
 pub(crate) fn deviation(sheet: &Sheet, symbol: &str, direction: Direction) -> Option<f64> {
     let is_of_value = |scatter: &&drape_kes::Scatter| {
         scatter.symbol.name() == symbol && scatter.direction == direction
@@ -115,9 +120,10 @@ pub(crate) fn deviation(sheet: &Sheet, symbol: &str, direction: Direction) -> Op
     sheet.scatter.iter().find(is_of_value).map(|scatter| scatter.deviation)
 }
 
-/// Returns the standard deviation that a sheet states for a value that no law uses, in the laboratory's unit.
+/// Returns the standard deviation that a `sheet` states for the value `symbol` that no law uses, in
+/// the unit of the laboratory.
 fn other_deviation(sheet: &Sheet, symbol: &str, direction: Option<Direction>) -> Option<f64> {
     let mut stated = sheet.other_scatter.iter();
-    let own = stated.find(|own| own.symbol == symbol && own.direction == direction);
-    own.map(|own| own.deviation)
+    let scatter = stated.find(|scatter| scatter.symbol == symbol && scatter.direction == direction);
+    scatter.map(|scatter| scatter.deviation)
 }

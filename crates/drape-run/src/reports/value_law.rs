@@ -1,5 +1,5 @@
-//! Laws that no curve gives: the loop of each along its instrument's test, the values of the sheet
-//! marked in it, and what of it was assumed.
+//! Laws that no curve gives: the loop of each law along the test of its instrument, with marks at
+//! the values of the sheet, and the assumptions of the law.
 
 use drape_fit::{Fit, FitSettings};
 use drape_kes::{BendingPoints, Curve, Direction, Sheet, Symbol, Test, Values};
@@ -12,7 +12,7 @@ use super::quantity::DIRECTIONS;
 /// Half width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL_95: f64 = 1.96;
 
-/// Law of a test and direction, with the values that it comes from.
+/// Law of a test and direction, with the sheet that it comes from.
 struct ValueLaw<'a> {
     sheet: &'a Sheet,
     settings: &'a FitSettings,
@@ -24,29 +24,30 @@ struct ValueLaw<'a> {
 pub struct ValueLawReport {
     pub test: Test,
     pub direction: Direction,
-    /// Whether no value of the sheet says anything about it.
+    /// Whether no value of the sheet determines the law.
     pub is_assumed: bool,
     pub law: LawReport,
 }
 
-/// Returns the laws of a fit that no curve of the sheet gives.
+/// Returns the laws of a `fit` that no curve of the `sheet` gives.
 pub fn value_laws(sheet: &Sheet, fit: &Fit, settings: &FitSettings) -> Vec<ValueLawReport> {
     let tests = [Test::Tensile, Test::Bending, Test::Shear];
     let laws = tests.into_iter().flat_map(|test| {
-        // One law of shear for both directions.
+        // There is one law of shear for both directions.
         let directions = if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS[..] };
         directions.iter().map(move |&direction| ValueLaw { sheet, settings, test, direction })
     });
-    let report = |own: ValueLaw<'_>| ValueLawReport {
-        test: own.test,
-        direction: own.direction,
-        is_assumed: own.given().is_empty(),
-        law: own.report(fit),
+    let report = |law: ValueLaw<'_>| ValueLawReport {
+        test: law.test,
+        direction: law.direction,
+        is_assumed: law.given().is_empty(),
+        law: law.report(fit),
     };
     laws.filter(|law| !law.has_curve()).map(report).collect()
 }
 
 impl ValueLaw<'_> {
+    /// Returns whether a curve of the `sheet` gives the law.
     fn has_curve(&self) -> bool {
         self.sheet.curves.iter().any(|curve| match self.test {
             Test::Shear => curve.test == Test::Shear,
@@ -58,7 +59,8 @@ impl ValueLaw<'_> {
         })
     }
 
-    /// Returns a value of the sheet, in the laboratory's unit; the mean of both directions in shear.
+    /// Returns the value `symbol` of the sheet, in the unit of the laboratory. In shear it is the
+    /// mean of both directions.
     fn value(&self, symbol: Symbol) -> Option<f64> {
         if self.test != Test::Shear {
             return self.sheet.values(self.direction).get(symbol);
@@ -68,6 +70,7 @@ impl ValueLaw<'_> {
         (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
     }
 
+    /// Returns the symbols of the values of the `test`.
     fn symbols(&self) -> &'static [Symbol] {
         match self.test {
             Test::Tensile => &[Symbol::Em, Symbol::Lt, Symbol::Wt, Symbol::Rt],
@@ -76,25 +79,31 @@ impl ValueLaw<'_> {
         }
     }
 
-    /// Returns the symbols of the values that the sheet has.
+    /// Returns the symbols of the values that the `sheet` has.
     fn given(&self) -> Vec<&'static str> {
         let given = self.symbols().iter().filter(|symbol| self.value(**symbol).is_some());
         given.map(|symbol| symbol.name()).collect()
     }
 
+    /// Returns the report of the law of a `fit`.
     fn report(&self, fit: &Fit) -> LawReport {
         let mut law = fabric::law(&fit.fabric, self.test, self.direction);
         let given = self.given();
         let assumed = given.is_empty();
-        law.model = match assumed {
-            true => "ASSUMED: no curve and no value of it is in the sheet".to_owned(),
-            false => format!("from the values of the sheet: {}", given.join(", ")),
+        law.model = if assumed {
+            "ASSUMED: no curve and no value of it is in the sheet".to_owned()
+        } else {
+            format!("from the values of the sheet: {}", given.join(", "))
         };
+
+        // The marks show where the loop should pass.
         for plot in &mut law.plots {
             plot.law = if assumed { "assumed law" } else { "law of the values" }.to_owned();
             let measured = fabric::loop_of(&fit.fabric, self.test, self.direction);
             plot.marks = self.marks(&measured);
         }
+
+        // Only a value with a standard deviation gives its parameter an interval.
         let mut scatters = false;
         for parameter in &mut law.parameters {
             parameter.interval = match parameter.standard_error {
@@ -109,6 +118,7 @@ impl ValueLaw<'_> {
                 None => Interval::Fixed { reason: self.reason(&parameter.symbol) },
             };
         }
+
         law.notes = fit.assumed.iter().filter(|note| self.concerns(note)).cloned().collect();
         if scatters {
             law.notes.push(
@@ -125,7 +135,7 @@ impl ValueLaw<'_> {
         law
     }
 
-    /// Returns what a parameter comes from, by its symbol on the page.
+    /// Returns the values that a parameter comes from, by its `symbol` on the page.
     fn reason(&self, symbol: &str) -> String {
         use Symbol::{B, Em, G, Lt, Rt, TwoHb, TwoHg, TwoHg5, Wt};
         let sources: &[Symbol] = match (self.test, symbol) {
@@ -138,18 +148,19 @@ impl ValueLaw<'_> {
             (Test::Bending, "F_c") => &[TwoHb],
             _ => return "ASSUMED: no value tells it".to_owned(),
         };
+
         let named = |symbols: &[Symbol]| {
             symbols.iter().map(|symbol| symbol.name()).collect::<Vec<_>>().join(", ")
         };
-        let there: Vec<Symbol> =
+        let measured: Vec<Symbol> =
             sources.iter().copied().filter(|symbol| self.value(*symbol).is_some()).collect();
-        match there.as_slice() {
+        match measured.as_slice() {
             [] => format!("ASSUMED: {} not measured", named(sources)),
-            there => format!("from {}", named(there)),
+            measured => format!("from {}", named(measured)),
         }
     }
 
-    /// Returns whether a note on what was assumed is about this law.
+    /// Returns whether a `note` on an assumption is about this law.
     fn concerns(&self, note: &str) -> bool {
         let name = self.direction.name();
         let starts: &[&str] = match self.test {
@@ -164,7 +175,8 @@ impl ValueLaw<'_> {
         })
     }
 
-    /// Returns where the values of the sheet lie: on the loop where the law meets them.
+    /// Returns the marks of the values of the sheet, on the loop `measured` if the law agrees with
+    /// the values.
     fn marks(&self, measured: &Curve) -> Vec<Mark> {
         let mut si = Values::default();
         for symbol in self.symbols() {
@@ -180,6 +192,7 @@ impl ValueLaw<'_> {
                 middle.map(|(m, width)| vec![[at, m + 0.5 * width], [at, m - 0.5 * width]]);
             points.unwrap_or_default()
         };
+
         let marks = match self.test {
             Test::Tensile => {
                 let end = si.tensile_extension();
@@ -207,8 +220,8 @@ impl ValueLaw<'_> {
     }
 }
 
-/// Returns two points of a slope in the middle of a loop: the first on it, the second where the slope
-/// leads.
+/// Returns two points of a `slope` in the middle of the loop `measured`: the point of the loop at
+/// `from`, and the point at `to` to which the slope leads.
 fn line(measured: &Curve, [from, to]: [f64; 2], slope: Option<f64>) -> Vec<[f64; 2]> {
     let points = middle(measured, from).zip(slope);
     let points =
@@ -216,7 +229,8 @@ fn line(measured: &Curve, [from, to]: [f64; 2], slope: Option<f64>) -> Vec<[f64;
     points.unwrap_or_default()
 }
 
-/// Returns the load in the middle of a loop: the mean of its last rising and falling branch there.
+/// Returns the load in the middle of the loop `measured` at the deformation `at`: the mean of its
+/// last rising and falling branch.
 fn middle(measured: &Curve, at: f64) -> Option<f64> {
     let branches = measured.branches();
     let load = |rising: bool| {

@@ -3,19 +3,19 @@
 use drape_export::{Named, View};
 use drape_frames::{Error, Recording};
 
-/// Largest size of a page unless another is asked for, in megabytes.
+/// Default of the largest size of a page, in megabytes.
 pub const VIEWER_SIZE_MAX: f64 = 20.0;
 
 /// Page of some runs.
 pub struct ViewerPage {
     /// The page.
     pub html: String,
-    /// How many frames it shows where these are not all.
+    /// Sentences on the runs of which the page shows fewer frames than they have.
     pub thinned: Vec<String>,
 }
 
 impl ViewerPage {
-    /// Returns the page of some runs, of at most so many megabytes.
+    /// Returns the page of the runs `recordings`, of at most `megabytes`.
     ///
     /// # Errors
     /// Frames that cannot be read.
@@ -24,16 +24,17 @@ impl ViewerPage {
         let named = names.iter().zip(recordings).map(|(name, recording)| Named { name, recording });
         let View { html, frames } =
             View::new(&named.collect::<Vec<_>>(), (1e6 * megabytes) as usize)?;
-        let counts = frames.iter().zip(recordings).map(|(own, all)| [own.len(), all.frame_count()]);
-        let thinned = counts.zip(&names).filter(|([own, all], _)| own < all);
+        let counts =
+            frames.iter().zip(recordings).map(|(shown, all)| [shown.len(), all.frame_count()]);
+        let thinned = counts.zip(&names).filter(|([shown, all], _)| shown < all);
         let thinned = thinned
-            .map(|([own, all], name)| format!("{own} of the {all} frames of {name} are shown"))
+            .map(|([shown, all], name)| format!("{shown} of the {all} frames of {name} are shown"))
             .collect();
         Ok(ViewerPage { html, thinned })
     }
 }
 
-/// Returns the name of a run: that of its folder.
+/// Returns the name of the run `recording`, which is the name of its folder.
 fn name(recording: &Recording) -> String {
     let folder = recording.folder();
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());

@@ -1,4 +1,4 @@
-//! Errors of fits as mistakes of the sheet: with the test, the direction and the file of the curve.
+//! Errors of fits as mistakes of the sheet, with the test, the direction and the file of the curve.
 
 use drape_fit::Error;
 use drape_input::{Diagnostic, Document};
@@ -7,20 +7,20 @@ use toml::{Table, Value};
 /// Curve that a sheet names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedCurve {
-    /// Number of its `[[curve]]`, from 0.
+    /// Index of the curve in `[[curve]]`, from 0.
     pub index: usize,
-    /// Name in reports, or the start of it where the file has several curves.
+    /// Name in reports. If the file has several curves, their names begin with this name.
     pub name: String,
     /// Test, as the sheet calls it.
     pub test: String,
     /// Direction, as the sheet calls it.
     pub direction: String,
-    /// Files, of which there are several for repeats.
+    /// Files. A curve with repeats has several.
     pub files: Vec<String>,
 }
 
 impl NamedCurve {
-    /// Returns the curves that a sheet names.
+    /// Returns the curves that a `sheet` names.
     #[must_use]
     pub fn of(sheet: &Document) -> Vec<Self> {
         let table: Table = sheet.decode().unwrap_or_default();
@@ -32,6 +32,7 @@ impl NamedCurve {
             .collect()
     }
 
+    /// Returns the curve that an `entry` of `[[curve]]` names.
     fn of_entry(index: usize, entry: &Value) -> Option<Self> {
         let text = |key: &str| entry.get(key).and_then(Value::as_str).map(str::to_owned);
         let (test, direction) = (text("test")?, text("direction")?);
@@ -45,21 +46,24 @@ impl NamedCurve {
         Some(Self { index, name, test, direction, files })
     }
 
-    /// Returns whether a curve in a fit, by its name there, is of this entry.
+    /// Returns whether a curve with the `name` in a fit belongs to this entry.
     #[must_use]
     pub fn is_called(&self, name: &str) -> bool {
         name.strip_prefix(&self.name).is_some_and(|rest| rest.is_empty() || rest.starts_with(", "))
     }
 }
 
-/// Returns an error of a fit as a mistake of its sheet: that of a curve has the line of the curve,
-/// its test, its direction and its file; that of values has their test and direction.
+/// Returns the `error` of a fit as a mistake of its `sheet`. A mistake of a curve has the line of
+/// the curve, its test, its direction and its file. A mistake of values has their test and
+/// direction.
 #[must_use]
 pub fn fit_mistake(sheet: &Document, error: &Error) -> Diagnostic {
     let message = error.to_string();
     let Some((name, rest)) = message.split_once(": ") else {
         return Diagnostic::new(sheet.path(), message);
     };
+
+    // A curve is named before its fault.
     let curves = NamedCurve::of(sheet);
     if let Some(curve) = curves.iter().find(|curve| curve.is_called(name)) {
         let NamedCurve { index, test, direction, files, .. } = curve;
@@ -67,6 +71,7 @@ pub fn fit_mistake(sheet: &Document, error: &Error) -> Diagnostic {
         let message = format!("{test} curve, {direction}, \"{name}\" in {file}: {rest}");
         return sheet.at(&format!("curve[{index}].file"), message);
     }
+
     let are_values = matches!(
         error,
         Error::IncompatibleValues { .. }

@@ -1,5 +1,5 @@
-//! Chart of values over the ranges that were published: an axis for each value that has a range, the
-//! figure alone for the others.
+//! Chart of values over published ranges. A value with a published range has an axis. Another value
+//! has only its number.
 
 use super::report::CustomerPage;
 use super::values::ReportedValue;
@@ -8,37 +8,38 @@ use crate::page::shown::ShownValue;
 use crate::plot::COLOURS;
 use crate::text::number::{significant, typeset};
 
-/// Part of the axis beyond the range to either side, as a power of the ratio of its ends.
+/// Part of the axis beyond the range at either side, as a power of the ratio of the ends of the
+/// range.
 const BEYOND: f64 = 0.3;
 
 /// Smallest ratio of the ends of an axis.
 const LEAST_RATIO: f64 = 1.5;
 
-/// Most decades of an axis that has ticks at 2 and 5 too.
+/// An axis with more decades than this has ticks at 1 only, not at 2 and 5.
 const FINE_DECADES: f64 = 1.6;
 
-/// Places of a decade for ticks.
+/// Ticks within a decade.
 const STEPS: [f64; 3] = [1.0, 2.0, 5.0];
 
-/// Digits of the ends of a range.
+/// Significant digits of the ends of a range.
 const DIGITS: i32 = 3;
 
-/// Row of the chart: a value.
+/// Row of the chart for one value.
 pub(super) struct ChartRow<'a> {
     pub(super) value: &'a ReportedValue,
     pub(super) unit: &'a str,
-    /// Axis; `None` where no range was published.
+    /// Axis, `None` where no range was published.
     pub(super) axis: Option<Axis>,
     pub(super) lanes: Vec<Lane>,
-    /// Number of its source from 1; 0 without.
+    /// Number of the source of the range, from 1. 0 without a source.
     pub(super) source: usize,
 }
 
 /// Logarithmic axis.
 pub(super) struct Axis {
-    /// Ticks: place in per cent, and label.
+    /// Ticks: position in per cent, and label.
     pub(super) ticks: Vec<(String, String)>,
-    /// Ends of the ranges in words, one after the other where they differ.
+    /// Published ranges in words. Fabrics with different ranges have several.
     pub(super) usual: String,
 }
 
@@ -46,31 +47,31 @@ pub(super) struct Axis {
 pub(super) struct Lane {
     /// Number of its colour.
     pub(super) colour: usize,
-    /// Height of its middle over that of a lane.
+    /// Vertical position of the middle of the lane, in the unit of [`LANE`].
     pub(super) middle: String,
-    /// Range: place of its begin and its length in per cent.
+    /// Published range: position of its begin and its length, in per cent.
     pub(super) band: Option<[String; 2]>,
-    /// Place of the value in per cent.
+    /// Position of the value, in per cent.
     pub(super) at: Option<String>,
-    /// Places of the ends of its scatter in per cent.
+    /// Positions of the ends of the scatter of the value, in per cent.
     pub(super) scatter: Option<[String; 2]>,
-    /// Whether the value is of a law, not measured.
+    /// Whether the value is a value of a law, not a measured value.
     pub(super) is_of_law: bool,
     /// Value as text.
     pub(super) text: String,
 }
 
-/// Height of a lane in its figure.
+/// Height of a lane in the figure.
 pub(super) const LANE: f64 = 10.0;
 
-/// Chart with its sources, which rows number from 1.
+/// Chart with the sources of its ranges. The rows refer to the sources by number, from 1.
 pub(super) struct ValueChart<'a> {
     pub(super) rows: Vec<ChartRow<'a>>,
     pub(super) sources: Vec<&'a str>,
 }
 
 impl<'a> ValueChart<'a> {
-    /// Returns the chart of a page.
+    /// Returns the chart of a `page`.
     pub(super) fn new(page: &'a CustomerPage) -> Self {
         let mut sources: Vec<&str> = Vec::new();
         let values = page.values.iter().chain(&page.others);
@@ -85,62 +86,84 @@ impl<'a> ValueChart<'a> {
             }
             Some(row)
         });
-        // Axes first: they belong together.
+        // Rows with an axis stand together, above the rows without one.
         let (mut rows, others): (Vec<_>, Vec<_>) = rows.partition(|row| row.axis.is_some());
         rows.extend(others);
         Self { rows, sources }
     }
 }
 
-/// Number of a fabric on the chart: measured, else of a law that was not assumed.
-fn shown(number: &ComparedNumber) -> Option<f64> {
+/// Returns the value of a fabric on the chart: the measured value, else the value of a law that was
+/// not assumed.
+fn charted(number: &ComparedNumber) -> Option<f64> {
     number.measured.or(number.law.filter(|_| !number.is_assumed))
 }
 
-/// Returns the row of a value, if a fabric has one.
+/// Returns the row of a `value` for `count` fabrics, `None` if no fabric has the value.
 fn row(value: &ReportedValue, count: usize) -> Option<ChartRow<'_>> {
     let units = &value.value.units;
     let (unit, in_si) = units.first();
     let numbers: Vec<ComparedNumber> = (0..count).map(|fabric| value.number(fabric)).collect();
-    if numbers.iter().all(|number| shown(number).is_none()) {
+    if numbers.iter().all(|number| charted(number).is_none()) {
         return None;
     }
     let ranges: Vec<Option<[f64; 2]>> = (0..count).map(|fabric| value.range(fabric)).collect();
+
+    // All fabrics of a row share one axis.
     let ends = ends(&ranges, &numbers);
-    let lane = |(fabric, number): (usize, &ComparedNumber)| {
-        let at = shown(number);
-        let place = |value: f64| ends.map(|ends| place(ends, value));
-        let text = at.map(|at| ShownValue::with_error(at, number.deviation, units));
-        let ratio = number.deviation.zip(at).filter(|(deviation, at)| deviation < at);
-        let scatter = ratio.map(|(deviation, at)| [at - deviation, at + deviation]);
+    let lanes = numbers.iter().enumerate().map(|(fabric, number)| {
+        let lane = lane(number, ranges[fabric], ends);
         Lane {
             colour: fabric % COLOURS + 1,
             middle: format!("{:.1}", LANE * (fabric as f64 + 0.5)),
-            band: ranges[fabric].and_then(|[from, to]| {
-                let [from, to] = [place(from)?, place(to)?];
-                Some([from, to - from].map(percent))
+            text: charted(number).map_or_else(String::new, |value| {
+                ShownValue::with_error(value, number.deviation, units).first().print()
             }),
-            at: at.and_then(place).map(percent),
-            scatter: scatter.and_then(|[from, to]| Some([place(from)?, place(to)?].map(percent))),
-            is_of_law: number.measured.is_none(),
-            text: text.map_or_else(String::new, |text| text.first().print()),
+            ..lane
         }
-    };
+    });
     Some(ChartRow {
         value,
         unit,
         axis: ends.map(|ends| axis(ends, &ranges, in_si)),
-        lanes: numbers.iter().enumerate().map(lane).collect(),
+        lanes: lanes.collect(),
         source: 0,
     })
 }
 
-/// Returns the ends of the axis of a row, in SI, if it has a range and positive numbers.
+/// Returns the lane of a `number` and its published `range` on an axis with `ends`, in SI. Colour,
+/// height and text of the lane stay empty.
+fn lane(number: &ComparedNumber, range: Option<[f64; 2]>, ends: Option<[f64; 2]>) -> Lane {
+    let position = |value: f64| ends.map(|ends| position(ends, value));
+    let value = charted(number);
+    let band = range.and_then(|[from, to]| {
+        let [from, to] = [position(from)?, position(to)?];
+        Some([from, to - from].map(percent))
+    });
+    // A logarithmic axis has no place for a scatter that reaches zero.
+    let deviation = number.deviation.zip(value).filter(|(deviation, value)| deviation < value);
+    let scatter = deviation.and_then(|(deviation, value)| {
+        let [from, to] = [value - deviation, value + deviation];
+        Some([position(from)?, position(to)?].map(percent))
+    });
+    Lane {
+        colour: 0,
+        middle: String::new(),
+        band,
+        at: value.and_then(position).map(percent),
+        scatter,
+        is_of_law: number.measured.is_none(),
+        text: String::new(),
+    }
+}
+
+/// Returns the ends of the axis of a row, in SI. Returns `None` if `ranges` has no range or a number
+/// is not positive.
 fn ends(ranges: &[Option<[f64; 2]>], numbers: &[ComparedNumber]) -> Option<[f64; 2]> {
     let [low, high] = ranges.iter().flatten().copied().reduce(union)?;
     let ratio = (high / low).max(LEAST_RATIO).powf(BEYOND);
     let around = [low / ratio, high * ratio];
-    let values = numbers.iter().filter_map(shown);
+    let values = numbers.iter().filter_map(charted);
     // A value beyond the axis stretches it, with a little room.
     let all = values.map(|value| [value / LEAST_RATIO, value * LEAST_RATIO]);
     let [low, high] = all.fold(around, |ends, [from, to]| {
@@ -150,28 +173,34 @@ fn ends(ranges: &[Option<[f64; 2]>], numbers: &[ComparedNumber]) -> Option<[f64;
     (low > 0.0).then_some([low, high])
 }
 
+/// Returns the interval that covers both intervals.
 fn union([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [a.min(c), b.max(d)]
 }
 
-/// Returns the place of a value on an axis, in per cent.
-fn place([low, high]: [f64; 2], value: f64) -> f64 {
+/// Returns the position of a `value` on an axis from `low` to `high`, in per cent.
+fn position([low, high]: [f64; 2], value: f64) -> f64 {
     let part = (value / low).ln() / (high / low).ln();
     if part.is_finite() { 100.0 * part.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-fn percent(place: f64) -> String {
-    format!("{place:.1}")
+/// Returns a `position` as text with one decimal.
+fn percent(position: f64) -> String {
+    format!("{position:.1}")
 }
 
-/// Returns the ticks of an axis whose ends are in SI, and its ranges in words.
+/// Returns the axis from `low` to `high`, in SI, with its ticks and `ranges` in words. The unit of
+/// the labels is `in_si`.
 fn axis([low, high]: [f64; 2], ranges: &[Option<[f64; 2]>], in_si: f64) -> Axis {
     let [from, to] = [low, high].map(|end| end / in_si);
     let decades = (to / from).log10();
     let steps = if decades <= FINE_DECADES { &STEPS[..] } else { &STEPS[..1] };
     let powers = from.log10().floor() as i32..=to.log10().ceil() as i32;
     let ticks = powers.flat_map(|power| steps.iter().map(move |step| step * 10f64.powi(power)));
-    let label = |tick: f64| (percent(place([from, to], tick)), short(tick));
+    let ticks = ticks.filter(|tick| (from..=to).contains(tick));
+    let ticks = ticks.map(|tick| (percent(position([from, to], tick)), short(tick)));
+
+    // Fabrics of the same kind have the same range, which is written once.
     let mut usual: Vec<String> = Vec::new();
     for [from, to] in ranges.iter().flatten().map(|ends| ends.map(|end| end / in_si)) {
         let [from, to] = [from, to].map(|end| typeset(&significant(end, DIGITS)));
@@ -180,13 +209,10 @@ fn axis([low, high]: [f64; 2], ranges: &[Option<[f64; 2]>], in_si: f64) -> Axis 
             usual.push(words);
         }
     }
-    Axis {
-        ticks: ticks.filter(|tick| (from..=to).contains(tick)).map(label).collect(),
-        usual: usual.join("; "),
-    }
+    Axis { ticks: ticks.collect(), usual: usual.join("; ") }
 }
 
-/// Returns a tick as short as it can be written.
+/// Returns a `tick` as a short text.
 fn short(tick: f64) -> String {
     if (1e-3..1e5).contains(&tick) {
         let decimals = usize::try_from(-tick.log10().floor() as i32).unwrap_or(0);

@@ -1,7 +1,7 @@
 //! All numbers of a report to a customer as one table of comma-separated values.
-//!
-//! A row is a line of the head, a value, a drape, a point of a loop or a girth of a garment, in the laboratory's units; columns
-//! that a row has no number for are empty. Numbers have a decimal point and at most ten digits.
+//! A row is a line of the head, a value, a drape, a point of a loop or a girth of a garment.
+//! Numbers are in the units of the laboratory. Columns without a number stay empty. Numbers have a
+//! decimal point and at most ten digits.
 
 use super::drape::ReportedDrape;
 use super::garment::ReportedGarment;
@@ -30,10 +30,10 @@ const COLUMNS: [&str; 16] = [
     "text",
 ];
 
-/// Digits of a number.
+/// Significant digits of a number.
 const DIGITS: usize = 10;
 
-/// Row of the table by column.
+/// Row of the table, with one field for each column.
 #[derive(Default)]
 struct Row {
     fabric: String,
@@ -45,7 +45,7 @@ struct Row {
     deviation: Option<f64>,
     law: Option<f64>,
     is_assumed: bool,
-    /// Difference of the law from what was measured, a ratio.
+    /// Difference between the law and the measured value, as a ratio.
     difference: Option<f64>,
     /// Published range of a value, or interval of a drape.
     range: Option<[f64; 2]>,
@@ -56,25 +56,25 @@ struct Row {
 }
 
 impl Row {
-    /// Returns the row as a line.
+    /// Returns the row as a line, in the order of [`COLUMNS`].
     fn line(&self) -> String {
-        let number = |value: Option<f64>| value.map_or_else(String::new, rounded);
-        let [from, to] = [0, 1].map(|end| number(self.range.map(|range| range[end])));
+        let [from, to] = [0, 1].map(|end| optional(self.range.map(|range| range[end])));
+
         let cells = [
             quoted(&self.fabric),
             self.part.to_owned(),
             quoted(&self.item),
             quoted(&self.direction),
             quoted(&self.unit),
-            number(self.measured),
-            number(self.deviation),
-            number(self.law),
+            optional(self.measured),
+            optional(self.deviation),
+            optional(self.law),
             if self.is_assumed { "yes".to_owned() } else { String::new() },
-            number(self.difference.map(|ratio| 100.0 * ratio)),
+            optional(self.difference.map(|ratio| 100.0 * ratio)),
             from,
             to,
             self.point.map_or_else(String::new, |point| point.to_string()),
-            number(self.deformation),
+            optional(self.deformation),
             quoted(&self.deformation_unit),
             quoted(&self.text),
         ];
@@ -82,7 +82,12 @@ impl Row {
     }
 }
 
-/// Returns a number without digits that only show rounding.
+/// Returns a number as text, or an empty text for `None`.
+fn optional(value: Option<f64>) -> String {
+    value.map_or_else(String::new, rounded)
+}
+
+/// Returns a `value` as text, without digits that only show rounding.
 fn rounded(value: f64) -> String {
     let text = format!("{value:.*e}", DIGITS - 1);
     let value: f64 = text.parse().unwrap_or(value);
@@ -94,7 +99,7 @@ fn rounded(value: f64) -> String {
     }
 }
 
-/// Returns a text as a cell, quoted where it needs that (RFC 4180).
+/// Returns a `text` as a cell, quoted where RFC 4180 requires quotes.
 fn quoted(text: &str) -> String {
     if text.contains(['"', ',', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -103,55 +108,64 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// Rows that a table has.
+/// Choice of the rows of a table.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Detail {
+    /// All rows.
     All,
-    /// All but the points of loops.
+    /// All rows but the points of loops.
     WithoutPoints,
 }
 
 impl CustomerPage {
-    /// Returns all numbers of the report as a table with a head: lines of the head, values, drapes, points
-    /// of loops, in the laboratory's units.
+    /// Returns all numbers of the report as a table with a head, in the units of the laboratory.
+    /// The rows are lines of the head, values, drapes, points of loops and girths of garments.
     ///
     /// # Errors
-    /// Those of [`CustomerPage::check`].
+    /// Errors of [`CustomerPage::check`].
     pub fn to_csv(&self) -> Result<String, Error> {
         self.check()?;
         Ok(table(self, Detail::All))
     }
 }
 
-/// Returns the table of a report that has been checked.
+/// Returns the table of a `page` that has been checked, with the rows that `detail` chooses.
 pub(super) fn table(page: &CustomerPage, detail: Detail) -> String {
     let mut lines = vec![COLUMNS.join(",")];
     for (index, fabric) in page.fabrics.iter().enumerate() {
-        let of = |row: Row| Row { fabric: fabric.name.clone(), ..row }.line();
-        lines.extend(fabric.record.iter().map(|[title, text]| {
-            of(Row { part: "record", item: title.clone(), text: text.clone(), ..Row::default() })
+        let mut rows: Vec<Row> = Vec::new();
+        rows.extend(fabric.record.iter().map(|[title, text]| Row {
+            part: "record",
+            item: title.clone(),
+            text: text.clone(),
+            ..Row::default()
         }));
         let values = page.values.iter().chain(&page.others);
-        lines.extend(values.filter_map(|value| value_row(value, index)).map(of));
-        lines.extend(fabric.drape.iter().flat_map(drape_rows).map(of));
-        for own in fabric.loops.iter().filter(|_| detail == Detail::All) {
-            lines.extend(point_rows(own).map(of));
+        rows.extend(values.filter_map(|value| value_row(value, index)));
+        rows.extend(fabric.drape.iter().flat_map(drape_rows));
+        if detail == Detail::All {
+            rows.extend(fabric.loops.iter().flat_map(point_rows));
         }
         let assumed = page.assumed.iter().filter(|note| note.fabrics.contains(&index));
-        lines
-            .extend(assumed.map(|note| {
-                of(Row { part: "assumed", text: note.text.clone(), ..Row::default() })
-            }));
+        rows.extend(assumed.map(|note| Row {
+            part: "assumed",
+            text: note.text.clone(),
+            ..Row::default()
+        }));
+
+        let of_fabric = rows.into_iter().map(|row| Row { fabric: fabric.name.clone(), ..row });
+        lines.extend(of_fabric.map(|row| row.line()));
     }
     lines.extend(page.garments.iter().flat_map(garment_rows).map(|row| row.line()));
     lines.join("\r\n") + "\r\n"
 }
 
-/// Returns the rows of a garment: girths and ease at each place, in mm. They belong to no fabric.
+/// Returns the rows of a `garment`: girths and ease at each place, in mm. The rows have no fabric.
 fn garment_rows(garment: &ReportedGarment) -> Vec<Row> {
     let mut rows = Vec::new();
     for girth in &garment.girths {
         let [ease, pattern_ease] = girth.ease();
+
         let figures = [
             ("height", Some(girth.height)),
             ("body", Some(girth.body)),
@@ -160,6 +174,8 @@ fn garment_rows(garment: &ReportedGarment) -> Vec<Row> {
             ("pattern", girth.pattern),
             ("ease in the pattern", pattern_ease),
         ];
+
+        // A girth that is not known has no row.
         rows.extend(figures.into_iter().filter(|(_, length)| length.is_some()).map(
             |(name, length)| Row {
                 part: "garment",
@@ -174,20 +190,19 @@ fn garment_rows(garment: &ReportedGarment) -> Vec<Row> {
     rows
 }
 
-/// Returns the row of a value of a fabric, if the fabric has one.
+/// Returns the row of a `value` for a `fabric`, `None` if the fabric has no such value.
 fn value_row(value: &ReportedValue, fabric: usize) -> Option<Row> {
     let ComparedNumber { measured, deviation, law, is_assumed } = value.number(fabric);
     measured.or(law)?;
     let (unit, in_si) = value.value.units.first();
-    let scaled = |number: Option<f64>| number.map(|number| number / in_si);
     Some(Row {
         part: "value",
         item: value.value.symbol.clone(),
         direction: value.value.direction.clone(),
         unit: unit.to_owned(),
-        measured: scaled(measured),
-        deviation: scaled(deviation),
-        law: scaled(law),
+        measured: measured.map(|value| value / in_si),
+        deviation: deviation.map(|value| value / in_si),
+        law: law.map(|value| value / in_si),
         is_assumed,
         difference: value.difference(fabric).map(|difference| difference.ratio),
         range: value.range(fabric).map(|range| range.map(|end| end / in_si)),
@@ -196,41 +211,47 @@ fn value_row(value: &ReportedValue, fabric: usize) -> Option<Row> {
     })
 }
 
-/// Returns the rows of a drape: its coefficient, its nodes, and the edge of its shadow.
+/// Returns the rows of a `drape`: its coefficient, its nodes, and the edge of its shadow.
 fn drape_rows(drape: &ReportedDrape) -> Vec<Row> {
-    let row = |item: &str| Row { part: "drape", item: item.to_owned(), ..Row::default() };
     let mut rows = vec![Row {
+        part: "drape",
+        item: "drape coefficient".to_owned(),
         unit: "%".to_owned(),
         law: Some(100.0 * drape.coefficient),
         deviation: Some(100.0 * drape.deviation),
         range: Some(drape.interval.map(|end| 100.0 * end)),
         text: format!("{}; {}; {}", drape.meter, drape.computed, drape.meaning),
-        ..row("drape coefficient")
+        ..Row::default()
     }];
     rows.extend(drape.nodes.iter().map(|(nodes, times)| Row {
+        part: "drape",
+        item: "nodes".to_owned(),
         law: Some(*nodes as f64),
         text: format!("{times} specimens"),
-        ..row("nodes")
+        ..Row::default()
     }));
-    let radius = |(index, radius): (usize, &f64)| Row {
+
+    // The radii stand at even angles of the turn.
+    rows.extend(drape.shadow.edge.iter().enumerate().map(|(index, radius)| Row {
+        part: "drape",
+        item: "radius of the shadow".to_owned(),
         unit: "mm".to_owned(),
         law: Some(1e3 * radius),
         point: Some(index + 1),
         deformation: Some(360.0 * index as f64 / drape.shadow.edge.len() as f64),
         deformation_unit: "°".to_owned(),
-        ..row("radius of the shadow")
-    };
-    rows.extend(drape.shadow.edge.iter().enumerate().map(radius));
+        ..Row::default()
+    }));
     rows
 }
 
-/// Returns the rows of the points of loops.
-fn point_rows(own: &ReportedLoop) -> impl Iterator<Item = Row> {
-    own.law.plots.iter().flat_map(|plot| {
+/// Returns the rows of the points of a `reported` loop.
+fn point_rows(reported: &ReportedLoop) -> impl Iterator<Item = Row> {
+    reported.law.plots.iter().flat_map(|plot| {
         plot.points().enumerate().map(|(index, point)| Row {
             part: "loop",
             item: plot.title.clone(),
-            direction: own.direction.clone(),
+            direction: reported.direction.clone(),
             unit: plot.load.unit.clone(),
             measured: point.measured.map(|load| load / plot.load.in_si),
             law: point.fitted.map(|load| load / plot.load.in_si),

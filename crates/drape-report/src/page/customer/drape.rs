@@ -12,7 +12,7 @@ use crate::plot::ShadowPlot;
 pub struct ReportedDrape {
     /// Instrument in words, as in "FRL drapemeter, 254 mm on 127 mm".
     pub meter: String,
-    /// How it was computed, in a sentence.
+    /// Method of computation, in a sentence.
     pub computed: String,
     /// Mean drape coefficient, a ratio.
     pub coefficient: f64,
@@ -26,12 +26,13 @@ pub struct ReportedDrape {
     pub nodes: Vec<(usize, usize)>,
     /// Shadow of one specimen.
     pub shadow: ShadowPlot,
-    /// Picture of the same specimen.
+    /// Picture of the specimen whose shadow is shown.
     #[serde(skip)]
     pub picture: Option<Picture>,
 }
 
 impl ReportedDrape {
+    /// Refuses texts that cannot be shown and coefficients that are not finite, as [`Error`].
     pub(super) fn check(&self) -> Result<(), Error> {
         for text in [&self.meter, &self.computed, &self.meaning] {
             check::text("a text of a drape", text)?;
@@ -43,7 +44,7 @@ impl ReportedDrape {
         self.shadow.check()
     }
 
-    /// Returns the numbers of nodes in words: "5 (×2), 6 (×8)".
+    /// Returns the numbers of `nodes` in words: "5 (×2), 6 (×8)".
     pub(super) fn nodes_in_words(&self) -> String {
         let words = self.nodes.iter().map(|(nodes, times)| format!("{nodes} (×{times})"));
         words.collect::<Vec<_>>().join(", ")

@@ -10,20 +10,20 @@ use crate::error::Error;
 pub struct ReportedGarment {
     /// Name in the scene.
     pub name: String,
-    /// Run that it is from, and its fabrics, in a sentence.
+    /// Run of the garment and its fabrics, in a sentence.
     pub source: String,
-    /// Girths from the top down.
+    /// Girths from the top to the bottom.
     pub girths: Vec<ReportedGirth>,
 }
 
-/// Girths of a garment and of its body at a height, in m.
+/// Girths of a garment and of its body at one height, in m.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct ReportedGirth {
     /// Name of the place, such as "waist".
     pub place: String,
-    /// Height.
+    /// Height on the body.
     pub height: f64,
-    /// Height at which the garment was measured, where that is another one.
+    /// Height at which the garment was measured, where it differs from `height`.
     pub garment_height: Option<f64>,
     /// Girth of the body.
     pub body: f64,
@@ -31,52 +31,67 @@ pub struct ReportedGirth {
     pub garment: Option<f64>,
     /// Girth of the garment in the flat pattern, if it is known.
     pub pattern: Option<f64>,
-    /// Remark, such as why a girth is not known; may be empty.
+    /// Remark, such as the reason why a girth is not known. The text may be empty.
     pub remark: String,
 }
 
 impl ReportedGirth {
-    /// Returns the ease as worn and in the pattern, in m.
+    /// Returns the ease in the worn garment and in the flat pattern, in m. The ease is the girth
+    /// minus the girth of the `body`.
     #[must_use]
     pub fn ease(&self) -> [Option<f64>; 2] {
         [self.garment, self.pattern].map(|girth| Some(girth? - self.body))
     }
 
-    /// Returns its numbers in whole millimetres, with a sign where they are ease: body, garment, ease, girth
-    /// in the pattern, ease in the pattern.
+    /// Returns the numbers in whole millimetres: `body`, `garment`, its ease, `pattern`, its ease.
+    /// A negative ease has a sign.
     pub(super) fn figures(&self) -> [String; 5] {
-        let whole = |length: f64| (1e3 * length).round();
-        let girth = |length: Option<f64>| {
-            length.map_or_else(|| "–".to_owned(), |length| format!("{:.0}", whole(length)))
-        };
-        // The ease that is shown is the difference of the girths that are shown.
-        let ease = |length: Option<f64>| match length.map(|own| whole(own) - whole(self.body)) {
-            None => "–".to_owned(),
-            Some(ease) if ease < 0.0 => format!("−{:.0}", -ease),
-            Some(ease) => format!("{ease:.0}"),
-        };
+        let [ease, pattern_ease] =
+            [self.garment, self.pattern].map(|girth| shown_ease(girth, self.body));
         [
-            girth(Some(self.body)),
-            girth(self.garment),
-            ease(self.garment),
-            girth(self.pattern),
-            ease(self.pattern),
+            shown_girth(Some(self.body)),
+            shown_girth(self.garment),
+            ease,
+            shown_girth(self.pattern),
+            pattern_ease,
         ]
     }
 
-    /// Returns the place with its height, and that of the garment where it is another one.
+    /// Returns the `height` of the place in words, with the `garment_height` where it differs.
     pub(super) fn place_text(&self) -> String {
-        let at = |height: f64| format!("{:.0} mm", 1e3 * height);
+        let millimetres = |height: f64| format!("{:.0} mm", 1e3 * height);
         match self.garment_height {
-            Some(own) if (own - self.height).abs() > 5e-4 => {
-                format!("at {}, the garment at {}", at(self.height), at(own))
+            Some(garment) if (garment - self.height).abs() > 5e-4 => {
+                format!("at {}, the garment at {}", millimetres(self.height), millimetres(garment))
             }
-            _ => format!("at {}", at(self.height)),
+            _ => format!("at {}", millimetres(self.height)),
         }
     }
 }
 
+/// Returns a `length`, in m, in whole millimetres.
+fn whole(length: f64) -> f64 {
+    (1e3 * length).round()
+}
+
+/// Returns a girth, in m, as text in millimetres, or a dash for `None`.
+fn shown_girth(girth: Option<f64>) -> String {
+    girth.map_or_else(|| "–".to_owned(), |girth| format!("{:.0}", whole(girth)))
+}
+
+/// Returns the ease of a `girth` on a `body`, in m, as text in millimetres, or a dash without a girth.
+///
+/// The shown ease is the difference of the shown girths.
+fn shown_ease(girth: Option<f64>, body: f64) -> String {
+    match girth.map(|girth| whole(girth) - whole(body)) {
+        None => "–".to_owned(),
+        Some(ease) if ease < 0.0 => format!("−{:.0}", -ease),
+        Some(ease) => format!("{ease:.0}"),
+    }
+}
+
 impl ReportedGarment {
+    /// Refuses texts that cannot be shown and girths that are not finite, as [`Error`].
     pub(super) fn check(&self) -> Result<(), Error> {
         check::text("the name of a garment", &self.name)?;
         check::text("the source of a garment", &self.source)?;
@@ -84,9 +99,13 @@ impl ReportedGarment {
             check::text("the name of a place", &girth.place)?;
             check::text("a remark on a girth", &girth.remark)?;
             let numbers = [Some(girth.height), girth.garment_height, Some(girth.body)];
-            let mut numbers = numbers.into_iter().chain([girth.garment, girth.pattern]).flatten();
-            let what = || format!("a girth at the {} of {}", girth.place, self.name);
-            numbers.try_for_each(|number| check::number(what, number))?;
+            let numbers = numbers.into_iter().chain([girth.garment, girth.pattern]).flatten();
+            for number in numbers {
+                check::number(
+                    || format!("a girth at the {} of {}", girth.place, self.name),
+                    number,
+                )?;
+            }
         }
         Ok(())
     }

@@ -15,22 +15,24 @@ use crate::plot::{COLOURS, LoopPlot, Placement, STYLE, loop_figure, shadow_figur
 use crate::text::base64::encode;
 use crate::text::number::{percent, typeset};
 
-/// Style of this page beside that of all pages.
+/// Style of this page, in addition to the style of all pages.
 const CUSTOMER_STYLE: &str = include_str!("../../../templates/page/customer.css");
 
-/// Fabrics that stand side by side in a table; more are in tables below.
+/// Number of fabrics that stand side by side in a table. Further fabrics have tables below.
 const ABREAST: usize = 3;
 
-/// Points of a plot that are drawn at most: more would show no more, and make the page large.
+/// Largest number of drawn points of a plot. Further points could not be seen, and would make the
+/// page large.
 const POINTS_MAX: usize = 1200;
 
-/// Size of the table of all numbers that the page carries at most, in bytes: with more, the points of the
-/// loops are left out of it.
+/// Largest size of the table of all numbers in the page, in bytes. A larger table is stored without
+/// the points of the loops.
 const TABLE_MAX: usize = 700_000;
 
 /// Labels of the figures of a girth, on narrow screens.
 const GIRTH_LABELS: [&str; 5] = ["body", "garment", "ease", "pattern", "ease in the pattern"];
 
+/// What the HTML template shows.
 #[derive(Template)]
 #[template(path = "page/customer.html")]
 struct View<'a> {
@@ -48,7 +50,7 @@ struct View<'a> {
     has_drapes: bool,
     assumed: Vec<(String, &'a str)>,
     notes: Vec<(String, &'a str)>,
-    /// The table of all numbers in base64, and whether it has the points of the loops.
+    /// The table of all numbers in base64, and whether the table has the points of the loops.
     csv: (String, bool),
     is_thinned: bool,
     limits: [String; 2],
@@ -67,13 +69,14 @@ struct ValueTable<'a> {
     rows: Vec<ValueRow<'a>>,
 }
 
+/// Row of a table of values.
 struct ValueRow<'a> {
     value: &'a ReportedValue,
     unit: &'a str,
     cells: Vec<Cell>,
 }
 
-/// Numbers of a fabric.
+/// Numbers of one fabric.
 struct Cell {
     measured: Option<String>,
     law: Option<String>,
@@ -81,32 +84,36 @@ struct Cell {
     is_within_scatter: bool,
 }
 
-/// Loops of one test and direction, a cell for each fabric.
+/// Loops of one test and direction, with a cell for each fabric.
 struct LoopRow<'a> {
     title: String,
     cells: Vec<LoopCell<'a>>,
 }
 
+/// Loops of one fabric.
 struct LoopCell<'a> {
     head: Head<'a>,
     plots: Vec<LoopView<'a>>,
 }
 
+/// Figures of one law.
 struct LoopView<'a> {
     title: &'a str,
     model: &'a str,
     trust: &'static str,
     class: &'static str,
-    /// Misfit in words; empty where there is no measured curve.
+    /// Misfit in words. Empty where there is no measured curve.
     misfit: String,
     figures: Vec<String>,
 }
 
+/// Drape of one fabric, if the fabric has one.
 struct DrapeView<'a> {
     head: Head<'a>,
     drape: Option<DrapeTexts<'a>>,
 }
 
+/// Texts and figures of a drape.
 struct DrapeTexts<'a> {
     drape: &'a ReportedDrape,
     coefficient: String,
@@ -118,11 +125,11 @@ struct DrapeTexts<'a> {
 }
 
 impl CustomerPage {
-    /// Returns the report as one self-contained HTML page: no network, no fonts, no other file. It carries
-    /// the table of [`CustomerPage::to_csv`] for download.
+    /// Returns the report as one self-contained HTML page: no network, no fonts, no other file. The
+    /// page contains the table of [`CustomerPage::to_csv`] for download.
     ///
     /// # Errors
-    /// Those of [`CustomerPage::check`], and a picture that cannot be encoded.
+    /// Errors of [`CustomerPage::check`], and a picture that cannot be encoded.
     pub fn to_html(&self) -> Result<String, Error> {
         self.check()?;
         let heads = heads(self);
@@ -130,6 +137,8 @@ impl CustomerPage {
             .record_titles()
             .into_iter()
             .map(|title| (title, self.fabrics.iter().map(|fabric| fabric.line(title)).collect()));
+
+        // A picture of a drape may fail to be encoded.
         let drapes: Result<Vec<DrapeView<'_>>, Error> = heads
             .iter()
             .zip(&self.fabrics)
@@ -138,9 +147,12 @@ impl CustomerPage {
                 Ok(DrapeView { head: *head, drape })
             })
             .collect();
-        let plots = || self.fabrics.iter().flat_map(|fabric| &fabric.loops);
-        let is_thinned =
-            plots().flat_map(|own| &own.law.plots).any(|plot| plot.points().count() > POINTS_MAX);
+
+        // The page says whether a figure was drawn with fewer points.
+        let loops = self.fabrics.iter().flat_map(|fabric| &fabric.loops);
+        let is_thinned = loops
+            .flat_map(|reported| &reported.law.plots)
+            .any(|plot| plot.points().count() > POINTS_MAX);
         let view = View {
             page: self,
             styles: [STYLE.to_owned(), format!("{PAGE_STYLE}{CUSTOMER_STYLE}")],
@@ -164,13 +176,16 @@ impl CustomerPage {
     }
 }
 
-/// Returns the fabrics with the numbers of their colours.
+/// Returns the fabrics of a `page` with the numbers of their colours.
 fn heads(page: &CustomerPage) -> Vec<Head<'_>> {
     let fabrics = page.fabrics.iter().enumerate();
-    fabrics.map(|(index, own)| Head { colour: index % COLOURS + 1, name: &own.name }).collect()
+    fabrics
+        .map(|(index, fabric)| Head { colour: index % COLOURS + 1, name: &fabric.name })
+        .collect()
 }
 
-/// Returns the table of all numbers in base64, and whether the points of the loops are in it.
+/// Returns the table of all numbers of a `page` in base64, and whether the table has the points of
+/// the loops.
 fn carried_table(page: &CustomerPage) -> (String, bool) {
     let all = table(page, Detail::All);
     if all.len() <= TABLE_MAX {
@@ -179,105 +194,115 @@ fn carried_table(page: &CustomerPage) -> (String, bool) {
     (encode(table(page, Detail::WithoutPoints).as_bytes()), false)
 }
 
-/// Returns notes, each with the fabrics that it is about; nothing where it is about all of them.
+/// Returns the text of each of `notes` with the names of its fabrics. The names are empty where the
+/// note is about all fabrics.
 fn attributed<'a>(notes: &'a [ReportedNote], heads: &[Head<'_>]) -> Vec<(String, &'a str)> {
-    let of = |note: &'a ReportedNote| {
-        let names = note.fabrics.iter().filter_map(|index| heads.get(*index)).map(|own| own.name);
+    let attributed = notes.iter().map(|note| {
+        let names = note.fabrics.iter().filter_map(|index| heads.get(*index)).map(|head| head.name);
         let is_of_all = note.fabrics.len() >= heads.len();
         let names = if is_of_all { String::new() } else { names.collect::<Vec<_>>().join(", ") };
         (names, note.text.as_str())
-    };
-    notes.iter().map(of).collect()
+    });
+    attributed.collect()
 }
 
-/// Returns tables of values, each of a few fabrics; rows without a number are left out.
+/// Returns tables of `values`, each of at most [`ABREAST`] fabrics. Rows without a number are left
+/// out.
 fn value_tables<'a>(
     page: &CustomerPage,
     values: &'a [ReportedValue],
     heads: &[Head<'a>],
 ) -> Vec<ValueTable<'a>> {
     let indices: Vec<usize> = (0..heads.len()).collect();
-    let tables = indices.chunks(ABREAST).map(|of| {
-        let rows = values.iter().map(|value| value_row(value, of, &page.limits));
-        let has_number = |row: &ValueRow<'_>| {
+    let tables = indices.chunks(ABREAST).map(|fabrics| {
+        let rows = values.iter().map(|value| value_row(value, fabrics, &page.limits));
+        let rows = rows.filter(|row| {
             row.cells.iter().any(|cell| cell.measured.is_some() || cell.law.is_some())
-        };
+        });
         ValueTable {
-            heads: of.iter().map(|index| heads[*index]).collect(),
-            rows: rows.filter(has_number).collect(),
+            heads: fabrics.iter().map(|index| heads[*index]).collect(),
+            rows: rows.collect(),
         }
     });
     tables.filter(|table| !table.rows.is_empty()).collect()
 }
 
+/// Returns the row of a `value` with a cell for each of `fabrics`. Differences above `limits` are
+/// marked.
 fn value_row<'a>(value: &'a ReportedValue, fabrics: &[usize], limits: &Limits) -> ValueRow<'a> {
     let units = &value.value.units;
-    let cell = |&fabric: &usize| {
+    let cells = fabrics.iter().map(|&fabric| {
         let number = value.number(fabric);
         let difference = value.difference(fabric);
         let is_within_scatter =
-            difference.and_then(|own| own.is_within_scatter).unwrap_or_default();
-        let measured = number
-            .measured
-            .map(|own| ShownValue::with_error(own, number.deviation, units).first().print());
+            difference.and_then(|difference| difference.is_within_scatter).unwrap_or_default();
+        let measured = number.measured.map(|measured| {
+            ShownValue::with_error(measured, number.deviation, units).first().print()
+        });
         let law = number.law.map(|law| ShownValue::new(law, units).first().print());
+
         Cell {
             measured,
             law: law.map(|law| if number.is_assumed { format!("({law})") } else { law }),
-            difference: difference.map(|own| Marked {
-                text: typeset(&in_tenths(own.ratio)),
-                apart: own.ratio.abs() > limits.difference && !is_within_scatter,
+            difference: difference.map(|difference| Marked {
+                text: typeset(&in_tenths(difference.ratio)),
+                apart: difference.ratio.abs() > limits.difference && !is_within_scatter,
             }),
             is_within_scatter,
         }
-    };
-    ValueRow { value, unit: units.first().0, cells: fabrics.iter().map(cell).collect() }
+    });
+    ValueRow { value, unit: units.first().0, cells: cells.collect() }
 }
 
-/// Returns a difference in tenths of a per cent, finer than any instrument repeats.
+/// Returns a difference, given as a `ratio`, in per cent with one decimal, finer than any
+/// instrument repeats.
 fn in_tenths(ratio: f64) -> String {
     let percent = 100.0 * ratio;
     if percent.abs() < 0.05 { "0.0 %".to_owned() } else { format!("{percent:+.1} %") }
 }
 
-/// Returns the loops row by row: of each test and direction those of all fabrics.
+/// Returns the rows of loops. A row has the loops of all fabrics of one test and direction.
 fn loop_rows<'a>(page: &'a CustomerPage, heads: &[Head<'a>]) -> Vec<LoopRow<'a>> {
     let mut keys: Vec<[&str; 2]> = Vec::new();
-    for own in page.fabrics.iter().flat_map(|fabric| &fabric.loops) {
-        let key = [own.test.as_str(), own.direction.as_str()];
+    for reported in page.fabrics.iter().flat_map(|fabric| &fabric.loops) {
+        let key = [reported.test.as_str(), reported.direction.as_str()];
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
-    let row = |key: [&'a str; 2]| {
+
+    let rows = keys.into_iter().map(|key| {
         let cells = heads.iter().zip(&page.fabrics).map(|(head, fabric)| {
-            let of_key = fabric.loops.iter().filter(|own| [&own.test, &own.direction] == key);
+            let of_key =
+                fabric.loops.iter().filter(|reported| [&reported.test, &reported.direction] == key);
             LoopCell {
                 head: *head,
-                plots: of_key.map(|own| loop_view(own, &page.limits)).collect(),
+                plots: of_key.map(|reported| loop_view(reported, &page.limits)).collect(),
             }
         });
         let title = key.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
         LoopRow { title: title.join(", "), cells: cells.collect() }
-    };
-    keys.into_iter().map(row).collect()
+    });
+    rows.collect()
 }
 
-fn loop_view<'a>(own: &'a ReportedLoop, limits: &Limits) -> LoopView<'a> {
-    let trust = own.law.verdict(limits).trust;
-    let misfit = own.law.statistics.as_ref().map(|statistics| percent(statistics.misfit));
-    let figure = |plot: &LoopPlot| loop_figure(&thinned(plot), Placement::InPage);
+/// Returns the figures of a `reported` loop, whose fit is judged by `limits`.
+fn loop_view<'a>(reported: &'a ReportedLoop, limits: &Limits) -> LoopView<'a> {
+    let trust = reported.law.verdict(limits).trust;
+    let misfit = reported.law.statistics.as_ref().map(|statistics| percent(statistics.misfit));
+    let figures =
+        reported.law.plots.iter().map(|plot| loop_figure(&thinned(plot), Placement::InPage));
     LoopView {
-        title: &own.law.title,
-        model: &own.law.model,
+        title: &reported.law.title,
+        model: &reported.law.model,
         trust: trust.name(),
         class: trust.class(),
         misfit: misfit.map_or_else(String::new, |misfit| format!("misfit {misfit} of the range")),
-        figures: own.law.plots.iter().map(figure).collect(),
+        figures: figures.collect(),
     }
 }
 
-/// Returns a plot with every few points of its branches, where it has too many; the last point of a
+/// Returns a `plot` with at most about [`POINTS_MAX`] points, evenly chosen. The last point of each
 /// branch stays.
 fn thinned(plot: &LoopPlot) -> LoopPlot {
     let mut plot = plot.clone();
@@ -293,6 +318,7 @@ fn thinned(plot: &LoopPlot) -> LoopPlot {
     plot
 }
 
+/// Returns the texts and figures of a `drape`.
 fn drape_texts(drape: &ReportedDrape) -> Result<DrapeTexts<'_>, Error> {
     let in_percent = |ratio: f64| typeset(&format!("{:.1}", 100.0 * ratio));
     let [low, high] = drape.interval.map(in_percent);

@@ -9,13 +9,15 @@ use crate::check;
 use crate::error::Error;
 use crate::page::law_report::{LawReport, Limits};
 
-/// Report on one fabric or several, side by side: what was measured, the laws beside it, the drape.
+/// Report on one fabric or several, side by side: measured values, laws and drape.
 ///
-/// All numbers are in SI; the page shows them in the laboratory's units. The page is drawn from this data
-/// alone, so the same data gives the same bytes.
+/// All numbers are in SI. The page shows them in the units of the laboratory. The page depends on
+/// this data alone, so equal data gives equal bytes.
 ///
 /// ```
-/// use drape_report::{ComparedNumber, ComparedValue, CustomerPage, ReportedFabric, ReportedValue, Units};
+/// use drape_report::{
+///     ComparedNumber, ComparedValue, CustomerPage, ReportedFabric, ReportedValue, Units,
+/// };
 ///
 /// let measured = ComparedNumber { measured: Some(0.1056), ..ComparedNumber::default() };
 /// let mass = ComparedValue {
@@ -42,15 +44,15 @@ pub struct CustomerPage {
     pub version: String,
     /// Fabrics in the order of the page.
     pub fabrics: Vec<ReportedFabric>,
-    /// Values that laws have: measured ones beside those of the laws.
+    /// Values that laws have. Measured values stand beside the values of the laws.
     pub values: Vec<ReportedValue>,
     /// Values that no law has.
     pub others: Vec<ReportedValue>,
     /// Garments of the fabrics on bodies.
     pub garments: Vec<ReportedGarment>,
-    /// Assumptions in place of measurements, each once.
+    /// Assumptions in place of measurements. Each text appears once.
     pub assumed: Vec<ReportedNote>,
-    /// Other notes for the reader, each once.
+    /// Other notes for the reader. Each text appears once.
     pub notes: Vec<ReportedNote>,
     /// Limits by which the fit of a law is judged.
     pub limits: Limits,
@@ -63,9 +65,9 @@ pub struct ReportedFabric {
     pub name: String,
     /// Source of its data.
     pub source: String,
-    /// Lines of the head, as title and text; an empty text is not known and stays blank.
+    /// Lines of the head, as title and text. An empty text is not known and stays blank.
     pub record: Vec<[String; 2]>,
-    /// What the report of the fabric is made from, in a sentence.
+    /// Data that the report of the fabric is based on, in a sentence.
     pub basis: String,
     /// Loops in the order of the page.
     pub loops: Vec<ReportedLoop>,
@@ -89,12 +91,13 @@ pub struct ReportedLoop {
 pub struct ReportedNote {
     /// Text.
     pub text: String,
-    /// Fabrics that it is about, by their places from 0.
+    /// Indices of the fabrics that the note is about, from 0.
     pub fabrics: Vec<usize>,
 }
 
 impl ReportedNote {
-    /// Returns notes on several fabrics, each text once, in the order in which it first appears.
+    /// Returns `notes` on several fabrics, given by index and text. Each text appears once, in the
+    /// order of its first appearance.
     #[must_use]
     pub fn shared<'a>(notes: impl IntoIterator<Item = (usize, &'a str)>) -> Vec<ReportedNote> {
         let mut shared: Vec<ReportedNote> = Vec::new();
@@ -110,7 +113,8 @@ impl ReportedNote {
 }
 
 impl CustomerPage {
-    /// Refuses a report without fabrics, numbers that are not finite and texts that cannot be shown.
+    /// Refuses a report without `fabrics`, numbers that are not finite and texts that cannot be
+    /// shown.
     ///
     /// # Errors
     /// The first fault.
@@ -118,7 +122,9 @@ impl CustomerPage {
         if self.fabrics.is_empty() {
             return Err(Error::EmptyReport { name: "a report to a customer".to_owned() });
         }
+
         check::text("a text of the report", &self.version)?;
+
         for ReportedFabric { name, source, record, basis, loops, drape } in &self.fabrics {
             let texts = [name, source, basis].into_iter().chain(record.as_flattened());
             for text in texts {
@@ -131,19 +137,21 @@ impl CustomerPage {
             }
             drape.iter().try_for_each(ReportedDrape::check)?;
         }
+
         self.garments.iter().try_for_each(ReportedGarment::check)?;
         let notes = self.assumed.iter().chain(&self.notes);
         notes.map(|note| &note.text).try_for_each(|text| check::text("a note", text))?;
         self.values.iter().chain(&self.others).try_for_each(ReportedValue::check)
     }
 
-    /// Returns the names of the fabrics as a title.
+    /// Returns the names of the `fabrics` as a title.
     pub(super) fn title(&self) -> String {
         let names: Vec<&str> = self.fabrics.iter().map(|fabric| fabric.name.as_str()).collect();
         names.join(", ")
     }
 
-    /// Returns the titles of the lines of the head, in order of appearance.
+    /// Returns the titles of the lines of the head of all `fabrics`, in the order of their first
+    /// appearance.
     pub(super) fn record_titles(&self) -> Vec<&str> {
         let mut titles: Vec<&str> = Vec::new();
         for [title, _] in self.fabrics.iter().flat_map(|fabric| &fabric.record) {
@@ -156,9 +164,9 @@ impl CustomerPage {
 }
 
 impl ReportedFabric {
-    /// Returns a line of the head by its title; empty where it is not known.
+    /// Returns the line of the head with a `title`. The text is empty where it is not known.
     pub(super) fn line(&self, title: &str) -> &str {
-        let line = self.record.iter().find(|[own, _]| own == title);
+        let line = self.record.iter().find(|[key, _]| key == title);
         line.map_or("", |[_, text]| text)
     }
 }

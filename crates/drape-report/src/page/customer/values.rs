@@ -1,4 +1,4 @@
-//! Value of a report: measured, of the law, and what other fabrics have.
+//! Value of a report: measured, by the law, and the published range.
 
 use serde::Serialize;
 
@@ -6,47 +6,50 @@ use crate::check;
 use crate::error::Error;
 use crate::page::compared_value::{ComparedNumber, ComparedValue, SCATTER};
 
-/// Value of every fabric of a report, in SI, with the range that other fabrics have.
+/// Value of every fabric of a report, in SI, with the published range of similar fabrics.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReportedValue {
     /// Numbers of the fabrics.
     pub value: ComparedValue,
     /// Published range for each fabric; `None` where there is none.
     pub ranges: Vec<Option<[f64; 2]>>,
-    /// Source of the ranges; empty without.
+    /// Source of the ranges. Empty without ranges.
     pub source: String,
 }
 
-/// Difference of a law from what was measured, as a ratio of that.
+/// Difference between a law and the measured value, divided by the measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LawDifference {
     pub(super) ratio: f64,
-    /// Whether it is within twice (1.96 times) the standard deviation of the measurement; `None` where
-    /// that is not known.
+    /// Whether the difference is within 1.96 times the standard deviation of the measurement.
+    /// `None` where the standard deviation is not known.
     pub(super) is_within_scatter: Option<bool>,
 }
 
 impl ReportedValue {
-    /// Returns the numbers of a fabric.
+    /// Returns the numbers of the fabric with the index `fabric`.
     pub(super) fn number(&self, fabric: usize) -> ComparedNumber {
         self.value.numbers.get(fabric).copied().unwrap_or_default()
     }
 
-    /// Returns the published range for a fabric.
+    /// Returns the published range for the fabric with the index `fabric`.
     pub(super) fn range(&self, fabric: usize) -> Option<[f64; 2]> {
         self.ranges.get(fabric).copied().flatten()
     }
 
-    /// Returns how far the law of a fabric is from what was measured.
+    /// Returns the difference between the law of the fabric with the index `fabric` and the
+    /// measured value. `None` where a value is missing or assumed.
     pub(super) fn difference(&self, fabric: usize) -> Option<LawDifference> {
         let ComparedNumber { measured, deviation, law, is_assumed } = self.number(fabric);
         let (measured, law) = measured.zip(law.filter(|_| !is_assumed))?;
         let ratio = (law - measured) / measured.abs();
-        let within = |deviation: f64| (law - measured).abs() <= SCATTER * deviation;
-        let difference = LawDifference { ratio, is_within_scatter: deviation.map(within) };
+        let is_within_scatter =
+            deviation.map(|deviation| (law - measured).abs() <= SCATTER * deviation);
+        let difference = LawDifference { ratio, is_within_scatter };
         ratio.is_finite().then_some(difference)
     }
 
+    /// Refuses texts that cannot be shown and numbers that are not finite, as [`Error`].
     pub(super) fn check(&self) -> Result<(), Error> {
         self.value.check()?;
         check::text("the source of published ranges", &self.source)?;
