@@ -3,7 +3,7 @@
 //! [`render`] draws a [`Scene`] for a [`View`]. [`LitShapes`] draw several pictures of the same
 //! shapes, each for a [`Camera`]:
 //! 1. `tessellation` subdivides the surfaces of the scene into facets with smooth normals
-//! (`smooth`). `rim` adds a band along each hem.
+//!    (`smooth`). `rim` adds a band along each hem.
 //! 2. `sky` is the light of a uniform sky on the facets and on the floor (`floor`).
 //! 3. `camera` frames the scene, alone or as pictures that can be compared.
 //! 4. `shade` prepares the key light, with a shadow map (`shadow_map`).

@@ -7,8 +7,8 @@
 //!
 //! * for sewing and motion, the fraction of their time,
 //! * for the relaxation to rest, the mean over speed and imbalance of the covered fraction of the
-//! decades from the largest value to the value that counts as rest. Falling cloth comes no nearer
-//! to rest, so the number of steps counts too.
+//!   decades from the largest value to the value that counts as rest. Falling cloth comes no nearer
+//!   to rest, so the number of steps counts too.
 
 use drape_dynamics::{PhaseName, PlannedPhase, Simulation, Step};
 use drape_scene::Relaxation;

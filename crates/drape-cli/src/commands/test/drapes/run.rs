@@ -83,7 +83,8 @@ impl Specimens<'_> {
         let bar = progress::bar(self.count(), "{pos}/{len} specimens, {eta} left");
         let sampling = Sampling { spacing: *spacing, starts: request.starts };
         let meter = &request.meter;
-        let prediction = Prediction::run(meter, fabric, sampling, &|| bar.inc(1)).map_err(failed)?;
+        let prediction =
+            Prediction::run(meter, fabric, sampling, &|| bar.inc(1)).map_err(failed)?;
         let without_friction = fabric.without_friction();
         let elastic = meter.study(&without_friction, sampling, &|| bar.inc(1)).map_err(failed)?;
 
