@@ -144,7 +144,8 @@ fn shards_and_keys_choose_points() {
     let bench = Bench::new(GRID);
     for (shard, count) in [("1/4", 2), ("2/4", 2), ("3/4", 1), ("4/4", 1)] {
         let (said, _) = bench.ran(&["sweep", "run", "study.toml", "--shard", shard], 0);
-        assert!(said.contains(&format!("{count} points: {count} run")), "{said}");
+        let points = if count == 1 { "point" } else { "points" };
+        assert!(said.contains(&format!("{count} {points}: {count} run")), "{said}");
     }
     let key = bench.keys()[4].clone();
     let (said, _) = bench.ran(&["sweep", "run", "study.toml", "--point", &key[..12]], 0);

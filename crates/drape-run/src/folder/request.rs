@@ -83,7 +83,7 @@ impl RunRequest {
         serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
     }
 
-    /// Returns whether the scene has no file, because it came from standard input ([`STANDARD`]) or
+    /// Returns whether the scene has no file, because it came from standard input (`-`) or
     /// is a text.
     #[must_use]
     pub fn has_no_file(&self) -> bool {

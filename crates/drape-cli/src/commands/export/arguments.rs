@@ -1,5 +1,6 @@
 //! Arguments of `drape export`.
 
+use std::num::ParseIntError;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -85,7 +86,7 @@ impl FromStr for FrameRange {
     fn from_str(text: &str) -> Result<FrameRange, String> {
         let range = text
             .split_once("..")
-            .and_then(|(first, last)| Some((open_end(first)?, open_end(last)?)))
+            .and_then(|(first, last)| Some((range_end(first).ok()?, range_end(last).ok()?)))
             .map(|(first, last)| FrameRange { first, last });
         range.ok_or_else(|| {
             format!("`{text}` is no range of frames; give two numbers, such as 10..20")
@@ -93,11 +94,11 @@ impl FromStr for FrameRange {
     }
 }
 
-/// Parses one end of a range, which may be empty. Returns `None` if `text` is no number.
-fn open_end(text: &str) -> Option<Option<usize>> {
+/// Parses one end of a range. An empty `text` leaves the end open.
+fn range_end(text: &str) -> Result<Option<usize>, ParseIntError> {
     match text.trim() {
-        "" => Some(None),
-        digits => digits.parse().ok().map(Some),
+        "" => Ok(None),
+        digits => digits.parse().map(Some),
     }
 }
 

@@ -1,4 +1,4 @@
-//! PlaceReport of garments: checks whether a garment starts round a body, and finds the shift that would
+//! Placing of garments: checks whether a garment starts round a body, and finds the shift that would
 //! bring the garment there.
 //!
 //! A garment is about a body if its horizontal outline goes round a part of the body. A garment
@@ -204,7 +204,7 @@ impl<'a> Solids<'a> {
     }
 
     /// Returns the shift of `points`, in m, to the lowest place at which the garment of `girths`
-    /// does not slide down. PlaceReport where the garment goes round the body without a stretch come
+    /// does not slide down. Places where the garment goes round the body without a stretch come
     /// first.
     fn place_at_waist(&self, points: &[[f64; 3]], girths: &Girths<'_>) -> Option<[f64; 3]> {
         let places = self.places(points);

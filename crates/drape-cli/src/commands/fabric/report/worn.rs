@@ -69,8 +69,9 @@ fn read_girths(path: &Path) -> Result<Map<String, Value>, Failure> {
         return Err(refusal(path, "the run is a preview".into(), help));
     }
 
-    match summary["measures"]["girths"].take() {
-        Value::Object(girths) if !girths.is_empty() => Ok(girths),
+    let measures = summary.get_mut("measures");
+    match measures.and_then(|measures| measures.get_mut("girths")).map(Value::take) {
+        Some(Value::Object(girths)) if !girths.is_empty() => Ok(girths),
         _ => {
             let help = "a garment that is sewn on a body has some; run the scene again if it was run by an earlier version, \
                         or name heights in it: [garment.measure] waist = 1.08";
