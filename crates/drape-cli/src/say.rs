@@ -1,4 +1,4 @@
-//! Lines that commands write to stdout, and the words of counts in them.
+//! Lines that commands write to stdout.
 
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
@@ -21,11 +21,6 @@ pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
 /// Writes `text`, which says where a result was stored, to stdout, unless the user asked for quiet.
 pub(crate) fn say_written(text: impl Display) -> Result<(), Failure> {
     if Console::get().quiet { Ok(()) } else { say(text) }
-}
-
-/// Returns `count` with its noun in the right number, such as `1 body` and `2 bodies`.
-pub(crate) fn counted(count: usize, singular: &str, plural: &str) -> String {
-    format!("{count} {}", if count == 1 { singular } else { plural })
 }
 
 /// Writes `value` to stdout as indented JSON.

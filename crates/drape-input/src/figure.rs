@@ -67,6 +67,19 @@ fn round_to_two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 
+/// Returns `count` with its noun in the right number.
+///
+/// ```
+/// use drape_input::counted;
+///
+/// assert_eq!(counted(1, "body", "bodies"), "1 body");
+/// assert_eq!(counted(2, "body", "bodies"), "2 bodies");
+/// ```
+#[must_use]
+pub fn counted(count: usize, singular: &str, plural: &str) -> String {
+    format!("{count} {}", if count == 1 { singular } else { plural })
+}
+
 /// Returns `text` with its numbers written as [`figure`] writes them, for messages of errors that
 /// do not use [`figure`].
 ///

@@ -41,7 +41,7 @@ pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
 pub use document::{Document, missing_file_help, similar_file};
-pub use figure::{excerpt, figure, figure_above, figure_below, figures, tidy};
+pub use figure::{counted, excerpt, figure, figure_above, figure_below, figures, tidy};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,

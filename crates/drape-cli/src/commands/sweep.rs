@@ -13,6 +13,7 @@ mod worker;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use drape::input::counted;
 use drape::run::file;
 use drape::sweep::{Batch, Engine, Outcome, Point, PointStorage, Study, manifest};
 
@@ -21,7 +22,7 @@ use self::run::SweepRunArguments;
 use self::study::StudyArguments;
 use crate::failure::Failure;
 use crate::input;
-use crate::say::{counted, say, say_written};
+use crate::say::{say, say_written};
 
 #[derive(Subcommand)]
 pub(crate) enum SweepCommand {

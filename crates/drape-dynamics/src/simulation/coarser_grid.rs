@@ -12,6 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 use drape_cloth::Interpolation;
 use drape_collide::SewnPlacement;
+use drape_input::counted;
 use drape_scene::{Panel, Scene};
 
 use super::saved::SavedSimulation;
@@ -204,9 +205,8 @@ impl Simulation {
                         contact.sewn_placement(trial, &bodies)
                     });
                     let Some(displacement) = displacement else {
-                        let count = intersections.len();
-                        let noun = if count == 1 { "intersection" } else { "intersections" };
-                        let reason = format!("its cloth has {count} {noun} on the next");
+                        let count = counted(intersections.len(), "intersection", "intersections");
+                        let reason = format!("its cloth has {count} on the next");
                         return Ok(GridStart::NotCarried(reason));
                     };
                     start = GridStart::Untangled(displacement);

@@ -6,12 +6,11 @@ use std::path::Path;
 use drape::collide::{
     FaultPlaces, Mesh, MeshInspection, RepairSettings, Triangulation, read_mesh_within, repair,
 };
-use drape::input::{Diagnostic, Diagnostics};
+use drape::input::{Diagnostic, Diagnostics, counted};
 use drape::scene::MESH_LIMIT;
 
 use crate::failure::Failure;
 use crate::input;
-use crate::say::counted;
 use drape::run::file;
 
 /// Smallest and largest height of persons and dress forms, in m. The unit of a file is guessed from
@@ -195,14 +194,13 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
     };
 
     let mut text = format!(
-        "body, {} vertices, {} triangles, {x:.3} × {y:.3} × {z:.3} m, {:.4} m², {:.4} l, {} part{}, \
+        "body, {} vertices, {} triangles, {x:.3} × {y:.3} × {z:.3} m, {:.4} m², {:.4} l, {}, \
          {closed}\n  edges: {:.2} to {:.2} mm, half of them below {:.2} mm; the spacing is {} mm\n",
         inspection.vertices,
         inspection.triangles,
         inspection.area,
         1e3 * inspection.volume,
-        inspection.parts,
-        if inspection.parts == 1 { "" } else { "s" },
+        counted(inspection.parts, "part", "parts"),
         1e3 * lengths.min,
         1e3 * lengths.max,
         1e3 * lengths.median,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone, TractionFriction};
-use drape::input::{Diagnostic, Diagnostics, Document, figure};
+use drape::input::{Diagnostic, Diagnostics, Document, counted, figure};
 use drape::kes::{Curve, Extent, Sheet, SheetDraft, Test};
 use drape::pattern::Pattern;
 use drape::run::NamedCurve;
@@ -20,7 +20,6 @@ use super::pattern::CheckedPattern;
 use super::values;
 use crate::commands::sheets::{self, drafted};
 use crate::input;
-use crate::say::counted;
 
 /// Kinds of files that `drape check` describes.
 const CHECKED: [FileKind; 7] = [

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use drape::frames::{Recording, SurfacePart};
+use drape::input::counted;
 use drape::verify::{ClosePair, PartNumber, Verdict, Verifier};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::say::{counted, say};
+use crate::say::say;
 
 /// Returns whether the folder `path` was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {

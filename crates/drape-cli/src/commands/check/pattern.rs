@@ -3,11 +3,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use drape::input::{Diagnostic, Diagnostics};
+use drape::input::{Diagnostic, Diagnostics, counted};
 use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, Sketch, SketchFault, figure};
 
 use crate::input;
-use crate::say::counted;
 
 /// Pattern whose panels have been cut.
 pub(crate) struct CheckedPattern {

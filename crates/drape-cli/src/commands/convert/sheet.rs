@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use drape::input::counted;
 use drape::kes::SheetDraft;
 
 use super::arguments::ConvertArguments;
@@ -9,7 +10,7 @@ use crate::commands::sheets::{SHEET_FILE, drafted};
 use crate::console::print_message;
 use crate::failure::Failure;
 use crate::input;
-use crate::say::{counted, say};
+use crate::say::say;
 use drape::run::file;
 
 /// Drafts the sheets of the tables at `from`, and prints the assumptions and the sections that the

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
+use drape::input::counted;
 use serde_json::Value;
 
 use crate::console::signal;
 use crate::failure::Failure;
-use crate::say::counted;
 
 /// Describes `summary` in a few lines.
 pub(crate) fn describe(summary: &Summary) -> String {

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use drape::input::counted;
 use drape::run::file;
 use drape::sweep::{Error, Shard, Study, Table};
 
 use super::study::StudyArguments;
 use crate::failure::Failure;
 use crate::pages::sweep::page;
-use crate::say::{counted, say, say_written};
+use crate::say::{say, say_written};
 
 #[derive(Args)]
 pub(crate) struct SweepCollectArguments {
@@ -31,8 +32,8 @@ pub(crate) fn collect(arguments: &SweepCollectArguments) -> Result<(), Failure> 
         let (table, missing) = joined(&study)?;
         if missing > 0 {
             say(format_args!(
-                "{missing} {} in no part: drape sweep collect {} --shard I/N",
-                if missing == 1 { "point is" } else { "points are" },
+                "{} in no part: drape sweep collect {} --shard I/N",
+                counted(missing, "point is", "points are"),
                 study_path.display()
             ))?;
         }
@@ -100,8 +101,8 @@ fn write(study: &Study, table: &Table, name: impl std::fmt::Display) -> Result<(
     ))?;
     let not_run = outcomes.iter().filter(|cell| *cell == "not run").count();
     if not_run > 0 {
-        let points = if not_run == 1 { "point has" } else { "points have" };
-        say(format_args!("{not_run} {points} no result yet: drape sweep run {name}"))?;
+        let points = counted(not_run, "point has", "points have");
+        say(format_args!("{points} no result yet: drape sweep run {name}"))?;
     }
     let path = study.output().join("index.html");
     file::write(&path, page(study, table)?)?;

@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use clap::Args;
+use drape::input::counted;
 use drape::run::file;
 use drape::sweep::{Outcome, Point, PointStorage, Record, Shard, Study, manifest};
 use indicatif::ProgressBar;
@@ -15,7 +16,7 @@ use super::study::StudyArguments;
 use super::worker::{PointEnd, TRIES, Worker};
 use crate::console::{Console, ProgressKind, print_message, progress, signal};
 use crate::failure::Failure;
-use crate::say::{counted, say, say_written};
+use crate::say::{say, say_written};
 
 #[derive(Args)]
 pub(crate) struct SweepRunArguments {

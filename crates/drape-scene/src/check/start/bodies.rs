@@ -3,6 +3,8 @@
 //! Holes, edges with more than two triangles, and triangles without area are refused when the mesh
 //! is read. What is said here does not keep a simulation from running.
 
+use drape_input::counted;
+
 use crate::scene::{MeshSource, MovingBody, Scene};
 
 /// Length of the longest horizontal side over the height from which on a wearer lies.
@@ -36,7 +38,7 @@ pub(crate) fn contact_limits(scene: &Scene) -> Vec<String> {
 fn crossing(moving: &MovingBody, mesh: &MeshSource) -> Option<String> {
     let found = &mesh.inspection.intersections;
     let [x, y, z] = found.first.first()?;
-    let places = if found.count == 1 { "1 edge".into() } else { format!("{} edges", found.count) };
+    let places = counted(found.count, "edge", "edges");
     Some(format!(
         "body \"{}\" passes through its own surface with {places}, first near ({x:.3}, {y:.3}, {z:.3}) m: cloth is kept \
          off the surface, but it may be caught there, or come to lie inside the body; part the surfaces in a modelling \

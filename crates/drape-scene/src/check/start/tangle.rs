@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_collide::{PairDistance, Surface, SurfaceContact};
-use drape_input::Subject;
+use drape_input::{Subject, counted};
 
 use crate::check::checker::Checker;
 use crate::check::start::place_key::place_key;
@@ -81,8 +81,8 @@ pub(crate) fn check_tangle(
         format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
     });
     let told: Vec<String> = told.collect();
-    let pairs = if total == 1 { "pair" } else { "pairs" };
-    let fault = format!("{fault}, in {total} {pairs} of triangles: {}", told.join("; "));
+    let pairs = counted(total, "pair", "pairs");
+    let fault = format!("{fault}, in {pairs} of triangles: {}", told.join("; "));
     let parts = overlaps.first.iter().flat_map(|overlap| &overlap.parts);
     let panel = |name: &String| scene.panels.iter().find(|panel| panel.name == *name);
     let panel = parts.filter_map(panel).next();
