@@ -13,10 +13,11 @@ mod stitches;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
-use drape_input::{Diagnostics, Subject, tidy};
+use drape_input::{Diagnostics, Subject, counted, tidy};
 
 use crate::check::checker::Checker;
 use crate::error::{Error, Refused};
+use crate::figure::ease::Figures;
 use crate::scene::Scene;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
@@ -24,10 +25,10 @@ use crate::tangle::Tangle;
 use self::apart::{leave_bodies, part_panels};
 use self::bodies::{body_notes, contact_limits};
 use self::ease_notes::ease_notes;
-use self::girth::girth_notes;
+use self::girth::{Girths, girth_note};
 use self::layers::check_layers;
 use self::place_key::place_key;
-use self::placing::{PlaceReport, check_places};
+use self::placing::{PlaceReport, Solids, check_places};
 use self::stitches::{stitches_through_bodies, stitches_through_panels};
 use self::tangle::{Tangled, check_tangle};
 
@@ -77,8 +78,7 @@ pub(crate) fn check_start(
         let notes = [
             stitches_through_bodies(&scene),
             stitches_through_panels(&scene),
-            girth_notes(&scene),
-            ease_notes(&scene),
+            girth_and_ease_notes(&scene),
         ]
         .concat();
         scene.source.notes.extend(notes);
@@ -98,6 +98,28 @@ pub(crate) fn check_start(
         None => Error::Input(mistakes),
     };
     Err(Refused::with(error, scene))
+}
+
+/// Returns notes on garments of `scene` that are narrower than the body that they go round. Only
+/// garments that are sewn are measured.
+fn girth_and_ease_notes(scene: &Scene) -> Vec<String> {
+    if scene.sewing.is_none() {
+        return Vec::new();
+    }
+
+    let Some(solids) = Solids::new(scene.bodies.iter().map(|moving| &moving.body)) else {
+        return Vec::new();
+    };
+
+    // Bodies and garments are measured once for both kinds of notes.
+    let garments = scene.garments.iter();
+    let girths: Vec<Girths<'_>> =
+        garments.map(|garment| Girths::new(scene, &solids.outlines, garment)).collect();
+    let figures = Figures::new(solids.outlines.clone());
+
+    let tight = girths.iter().filter_map(girth_note);
+    let small = girths.iter().flat_map(|girths| ease_notes(girths, &figures));
+    tight.chain(small).collect()
 }
 
 /// Returns the surfaces of `scene` at its start, or `None` if the scene does not keep surfaces
@@ -124,11 +146,7 @@ fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact,
         let panel = scene.panels.iter().find(|panel| panel.particles().contains(&particle));
         let key = panel.map_or("panel".into(), |panel| place_key(checker, scene, panel));
         let body = summary.nearest.map_or("", |nearest| &contact.bodies()[nearest.body].name);
-        let particles = if summary.inside == 1 {
-            "1 particle starts".to_owned()
-        } else {
-            format!("{} particles start", summary.inside)
-        };
+        let particles = counted(summary.inside, "particle starts", "particles start");
         let message = format!(
             "{particles} inside a body (deepest {:.4} m, in {body})",
             -summary.min_distance

@@ -1,49 +1,35 @@
-//! Notes on garments that are smaller than their body at bust, waist or hip, or at a height that the scene
-//! names: by the flat pattern, before anything is sewn.
-
-use drape_collide::Shape;
+//! Notes on garments whose flat pattern is smaller than the body at bust, waist or hip, or at a height
+//! that the scene names. Nothing is sewn for them.
 
 use crate::figure::ease::{Figures, merged, named};
 use crate::figure::landmark::{FoundBy, Landmark};
 use crate::figure::trunk::Trunk;
-use crate::scene::Scene;
-use crate::scene::garment::Garment;
 
 use super::girth::Girths;
 use super::rings::Ring;
 
-/// Difference of two girths that is no difference, in m.
+/// Largest difference of two girths that count as equal, in m.
 const EQUAL: f64 = 5e-4;
 
-/// Distance of a ring from a height at which it still is at that height, in m.
+/// Largest distance of a ring from a height, in m, at which the ring counts as at this height.
 const LEVEL: f64 = 0.01;
 
-/// Returns a note for each place at which a garment of a scene is smaller than its body.
-pub(crate) fn ease_notes(scene: &Scene) -> Vec<String> {
-    if scene.sewing.is_none() {
-        return Vec::new();
-    }
-    let solid = scene.bodies.iter().filter(|moving| !matches!(moving.body.shape, Shape::Plane));
-    let figures = Figures::new(solid.filter_map(|moving| moving.body.triangulate().ok()).collect());
-    let garments = scene.garments.iter().enumerate();
-    garments.flat_map(|(number, garment)| notes(scene, &figures, (number, garment))).collect()
-}
-
-/// Returns the notes on a garment, on the first figure that it is about.
-fn notes(scene: &Scene, figures: &Figures, (number, garment): (usize, &Garment)) -> Vec<String> {
-    let girths = Girths::new(scene, number);
-    for (bodies, found) in figures.candidates() {
+/// Returns a note for each landmark at which the garment of `girths` is smaller than the first of
+/// `figures` that it is about.
+pub(crate) fn ease_notes(girths: &Girths<'_>, figures: &Figures) -> Vec<String> {
+    for (bodies, detected) in figures.candidates() {
         let (mut is_about, mut notes) = (false, Vec::new());
-        let landmarks = merged(found, &named(garment));
+        let landmarks = merged(detected, &named(girths.garment));
         for landmark in &landmarks {
             let Some(trunk) = Trunk::at(bodies, landmark.height) else { continue };
             let ring = girths.around(landmark.height, trunk.middle());
             let Some(ring) = ring.filter(|ring| is_worn_at(ring, landmark, &landmarks)) else {
                 continue;
             };
+
             is_about = true;
             if trunk.girth() - ring.girth > EQUAL {
-                notes.push(note(&garment.name, landmark, ring, trunk.girth()));
+                notes.push(note(&girths.garment.name, landmark, ring, trunk.girth()));
             }
         }
         if is_about {
@@ -60,13 +46,13 @@ fn is_worn_at(ring: &Ring, landmark: &Landmark, all: &[Landmark]) -> bool {
     away(landmark) <= LEVEL || all.iter().all(|other| away(landmark) <= away(other))
 }
 
-/// Describes a garment that is smaller than its body.
+/// Describes the garment `name`, whose `ring` at `landmark` is shorter than `body`, in m.
 fn note(name: &str, landmark: &Landmark, ring: &Ring, body: f64) -> String {
     let by_stature = match landmark.found_by {
         FoundBy::Stature => ", where bodies of its height have it",
         FoundBy::Shape | FoundBy::Scene => "",
     };
-    // The difference is that of the figures that are shown.
+    // The difference is taken between the rounded figures, so that the note adds up.
     let [garment, body] = [ring.girth, body].map(|girth| (1e3 * girth).round());
     let parts = ring.parts.join(" + ");
     format!(

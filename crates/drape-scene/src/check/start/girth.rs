@@ -7,18 +7,18 @@
 //! G \ge (H + 2\pi d)\,\frac{n}{\pi}\tan\frac{\pi}{n}
 //! ```
 //!
-//! with the limbs of the body of which it encloses at least half. What is missing it has to stretch, which
-//! is told: the body at the start is not that which the cloth lies on when it is sewn, so that only the
-//! sewing shows whether it closes. A place at which the garment would pull harder than the tensile test of
-//! a fabric does is not advised.
+//! The section has the limbs of the body of which the ring encloses at least half. A shorter ring has
+//! to stretch, which a note says. The body at the start is not the body that the cloth lies on when it
+//! is sewn, so only the sewing shows whether the seams close. A place at which the garment would pull
+//! harder than the tensile test of a fabric does is not advised.
 
 use std::f64::consts::{PI, TAU};
 
-use drape_collide::{Shape, Triangulation};
+use drape_collide::Triangulation;
+use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 
 use crate::scene::Scene;
 use crate::scene::garment::Garment;
-use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 
 use super::rings::{Ring, RingFinder, openings};
 
@@ -74,34 +74,31 @@ pub(crate) enum Fit {
 /// Girths of a garment, and the bodies that it goes round.
 pub(crate) struct Girths<'a> {
     scene: &'a Scene,
-    bodies: Vec<Triangulation>,
+    pub(crate) garment: &'a Garment,
+    bodies: &'a [Triangulation],
     rings: Vec<Ring>,
     /// Number of openings of the garment. The openings are the first of `rings`.
     openings: usize,
 }
 
 impl<'a> Girths<'a> {
-    /// Measures the garment of `scene` with the number `garment`.
-    pub(crate) fn new(scene: &'a Scene, garment: usize) -> Self {
-        let solid = scene.bodies.iter().map(|moving| &moving.body);
-        let solid = solid.filter(|body| !matches!(body.shape, Shape::Plane));
-        let bodies = solid.filter_map(|body| body.triangulate().ok()).collect();
-        let particles = &scene.garments[garment].particles;
+    /// Measures `garment` of `scene`. `bodies` are the solid bodies of `scene`.
+    pub(crate) fn new(scene: &'a Scene, bodies: &'a [Triangulation], garment: &'a Garment) -> Self {
         let panels: Vec<usize> = (0..scene.panels.len())
-            .filter(|&panel| particles.contains(&scene.panels[panel].first))
+            .filter(|&panel| garment.particles.contains(&scene.panels[panel].first))
             .collect();
         let openings = openings(scene).into_iter();
         let mut rings: Vec<Ring> = openings.filter(|ring| panels.contains(&ring.panel)).collect();
         let count = rings.len();
         let finder = RingFinder::new(scene);
         rings.extend(heights(scene, &panels).flat_map(|height| finder.at_height(&panels, height)));
-        Self { scene, bodies, rings, openings: count }
+        Self { scene, garment, bodies, rings, openings: count }
     }
 
     /// Returns the ring of `rings` that stretches most where the garment is moved by `shift`, in m.
     fn tightest(&self, rings: &[&Ring], shift: [f64; 3]) -> Option<TightRing> {
         let tight =
-            rings.iter().filter_map(|ring| tight(self.scene, &self.bodies, ring.moved(shift)));
+            rings.iter().filter_map(|ring| tight(self.scene, self.bodies, ring.moved(shift)));
         tight.max_by(|a, b| a.stretch().total_cmp(&b.stretch()))
     }
 
@@ -137,19 +134,12 @@ impl<'a> Girths<'a> {
     }
 }
 
-/// Returns a note for each garment of `scene` that has to stretch.
-pub(crate) fn girth_notes(scene: &Scene) -> Vec<String> {
-    if scene.sewing.is_none() {
-        return Vec::new();
-    }
-    let note = |(number, garment): (usize, &Garment)| {
-        let girths = Girths::new(scene, number);
-        let all: Vec<&Ring> = girths.rings.iter().collect();
-        let worst = girths.tightest(&all, [0.0; 3])?;
-        let pull = pull(scene, &worst);
-        Some(format!("{}; {}", describe(&garment.name, &worst, pull), remedy(&worst)))
-    };
-    scene.garments.iter().enumerate().filter_map(note).collect()
+/// Returns a note on the garment of `girths` if it has to stretch.
+pub(crate) fn girth_note(girths: &Girths<'_>) -> Option<String> {
+    let all: Vec<&Ring> = girths.rings.iter().collect();
+    let worst = girths.tightest(&all, [0.0; 3])?;
+    let pull = pull(girths.scene, &worst);
+    Some(format!("{}; {}", describe(&girths.garment.name, &worst, pull), remedy(&worst)))
 }
 
 /// Returns the heights at which `panels` are cut, in m.

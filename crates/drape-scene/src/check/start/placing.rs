@@ -91,7 +91,7 @@ const STRETCHED: f64 = 1.5;
 /// Bodies that a garment can be worn on: all but floors.
 pub(crate) struct Solids<'a> {
     bodies: Vec<&'a Body>,
-    outlines: Vec<Triangulation>,
+    pub(crate) outlines: Vec<Triangulation>,
     low: [f64; 3],
     high: [f64; 3],
 }
@@ -110,7 +110,7 @@ enum GarmentPlace {
 }
 
 impl<'a> Solids<'a> {
-    /// Returns those of `bodies` that are no floors, or `None` if all are floors.
+    /// Returns the solid ones among `bodies`, or `None` if all `bodies` are floors.
     pub(crate) fn new(bodies: impl Iterator<Item = &'a Body>) -> Option<Self> {
         let solid = bodies.filter(|body| !matches!(body.shape, Shape::Plane));
         let outlined = solid.filter_map(|body| Some((body, body.triangulate().ok()?)));
@@ -400,7 +400,7 @@ pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> PlaceRep
         }
 
         let fault = describe(&garment.name, place, &points, &solids);
-        let girths = Girths::new(scene, number);
+        let girths = Girths::new(scene, &solids.outlines, garment);
         let shift =
             solids.shift(&points, Some(&girths)).map(|shift| free_shift(scene, garment, shift));
         let remedy = PlaceRemedy::new(checker, number, shift);
