@@ -1,8 +1,9 @@
 //! Section of a garment by a horizontal plane, with its length as worn and in the flat pattern.
 //!
-//! Panels are one surface where seams join them. Where a particle is tied to a segment between two others,
-//! cuts on both sides of the seam end at the same place, and are joined by it. The length in the pattern is
-//! that of the same cut before deformation: each triangle's piece, drawn on the flat panel.
+//! Panels are one surface where seams join them. If a seam ties a particle to a segment between two
+//! other particles, the cuts on both sides of the seam end at one place and are joined there. The
+//! length in the pattern is the length of the cut before deformation: the piece of each triangle is
+//! drawn on the flat panel.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +19,7 @@ const TIE_GAP: f64 = 1e-3;
 #[derive(Debug, Clone)]
 pub(super) struct Surface {
     triangles: Vec<[u32; 3]>,
-    /// Particle that stands for all that are sewn to each particle.
+    /// Class of each particle: particles that are sewn to each other have one class.
     class: Vec<u32>,
     /// Whether each particle is on a seam.
     is_sewn: Vec<bool>,
@@ -29,13 +30,13 @@ pub(super) struct Surface {
 pub(super) struct ClothSection {
     /// Length along the cloth, in m.
     pub(super) worn: f64,
-    /// Length of the same cut in the flat pattern, in m.
+    /// Length of the cut in the flat pattern, in m.
     pub(super) pattern: f64,
-    /// Whether it is a closed line.
+    /// Whether the section is a closed line.
     pub(super) is_closed: bool,
-    /// Whether three layers or more meet in it, so that its length is not once round.
+    /// Whether three layers or more meet in the section. The length then is not once round.
     pub(super) is_branched: bool,
-    /// Its straight pieces, in x and z, in m.
+    /// Straight pieces of the section, in x and z, in m.
     pub(super) pieces: Vec<[[f64; 2]; 2]>,
 }
 
@@ -51,6 +52,17 @@ pub struct ClothPlaces<'a> {
 /// Side of a triangle by the classes of its ends, in rising order.
 type Side = [u32; 2];
 
+/// Crossing of a side of a triangle by the plane.
+struct Crossing {
+    side: Side,
+    /// Whether both ends of the side are sewn.
+    is_sewn: bool,
+    /// Place of the crossing in x and z, in m.
+    place: [f64; 2],
+    /// Place of the crossing in the flat panel, in m.
+    flat: [f64; 2],
+}
+
 /// Piece of a section across a triangle.
 struct Cut {
     sides: [Side; 2],
@@ -61,7 +73,7 @@ struct Cut {
 }
 
 impl Surface {
-    /// Takes the triangles of some particles of a scene.
+    /// Returns the surface of the triangles of `scene` whose corners are in `particles`.
     pub(super) fn new(scene: &Scene, particles: &std::ops::Range<usize>) -> Self {
         let count = scene.cloth.particles();
         let mut is_sewn = vec![false; count];
@@ -81,13 +93,13 @@ impl Surface {
         }
     }
 
-    /// Cuts it at a height, in m, and returns its connected sections.
+    /// Cuts the surface, as `cloth` is, at `height`, in m. Returns the connected sections.
     pub(super) fn sections(&self, cloth: ClothPlaces<'_>, height: f64) -> Vec<ClothSection> {
         let cuts: Vec<Cut> =
             self.triangles.iter().filter_map(|corners| self.cut(corners, cloth, height)).collect();
 
-        // Ends of cuts on the same side of a triangle are joined, and so are those at the same place of a
-        // seam with ties.
+        // Ends of cuts on one side of a triangle are joined. Ends at one place of a seam with ties are
+        // joined too.
         let mut at_side: BTreeMap<Side, Vec<(u32, usize)>> = BTreeMap::new();
         for (number, cut) in cuts.iter().enumerate() {
             for (end, side) in cut.sides.into_iter().enumerate() {
@@ -124,7 +136,8 @@ impl Surface {
         sections.into_values().collect()
     }
 
-    /// Cuts a triangle at a height, in m.
+    /// Returns the cut through the triangle `corners` at `height`, in m, or `None` if the triangle lies
+    /// above or below.
     fn cut(&self, corners: &[u32; 3], cloth: ClothPlaces<'_>, height: f64) -> Option<Cut> {
         let place = |particle: u32| {
             let [x, y, z] = [0, 1, 2].map(|axis| cloth.positions[3 * particle as usize + axis]);
@@ -140,17 +153,21 @@ impl Surface {
                 let part = low / (low - high);
                 let [flat_a, flat_b] = [a, b].map(|particle| cloth.coordinates[particle as usize]);
                 let is_sewn = self.is_sewn[a as usize] && self.is_sewn[b as usize];
-                let side = [a, b].map(|particle| self.class[particle as usize]);
-                (side, is_sewn, between(from, to, part), between(flat_a, flat_b, part))
+                Crossing {
+                    side: [a, b].map(|particle| self.class[particle as usize]),
+                    is_sewn,
+                    place: between(from, to, part),
+                    flat: between(flat_a, flat_b, part),
+                }
             })
         };
-        let found: Vec<_> = (0..3).filter_map(crossing).collect();
-        let [one, other] = found[..] else { return None };
-        let [[a, b], [c, d]] = [one.3, other.3];
+        let crossings: Vec<Crossing> = (0..3).filter_map(crossing).collect();
+        let [first, second] = &crossings[..] else { return None };
+        let [[a, b], [c, d]] = [first.flat, second.flat];
         Some(Cut {
-            sides: [one.0, other.0],
-            is_sewn: [one.1, other.1],
-            places: [one.2, other.2],
+            sides: [first.side, second.side],
+            is_sewn: [first.is_sewn, second.is_sewn],
+            places: [first.place, second.place],
             pattern: (c - a).hypot(d - b),
         })
     }
@@ -162,7 +179,7 @@ impl ClothSection {
         Self { worn: 0.0, pattern: 0.0, is_closed: true, is_branched: false, pieces }
     }
 
-    /// Returns whether it goes round a point.
+    /// Returns whether the section goes round the point (`x`, `z`).
     pub(super) fn encloses(&self, [x, z]: [f64; 2]) -> bool {
         let crossed = self.pieces.iter().filter(|[[ax, az], [bx, bz]]| {
             (*az > z) != (*bz > z) && x < ax + (z - az) / (bz - az) * (bx - ax)
@@ -170,13 +187,14 @@ impl ClothSection {
         crossed.count() % 2 == 1
     }
 
-    /// Returns the length of its convex hull, in m.
+    /// Returns the length of the convex hull of the section, in m.
     pub(super) fn hull(&self) -> f64 {
         perimeter(&convex_hull(self.pieces.iter().flatten().copied().collect()))
     }
 }
 
-/// Joins free ends of cuts at the same place of a seam, nearest ones first; returns those that are left.
+/// Joins `free` ends of `cuts` that lie at one place of a seam, the nearest first, and adds them to
+/// `pairs`. Returns the ends that stay free.
 fn tied(cuts: &[Cut], free: Vec<(u32, usize)>, pairs: &mut Vec<[u32; 2]>) -> Vec<(u32, usize)> {
     let place = |(cut, end): (u32, usize)| cuts[cut as usize].places[end];
     let is_sewn = |(cut, end): (u32, usize)| cuts[cut as usize].is_sewn[end];

@@ -1,9 +1,10 @@
-//! Ease: girths of a garment against those of the body at bust, waist and hip, and at heights that the
-//! scene names.
+//! Ease: girths of a garment and of the body at bust, waist and hip, and at heights that the scene
+//! names.
 //!
-//! The body's girth is that of a tape round its trunk, without the arms; the garment's is the length of its
-//! section round the trunk, folds followed, as worn and in the flat pattern. Ease is garment less body. It is
-//! negative where the cloth is stretched; ease in the pattern is negative where the cloth has to stretch.
+//! The girth of the body is the length of a tape round the trunk, without the arms. The girth of the
+//! garment is the length of its section round the trunk, along the folds: as worn, and in the flat
+//! pattern. Ease is the girth of the garment minus the girth of the body. Ease as worn is negative
+//! where the cloth is stretched. Ease in the pattern is negative where the cloth has to stretch.
 
 use std::f64::consts::TAU;
 
@@ -15,14 +16,18 @@ use crate::figure::trunk::Trunk;
 use crate::scene::Scene;
 use crate::scene::garment::Garment;
 
-/// Number of sectors round the trunk, and how many of them an open section covers that is worn there: a jacket
-/// does, a towel over one shoulder does not.
+/// Number of sectors into which directions from the trunk are divided.
 const SECTORS: usize = 36;
+
+/// Least number of sectors that an open section covers if the garment is worn there. A jacket covers
+/// them, a towel over one shoulder does not.
 const WORN_SECTORS: usize = 20;
 
-/// Way down on which sleeves part from a garment, in m, and its step: an armhole is deeper than the
-/// armpit.
+/// Largest distance below a landmark at which the sleeves part from a garment, in m. An armhole is
+/// deeper than the armpit.
 const ARMHOLE: f64 = 0.1;
+
+/// Distance between the heights that are tried below a landmark, in m.
 const ARMHOLE_STEP: f64 = 0.005;
 
 /// Garment that can be measured at heights.
@@ -44,7 +49,7 @@ pub struct Figures {
 /// Girths of a garment and its body at a height, in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GirthPair {
-    /// Where it is.
+    /// Height of the measurement, with its name.
     pub landmark: Landmark,
     /// Girth of the body.
     pub body: f64,
@@ -55,24 +60,25 @@ pub struct GirthPair {
 /// Girth of a garment, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GarmentGirth {
-    /// Height at which it was measured: lower than the landmark where sleeves part from the garment below.
+    /// Height of the section, in m. It is below the landmark if the sleeves part from the garment
+    /// only there.
     pub height: f64,
-    /// Length along the cloth.
+    /// Length along the cloth, in m.
     pub worn: f64,
-    /// Length of the convex hull.
+    /// Length of the convex hull, in m.
     pub hull: f64,
-    /// Length of the same section in the flat pattern.
+    /// Length of the section in the flat pattern, in m.
     pub pattern: f64,
 }
 
 /// Reason why a garment that is worn at a height has no girth there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoGirth {
-    /// Its section is not closed.
+    /// The section of the garment is not closed.
     Open,
-    /// It goes round arms too.
+    /// The section goes round arms too.
     Arms,
-    /// Three layers or more meet in it.
+    /// Three layers or more meet in the section.
     Layers,
 }
 
@@ -89,7 +95,7 @@ impl NoGirth {
 }
 
 impl Figures {
-    /// Looks for bust, waist and hip of solid bodies at their places.
+    /// Finds bust, waist and hip of each of `bodies`, which are solid, and of all together.
     #[must_use]
     pub fn new(bodies: Vec<Triangulation>) -> Self {
         let all = (bodies.len() > 1).then(|| bodies.clone());
@@ -101,14 +107,14 @@ impl Figures {
         Self { candidates: candidates.collect() }
     }
 
-    /// Returns the landmarks of each figure, with its bodies.
+    /// Returns each figure: its bodies and its landmarks.
     pub(crate) fn candidates(&self) -> &[(Vec<Triangulation>, Vec<Landmark>)] {
         &self.candidates
     }
 }
 
 impl MeasuredGarment {
-    /// Takes the garments of a scene.
+    /// Returns the garments of `scene`.
     #[must_use]
     pub fn all(scene: &Scene) -> Vec<Self> {
         let measured = scene.garments.iter().map(|garment| Self {
@@ -119,18 +125,22 @@ impl MeasuredGarment {
         measured.collect()
     }
 
-    /// Measures it on the figure that it is worn on, at the heights at which it is worn, from the top down.
+    /// Measures the garment, as `cloth` is, on the first of `figures` that wears it. Returns a pair for
+    /// each height at which the garment is worn, from the top down.
     #[must_use]
     pub fn girths(&self, cloth: ClothPlaces<'_>, figures: &Figures) -> Vec<GirthPair> {
-        let on = |(bodies, found): &(Vec<Triangulation>, Vec<Landmark>)| -> Vec<GirthPair> {
-            let all = merged(found, &self.named);
-            all.iter().filter_map(|landmark| self.at(cloth, bodies, landmark)).collect()
-        };
-        let mut all = figures.candidates.iter().map(on);
-        all.find(|girths| !girths.is_empty()).unwrap_or_default()
+        for (bodies, landmarks) in &figures.candidates {
+            let landmarks = merged(landmarks, &self.named);
+            let girths = landmarks.iter().filter_map(|landmark| self.at(cloth, bodies, landmark));
+            let girths: Vec<GirthPair> = girths.collect();
+            if !girths.is_empty() {
+                return girths;
+            }
+        }
+        Vec::new()
     }
 
-    /// Measures it at a landmark; none where it is not worn there.
+    /// Measures the garment round `bodies` at `landmark`. Returns `None` if it is not worn there.
     fn at(
         &self,
         cloth: ClothPlaces<'_>,
@@ -145,7 +155,7 @@ impl MeasuredGarment {
         Some(GirthPair { landmark: landmark.clone(), body: trunk.girth(), garment })
     }
 
-    /// Measures it where its sleeves part from it, not far below a height.
+    /// Measures the garment where its sleeves part from it, at most [`ARMHOLE`] below `height`.
     fn below_arms(
         &self,
         cloth: ClothPlaces<'_>,
@@ -159,7 +169,7 @@ impl MeasuredGarment {
         girth.ok_or(NoGirth::Arms)
     }
 
-    /// Measures it round a trunk at a height; none where it is not worn there.
+    /// Measures the garment round `trunk` at `height`, in m. Returns `None` if it is not worn there.
     fn girth(
         &self,
         cloth: ClothPlaces<'_>,
@@ -186,16 +196,17 @@ impl MeasuredGarment {
     }
 }
 
-/// Returns landmarks with those that a scene names in their places, from the top down.
-pub(crate) fn merged(found: &[Landmark], named: &[Landmark]) -> Vec<Landmark> {
+/// Returns the landmarks `detected` on a body and the landmarks `named` in a scene, from the top down.
+/// A named landmark replaces a detected one with the same name.
+pub(crate) fn merged(detected: &[Landmark], named: &[Landmark]) -> Vec<Landmark> {
     let unnamed =
-        found.iter().filter(|landmark| named.iter().all(|other| other.name != landmark.name));
+        detected.iter().filter(|landmark| named.iter().all(|other| other.name != landmark.name));
     let mut all: Vec<Landmark> = unnamed.chain(named).cloned().collect();
     all.sort_by(|a, b| b.height.total_cmp(&a.height));
     all
 }
 
-/// Returns whether open sections lie round most of a point.
+/// Returns whether open `sections` lie in most directions from the point (`x`, `z`).
 fn covers<'a>(sections: impl Iterator<Item = &'a ClothSection>, [x, z]: [f64; 2]) -> bool {
     let mut is_covered = [false; SECTORS];
     for point in sections.flat_map(|section| &section.pieces).flatten() {
@@ -205,13 +216,11 @@ fn covers<'a>(sections: impl Iterator<Item = &'a ClothSection>, [x, z]: [f64; 2]
     is_covered.iter().filter(|covered| **covered).count() >= WORN_SECTORS
 }
 
-/// Returns the landmarks that a scene names for a garment.
+/// Returns the landmarks that the scene names for `garment`.
 pub(crate) fn named(garment: &Garment) -> Vec<Landmark> {
-    let heights = garment.measured_heights.iter();
-    let landmark = |(name, height): (&String, &f64)| Landmark {
-        name: name.clone(),
-        height: *height,
-        found_by: FoundBy::Scene,
-    };
-    heights.map(landmark).collect()
+    garment
+        .measured_heights
+        .iter()
+        .map(|(name, &height)| Landmark { name: name.clone(), height, found_by: FoundBy::Scene })
+        .collect()
 }

@@ -1,13 +1,14 @@
 //! Landmarks of a body: the heights of bust, waist and hip.
 //!
-//! A figure stands on two legs and has a neck. Its bust is at the level of the bust points, where the
-//! chest is deepest, and its hip at the most prominent level of the buttocks \[ISO17\]. Its waist is where
-//! the trunk is thinnest. The feet tell where the front is. The landmarks are looked for where people have
-//! them, by fractions of the stature.
+//! A figure stands on two legs and has a neck. The bust of a figure is at the level of the bust
+//! points, where the chest is deepest. The hip is at the most prominent level of the buttocks
+//! \[ISO17\]. The waist is where the trunk is thinnest. The feet point to the front. Each landmark is
+//! searched for within a range of fractions of the stature, in which people have it.
 //!
-//! A dress form has no legs, and maybe no head: its waist is where its girth is least between two swellings
-//! that are as far away as those of people, and bust and hip are the largest girths of these. What is neither,
-//! such as a ball or a pole, has no landmarks.
+//! A dress form has no legs, and may have no head. The waist of a dress form is where its girth is
+//! least between two swellings, which are the bust and the hip. The distances between them must be
+//! distances that people have. A body that is neither a figure nor a dress form, such as a ball or a
+//! pole, has no landmarks.
 
 use std::ops::RangeInclusive;
 
@@ -15,61 +16,74 @@ use drape_collide::Triangulation;
 
 use super::trunk::{Trunk, along};
 
-/// Number of heights at which a body is cut; a step is 17 mm of an adult.
+/// Number of heights at which a body is cut. On an adult the heights are 17 mm apart.
 const SLICES: usize = 100;
 
-/// Number of heights by which a landmark is found within a step to each side.
+/// Number of heights that are tried within a step to each side of the best slice.
 const FINE: usize = 10;
 
-/// Fractions of the stature between which the crotch is, and the neck.
+/// Fractions of the stature between which the crotch is.
 const CROTCH: RangeInclusive<f64> = 0.36..=0.56;
+
+/// Fractions of the stature between which the neck is.
 const NECK: RangeInclusive<f64> = 0.79..=0.93;
 
-/// Fraction of the slices below the crotch that cut two legs, at least.
+/// Least fraction of the slices below the crotch that cut two legs.
 const LEGS_MIN: f64 = 0.75;
 
-/// Girth of a neck over that of the chest, at most.
+/// Largest ratio of the girth of a neck to the girth of the chest.
 const NECK_MAX: f64 = 0.7;
 
-/// Fractions of the stature between which waist, bust and hip are.
+/// Fractions of the stature between which the waist is.
 const WAIST: RangeInclusive<f64> = 0.57..=0.70;
+
+/// Fractions of the stature between which the bust is.
 const BUST: RangeInclusive<f64> = 0.66..=0.79;
+
+/// Fractions of the stature between which the hip is.
 const HIP: RangeInclusive<f64> = 0.42..=0.58;
 
-/// Fractions of the stature at which waist, bust and hip are where no shape tells.
+/// Fraction of the stature at which the waist is taken if the shape of the body shows none.
 const USUAL_WAIST: f64 = 0.62;
+
+/// Fraction of the stature at which the bust is taken if the shape of the body shows none.
 const USUAL_BUST: f64 = 0.72;
+
+/// Fraction of the stature at which the hip is taken if the shape of the body shows none.
 const USUAL_HIP: f64 = 0.51;
 
-/// Growth of the girth from one slice to the next that only arms have, where they begin.
+/// Ratio of the girths of a slice and of the slice below from which arms have begun.
 const ARMPIT: f64 = 1.1;
 
-/// Distance of the crotch from the lowest hip, as a fraction of the stature: thighs swell there.
+/// Least distance of the hip above the crotch, as a fraction of the stature. Thighs swell near the
+/// crotch.
 const ABOVE_CROTCH: f64 = 0.02;
 
-/// Of a dress form, over the girth of its waist: heights between it and its swellings, and their girths.
+/// Distances of the swellings of a dress form from its waist, over the girth of the waist.
 const SWELLING_HEIGHTS: RangeInclusive<f64> = 0.12..=0.6;
+
+/// Girths of the swellings of a dress form over the girth of its waist.
 const SWELLING_GIRTHS: RangeInclusive<f64> = 1.04..=1.8;
 
-/// Fraction by which a girth falls behind a swelling.
+/// Least fraction by which the girth falls beyond a swelling.
 const FALL: f64 = 0.02;
 
-/// Width of a dress form's waist over its depth: what was turned on a lathe has 1.
+/// Ratios of width and depth at the waist of a dress form. A body that was turned on a lathe has 1.
 const WAIST_SHAPE: RangeInclusive<f64> = 1.1..=2.2;
 
-/// What the height of a landmark was found by.
+/// Evidence by which the height of a landmark was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FoundBy {
     /// The shape of the body.
     Shape,
-    /// A usual fraction of the stature, where no shape tells.
+    /// A usual fraction of the stature, if the shape of the body shows no landmark.
     Stature,
-    /// The scene, which names it.
+    /// The scene, which names the height.
     Scene,
 }
 
 impl FoundBy {
-    /// Returns its word in results.
+    /// Returns the word for this evidence in results.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -87,7 +101,7 @@ pub struct Landmark {
     pub name: String,
     /// Height, in m.
     pub height: f64,
-    /// What it was found by.
+    /// Evidence by which the height was found.
     pub found_by: FoundBy,
 }
 
@@ -97,7 +111,8 @@ impl Landmark {
     }
 }
 
-/// Returns bust, waist and hip of bodies that are one figure, those that are found, from the top down.
+/// Returns bust, waist and hip of `bodies`, which are one figure, from the top down. Landmarks that are
+/// not found are missing.
 pub(crate) fn landmarks(bodies: &[Triangulation]) -> Vec<Landmark> {
     let Some(profile) = Profile::new(bodies) else { return Vec::new() };
     match profile.crotch().filter(|_| profile.has_neck()) {
@@ -152,7 +167,8 @@ impl<'a> Profile<'a> {
         self.slices.iter().filter(move |slice| range.contains(&slice.fraction))
     }
 
-    /// Returns the height of the lowest section that is one, over the stature, where two legs are below.
+    /// Returns the height of the lowest section that is in one piece, as a fraction of the stature.
+    /// Returns `None` if the body has no two legs below.
     fn crotch(&self) -> Option<f64> {
         let above = self.slices.iter().rev().skip_while(|slice| slice.fraction > *CROTCH.end());
         let crotch = above.take_while(|slice| slice.trunk.part_count() == 1).last()?.fraction;
@@ -162,7 +178,7 @@ impl<'a> Profile<'a> {
         (CROTCH.contains(&crotch) && is_split).then_some(crotch)
     }
 
-    /// Returns whether it narrows to a neck below a head.
+    /// Returns whether the body narrows to a neck below a head.
     fn has_neck(&self) -> bool {
         let least = |range: &RangeInclusive<f64>| {
             self.within(range).map(|slice| slice.girth).fold(f64::INFINITY, f64::min)
@@ -173,7 +189,7 @@ impl<'a> Profile<'a> {
         neck < NECK_MAX * least(&BUST) && head > neck
     }
 
-    /// Returns the landmarks of a figure whose crotch is at a fraction of its stature.
+    /// Returns the landmarks of a figure whose crotch is at the fraction `crotch` of the stature.
     fn of_figure(&self, crotch: f64) -> Vec<Landmark> {
         let least = |trunk: &Trunk| -trunk.girth();
         let most = |trunk: &Trunk| trunk.girth();
@@ -187,8 +203,9 @@ impl<'a> Profile<'a> {
         let chest = *BUST.start()..=chest_end;
         let hips = HIP.start().max(crotch + ABOVE_CROTCH)..=*HIP.end();
 
-        // The bust is where the chest is deepest: a back that leans carries the chest to and fro. For the hip
-        // the feet tell where the back is; without feet girths tell.
+        // The bust is where the chest is deepest, because a back that leans moves the chest forwards
+        // or backwards. The hip is searched for at the back, which is opposite to the feet. Without
+        // feet, the largest girth is taken.
         let across = self.across(crotch);
         let deepest = across.and_then(|across| self.peak(&chest, |trunk| trunk.depth(across)));
         let back = across.and_then(|across| self.back(across));
@@ -200,14 +217,15 @@ impl<'a> Profile<'a> {
         vec![Landmark::new("bust", bust), Landmark::new("waist", waist), Landmark::new("hip", hip)]
     }
 
-    /// Returns the direction from the front to the back or the other way, across the hips.
+    /// Returns a direction across the hips, from front to back or from back to front.
     fn across(&self, crotch: f64) -> Option<[f64; 2]> {
         let hips = self.slices.iter().find(|slice| slice.fraction > crotch + 0.03)?;
         let ([x, z], _) = hips.trunk.longest();
         Some([-z, x])
     }
 
-    /// Returns which sense of a direction points to the back, if the feet tell: they point to the front.
+    /// Returns `across` or its opposite, whichever points to the back. Returns `None` if the feet, which
+    /// point to the front, do not show it.
     fn back(&self, across: [f64; 2]) -> Option<[f64; 2]> {
         let middle = |range: RangeInclusive<f64>| {
             let middles: Vec<f64> =
@@ -218,8 +236,8 @@ impl<'a> Profile<'a> {
         (ahead.abs() > 0.01 * self.stature).then(|| across.map(|x| -ahead.signum() * x))
     }
 
-    /// Returns the height in a range at which a measure of the section is largest; none where that is at an
-    /// end of the range.
+    /// Returns the height within `range` at which `measure` of the section is largest, in m. Returns
+    /// `None` if it is largest at an end of `range`.
     fn peak(&self, range: &RangeInclusive<f64>, measure: impl Fn(&Trunk) -> f64) -> Option<f64> {
         let slices: Vec<&Slice> = self.within(range).collect();
         let measures: Vec<f64> = slices.iter().map(|slice| measure(&slice.trunk)).collect();
@@ -239,7 +257,7 @@ impl<'a> Profile<'a> {
         measured.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(height, _)| height)
     }
 
-    /// Returns the landmarks of a dress form: of the thinnest place between two swellings.
+    /// Returns the landmarks of a dress form. The thinnest place between two swellings is the waist.
     fn of_dress_form(&self) -> Vec<Landmark> {
         let waists = (1..self.slices.len().saturating_sub(1)).filter_map(|k| self.swellings(k));
         let girth = |candidate: &[usize; 3]| self.slices[candidate[1]].girth;
@@ -259,7 +277,7 @@ impl<'a> Profile<'a> {
         ]
     }
 
-    /// Returns the slices of hip, waist and bust if one is a waist.
+    /// Returns the slices of hip, waist and bust if the slice `waist` is a waist.
     fn swellings(&self, waist: usize) -> Option<[usize; 3]> {
         let waist_slice = &self.slices[waist];
         let (_, shape) = waist_slice.trunk.longest();
@@ -268,25 +286,25 @@ impl<'a> Profile<'a> {
         }
         let up: Vec<usize> = (waist..self.slices.len()).collect();
         let down: Vec<usize> = (0..=waist).rev().collect();
-        let [bust, hip] = [up, down].map(|way| {
-            let top = self.first_swelling(&way)?;
+        let [bust, hip] = [up, down].map(|slices| {
+            let top = self.first_swelling(&slices)?;
             let swollen = &self.slices[top];
-            let away =
+            let distance =
                 (swollen.fraction - waist_slice.fraction).abs() * self.stature / waist_slice.girth;
-            let is_right = SWELLING_HEIGHTS.contains(&away)
+            let is_right = SWELLING_HEIGHTS.contains(&distance)
                 && SWELLING_GIRTHS.contains(&(swollen.girth / waist_slice.girth));
             is_right.then_some(top)
         });
         Some([hip?, waist, bust?])
     }
 
-    /// Returns the first slice of largest girth on a way that begins with the least, behind which the girth
-    /// falls.
-    fn first_swelling(&self, way: &[usize]) -> Option<usize> {
-        let mut top = *way.first()?;
-        for &k in way {
+    /// Returns the first of `slices` after which the girth falls by [`FALL`]. The first of `slices` has
+    /// the least girth.
+    fn first_swelling(&self, slices: &[usize]) -> Option<usize> {
+        let mut top = *slices.first()?;
+        for &k in slices {
             let slice = &self.slices[k];
-            if slice.trunk.part_count() != 1 || slice.girth < self.slices[way[0]].girth {
+            if slice.trunk.part_count() != 1 || slice.girth < self.slices[slices[0]].girth {
                 return None;
             }
             if slice.girth > self.slices[top].girth {
@@ -299,9 +317,9 @@ impl<'a> Profile<'a> {
     }
 }
 
-/// Returns how far a section reaches in a direction.
-fn reach(trunk: &Trunk, way: [f64; 2]) -> f64 {
-    trunk.points().map(|point| along(point, way)).fold(f64::NEG_INFINITY, f64::max)
+/// Returns how far `trunk` reaches in `direction`, in m.
+fn reach(trunk: &Trunk, direction: [f64; 2]) -> f64 {
+    trunk.points().map(|point| along(point, direction)).fold(f64::NEG_INFINITY, f64::max)
 }
 
 #[cfg(test)]
@@ -320,16 +338,16 @@ mod tests {
         ] {
             let body = placed(&person(), place);
             let found = landmarks(&body);
-            let names: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
+            let names: Vec<&str> = found.iter().map(|landmark| landmark.name.as_str()).collect();
             assert_eq!(names, ["bust", "waist", "hip"], "{place:?}");
             let (_, scale, shift) = place;
-            for (own, (height, radii)) in found.iter().zip(exact) {
-                assert_eq!(own.found_by, FoundBy::Shape, "{own:?} {place:?}");
-                let off = (own.height - shift[1]) / scale - height;
-                assert!(off.abs() < 0.002, "{own:?} is off by {off} {place:?}");
-                let girth = Trunk::at(&body, own.height).expect("a section").girth() / scale;
+            for (landmark, (height, radii)) in found.iter().zip(exact) {
+                assert_eq!(landmark.found_by, FoundBy::Shape, "{landmark:?} {place:?}");
+                let off = (landmark.height - shift[1]) / scale - height;
+                assert!(off.abs() < 0.002, "{landmark:?} is off by {off} {place:?}");
+                let girth = Trunk::at(&body, landmark.height).expect("a section").girth() / scale;
                 let ring = ellipse_perimeter(radii);
-                assert!((girth / ring - 1.0).abs() < 0.01, "{own:?}: {girth} for {ring}");
+                assert!((girth / ring - 1.0).abs() < 0.01, "{landmark:?}: {girth} for {ring}");
             }
         }
     }
@@ -348,7 +366,7 @@ mod tests {
             (1.4, [0.0, 0.0], [0.14, 0.07]),
             (1.45, [0.0, 0.0], [0.06, 0.05]),
         ]);
-        let heights: Vec<f64> = landmarks(&[form]).iter().map(|own| own.height).collect();
+        let heights: Vec<f64> = landmarks(&[form]).iter().map(|landmark| landmark.height).collect();
         assert_eq!(heights.len(), 3);
         for (height, exact) in heights.iter().zip([1.24, 1.06, 0.86]) {
             assert!((height - exact).abs() < 0.004, "{heights:?}");
@@ -369,7 +387,7 @@ mod tests {
             (1.0, [0.0, 0.0], [0.02, 0.02]),
         ]);
         let found = landmarks(&placed(&parts, (0.0, 1.7, [0.0; 3])));
-        let waist = found.iter().find(|own| own.name == "waist").expect("a waist");
+        let waist = found.iter().find(|landmark| landmark.name == "waist").expect("a waist");
         assert_eq!((waist.found_by, waist.height), (FoundBy::Stature, 1.7 * USUAL_WAIST));
         assert_eq!(found[0].found_by, FoundBy::Shape);
     }

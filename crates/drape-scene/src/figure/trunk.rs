@@ -1,27 +1,27 @@
 //! Trunk: the horizontal section of a body without its arms.
 //!
-//! Arms that hang beside the trunk are lines of their own in a section. Where the surface of an arm is
-//! one with the trunk's, the section is parted at the narrowest place between them: along the section's
-//! longest diameter, the thickness of the trunk falls towards both ends, and an arm is where it rises
-//! once more.
+//! Arms that hang beside the trunk are separate lines in a section. If the surface of an arm and the
+//! surface of the trunk are one, the section is cut at the narrowest place between arm and trunk.
+//! Along the longest diameter of the section, the thickness of the trunk falls towards both ends. An
+//! arm is where the thickness rises again.
 
 use drape_collide::Triangulation;
 use drape_collide::section::{SectionPlane, between, convex_hull, perimeter};
 
-/// Area over the largest of a section from which on a line is a part of the trunk. The other leg has 0.9
-/// and more, an arm or a hand 0.2 and less.
+/// Least area of a part of the trunk over the largest area in the section. The other leg has 0.9 and
+/// more, an arm or a hand 0.2 and less.
 const LEG_MIN: f64 = 0.3;
 
-/// Area over the largest of a section from which on a line is an arm, not an eye or a fingertip.
+/// Least area of an arm over the largest area in the section. An eye or a fingertip has less.
 const ARM_MIN: f64 = 0.01;
 
 /// Number of places along a section at which its thickness is measured.
 const STATIONS: usize = 160;
 
-/// Largest width of an arm over that of the section.
+/// Largest width of an arm over the width of the section.
 const ARM_WIDTH_MAX: f64 = 0.3;
 
-/// Thickness between an arm and the trunk over that of the arm, at most: thicker places are no joint.
+/// Largest thickness of the joint between an arm and the trunk, over the thickness of the arm.
 const JOINT_MAX: f64 = 0.85;
 
 /// Straight piece of a section.
@@ -30,14 +30,14 @@ type Piece = [[f64; 2]; 2];
 /// Horizontal section of a body, as a tape sees it.
 #[derive(Debug, Clone)]
 pub(crate) struct Trunk {
-    /// Hulls of its parts: one, or one for each leg.
+    /// Hulls of the parts: one for the trunk, or one for each leg.
     parts: Vec<Vec<[f64; 2]>>,
-    /// Hulls of the arms beside it.
+    /// Hulls of the arms beside the trunk.
     arms: Vec<Vec<[f64; 2]>>,
 }
 
 impl Trunk {
-    /// Cuts bodies at a height, in m; none where there is nothing.
+    /// Returns the section of `bodies` at `height`, in m, or `None` if there is no body.
     pub(crate) fn at(bodies: &[Triangulation], height: f64) -> Option<Self> {
         let plane = SectionPlane::horizontal(height);
         let lines = bodies.iter().flat_map(|body| plane.pieces(body));
@@ -63,43 +63,44 @@ impl Trunk {
         Some(trunk)
     }
 
-    /// Returns the number of its parts: 1, or that of the legs.
+    /// Returns the number of parts: 1 for a trunk, or the number of legs.
     pub(crate) fn part_count(&self) -> usize {
         self.parts.len()
     }
 
-    /// Returns the length of a tape round it, in m.
+    /// Returns the length of a tape round the trunk, in m.
     pub(crate) fn girth(&self) -> f64 {
         perimeter(&convex_hull(self.points().collect()))
     }
 
-    /// Returns the corners of its hulls, in m.
+    /// Returns the corners of the hulls of the parts, in m.
     pub(crate) fn points(&self) -> impl Iterator<Item = [f64; 2]> {
         self.parts.iter().flatten().copied()
     }
 
-    /// Returns its middle, in m.
+    /// Returns the middle of the trunk, in m.
     pub(crate) fn middle(&self) -> [f64; 2] {
         middle(&convex_hull(self.points().collect()))
     }
 
-    /// Returns the middles of its parts, in m.
+    /// Returns the middles of the parts, in m.
     pub(crate) fn part_middles(&self) -> impl Iterator<Item = [f64; 2]> {
         self.parts.iter().map(|part| middle(part))
     }
 
-    /// Returns the middles of the arms beside it, in m.
+    /// Returns the middles of the arms, in m.
     pub(crate) fn arm_middles(&self) -> impl Iterator<Item = [f64; 2]> {
         self.arms.iter().map(|arm| middle(arm))
     }
 
-    /// Returns its extent in a direction, in m.
+    /// Returns the extent of the trunk in the direction `across`, in m.
     pub(crate) fn depth(&self, across: [f64; 2]) -> f64 {
         let [low, high] = extent(self.points(), across);
         high - low
     }
 
-    /// Returns the direction of its longest diameter, of length 1, and its width over its depth.
+    /// Returns the unit vector along the longest diameter of the trunk, and the ratio of its extents
+    /// along and across this vector.
     pub(crate) fn longest(&self) -> ([f64; 2], f64) {
         let hull = convex_hull(self.points().collect());
         let along = longest(&hull);
@@ -109,43 +110,46 @@ impl Trunk {
     }
 }
 
+/// Returns the convex hull of the pieces of `line`.
 fn hull_of(line: &[Piece]) -> Vec<[f64; 2]> {
     convex_hull(line.iter().flatten().copied().collect())
 }
 
-/// Returns the area of a convex polygon, in m².
+/// Returns the area of the convex polygon `hull`, in m².
 fn area(hull: &[[f64; 2]]) -> f64 {
     let next = hull.iter().cycle().skip(1);
     hull.iter().zip(next).map(|([a, b], [c, d])| 0.5 * (a * d - b * c)).sum::<f64>().abs()
 }
 
-/// Returns the middle of the box round a polygon.
+/// Returns the middle of the box round the polygon `hull`.
 fn middle(hull: &[[f64; 2]]) -> [f64; 2] {
     [[1.0, 0.0], [0.0, 1.0]]
         .map(|axis| extent(hull.iter().copied(), axis).iter().sum::<f64>() / 2.0)
 }
 
-/// Returns the least and the largest place of points along an axis.
+/// Returns the least and the largest coordinate of `points` along `axis`.
 fn extent(points: impl Iterator<Item = [f64; 2]>, axis: [f64; 2]) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];
     points.map(|point| along(point, axis)).fold(none, |[low, high], x| [low.min(x), high.max(x)])
 }
 
-/// Returns the place of a point along an axis.
+/// Returns the coordinate of the point (`x`, `y`) along `axis`.
 pub(super) fn along([x, y]: [f64; 2], axis: [f64; 2]) -> f64 {
     x * axis[0] + y * axis[1]
 }
 
-/// Returns the direction of the longest diameter of a polygon.
+/// Returns the unit vector along the longest diameter of the polygon `hull`.
 fn longest(hull: &[[f64; 2]]) -> [f64; 2] {
     let pairs = hull.iter().enumerate().flat_map(|(k, a)| hull[..k].iter().map(move |b| (a, b)));
     let lengths =
         pairs.map(|(a, b)| ((a[0] - b[0]).hypot(a[1] - b[1]), [a[0] - b[0], a[1] - b[1]]));
-    let (length, way) = lengths.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, [1.0, 0.0]));
-    way.map(|x| x / length)
+    let (length, diameter) =
+        lengths.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, [1.0, 0.0]));
+    diameter.map(|x| x / length)
 }
 
-/// Returns the hull of a line without the arms that are one with it, and the hulls of these arms.
+/// Returns the hull of `line` without the arms whose surface is one with the trunk, and the hulls of
+/// these arms.
 fn without_arms(line: &[Piece]) -> (Vec<[f64; 2]>, Vec<Vec<[f64; 2]>>) {
     let hull = hull_of(line);
     let axis = longest(&hull);
@@ -167,7 +171,7 @@ fn without_arms(line: &[Piece]) -> (Vec<[f64; 2]>, Vec<Vec<[f64; 2]>>) {
     (within(ends), arms.into_iter().flatten().collect())
 }
 
-/// Returns the thickness of a line across an axis at a place.
+/// Returns the thickness of `line` across `axis` at the coordinate `at` along `axis`, in m.
 fn thickness(line: &[Piece], axis: [f64; 2], at: f64) -> f64 {
     let across = [-axis[1], axis[0]];
     let crossing = |piece: &Piece| {
@@ -178,7 +182,8 @@ fn thickness(line: &[Piece], axis: [f64; 2], at: f64) -> f64 {
     (high - low).max(0.0)
 }
 
-/// Returns where an arm ends, by the thicknesses from the end at which it may be.
+/// Returns the station at which an arm ends. `thickness` begins at the end of the section at which the
+/// arm may be.
 fn joint(thickness: &[f64]) -> Option<usize> {
     let count = (ARM_WIDTH_MAX * thickness.len() as f64) as usize;
     let least = (1..count).filter(|&k| {
@@ -189,7 +194,8 @@ fn joint(thickness: &[f64]) -> Option<usize> {
     least.min_by(|&a, &b| thickness[a].total_cmp(&thickness[b]))
 }
 
-/// Returns the piece between two places along an axis, if there is something of it.
+/// Returns the part of `piece` between the coordinates `from` and `to` along `axis`, or `None` if
+/// `piece` lies outside.
 fn clip(piece: Piece, axis: [f64; 2], [from, to]: [f64; 2]) -> Option<Piece> {
     let [a, b] = piece.map(|end| along(end, axis));
     if a.max(b) < from || a.min(b) > to {
@@ -225,8 +231,8 @@ mod tests {
         assert!((places[0] + 0.22).abs() < 1e-9 && (places[1] - 0.22).abs() < 1e-9, "{places:?}");
     }
 
-    /// Outline of a trunk of a width and a depth with arms of a radius whose middles are apart, as one line,
-    /// turned by an angle.
+    /// Returns the outline, as one line, of a trunk of half axes `width` and `depth` with arms of
+    /// `radius` at `place` on both sides, turned by `turn`.
     fn fused([width, depth]: [f64; 2], (radius, place): (f64, f64), turn: f64) -> Vec<Piece> {
         let outer = |x: f64| {
             let trunk = depth * (1.0 - (x / width).powi(2)).max(0.0).sqrt();
