@@ -129,18 +129,18 @@ async function measure(page, name) {
 
 // What the measures say: tables of names and values with units, no JSON, within the width of the page.
 async function readMeasures(page) {
-  const tables = await page.$$eval('#measures table', (all) => all.map((own) => ({
-    title: own.caption.textContent,
-    rows: [...own.rows].map((row) => [...row.cells].map((cell) => cell.textContent)),
+  const tables = await page.$$eval('#measures table', (all) => all.map((table) => ({
+    title: table.caption.textContent,
+    rows: [...table.rows].map((row) => [...row.cells].map((cell) => cell.textContent)),
   })));
-  for (const cell of tables.flatMap((own) => own.rows).flat()) assert.doesNotMatch(cell, /[{}[\]"_]/);
-  const rowOf = (title, name) => tables.find((own) => own.title === title)?.rows.find((row) => row[0] === name);
+  for (const cell of tables.flatMap((table) => table.rows).flat()) assert.doesNotMatch(cell, /[{}[\]"_]/);
+  const rowOf = (title, name) => tables.find((table) => table.title === title)?.rows.find((row) => row[0] === name);
   assert.match(rowOf('run', 'simulated time')[1], /^[\d.]+ s$/);
   assert.match(rowOf('strain at the end', 'largest strain of a yarn')[1], /^[\d.e−]+ %$/);
   assert.match(rowOf('balance of the energy', 'gravity')[1], /^−?[\d.e−]+ [mµn]?J$/);
   const [needed, shown] = await page.$eval('#side', (side) => [side.scrollWidth, side.clientWidth]);
   assert.ok(needed <= shown, `the measures need ${needed} of ${shown} pixels`);
-  await page.$eval('#measures table', (own) => own.scrollIntoView());
+  await page.$eval('#measures table', (table) => table.scrollIntoView());
   await page.shot('measures');
   return rowOf;
 }
@@ -176,10 +176,10 @@ assert.deepEqual(narrow.said, []);
 // A garment of two fabrics, with measures that nobody knows: a legend, and colours as in the list of parts.
 for (const [width, height] of [[1280, 800], [390, 844]]) {
   const page = await open('fabrics', width, height);
-  const named = await page.$$eval('#fabrics li', (all) => all.map((own) => [own.textContent, own.querySelector('i').style.background]));
+  const named = await page.$$eval('#fabrics li', (all) => all.map((item) => [item.textContent, item.querySelector('i').style.background]));
   assert.deepEqual(named.map(([name]) => name), ['linen', 'wool']);
   assert.notEqual(named[0][1], named[1][1]);
-  const parts = await page.$$eval('#parts i', (all) => all.map((own) => own.style.background));
+  const parts = await page.$$eval('#parts i', (all) => all.map((swatch) => swatch.style.background));
   assert.deepEqual(parts.slice(0, 2), [named[1][1], named[0][1]]);
   assert.ok(await page.isVisible('#fabrics'));
   await page.shot('fabrics');

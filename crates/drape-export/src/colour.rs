@@ -1,7 +1,8 @@
 //! Colours of panels and bodies in files for other programs.
 //!
 //! Each panel has a material. Panels of several fabrics have the colours of their fabrics, which
-//! `palette` chooses. Panels of one fabric have different colours, so that one can be told from the next.
+//! `palette` chooses. Panels of one fabric have different colours, so that neighbours can be
+//! distinguished.
 
 /// Linear light of red, green and blue, 0 to 1.
 pub(crate) type Colour = [f64; 3];

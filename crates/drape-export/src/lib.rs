@@ -5,9 +5,9 @@
 //! A [`Clip`] has the frames of a recording that are written, with their times. Each format has a
 //! function that writes a clip, or a frame of it.
 //!
-//! Layers, lowest first: `error`, `name`, `colour`, `palette`, `scale`; `normal`; `clip` chooses frames;
-//! `mesh` divides them into panels and bodies; `field` computes numbers at their vertices; `format`
-//! and `view` write them.
+//! Layers, lowest first: `error`, `name`, `colour`, `palette`, `scale`; `normal`; `clip` chooses
+//! frames; `mesh` divides them into panels and bodies; `field` computes numbers at their vertices;
+//! `format` and `view` write them.
 
 mod error;
 

@@ -100,7 +100,7 @@ impl FabricPalette {
         self.sides.get(fabric).copied().unwrap_or([COLOURS[0], SAND])
     }
 
-    /// Returns whether fabrics are to be told apart, or the scene states a colour.
+    /// Returns whether there are several fabrics, or the scene states a colour.
     #[must_use]
     pub fn is_needed(&self) -> bool {
         self.is_stated || self.sides.len() > 1
@@ -135,7 +135,7 @@ fn distance(a: Rgb, b: Rgb) -> f64 {
     (0..3).map(|k| (f64::from(a[k]) - f64::from(b[k])).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Returns a colour as hexadecimal text of CSS, such as `#96b6d6`.
+/// Returns the colour (`red`, `green`, `blue`) as hexadecimal text of CSS, such as `#96b6d6`.
 pub(crate) fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
@@ -196,11 +196,11 @@ mod tests {
     /// Returns the smallest difference in CIELAB of two colours among all kinds of sight.
     fn difference(one: Rgb, other: Rgb) -> f64 {
         let seen = |sight, colour| lab(times(sight, light(colour)).map(|l| l.clamp(0.0, 1.0)));
-        let of = |sight| {
+        let seen_difference = |sight| {
             let [a, b] = [one, other].map(|colour| seen(sight, colour));
             (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
         };
-        SIGHTS.iter().map(of).fold(f64::INFINITY, f64::min)
+        SIGHTS.iter().map(seen_difference).fold(f64::INFINITY, f64::min)
     }
 
     #[test]

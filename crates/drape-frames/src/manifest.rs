@@ -55,8 +55,8 @@ pub struct SurfacePart {
     /// height. The warp is a quarter turn anticlockwise from the weft.
     #[serde(default = "along_width")]
     pub weft: [f64; 2],
-    /// Colour in sRGB that the scene states for the fabric of a panel; none where the scene states none,
-    /// and in folders of older versions.
+    /// Colour in sRGB that the scene states for the fabric of a panel; none where the scene states
+    /// none, and in folders of older versions.
     #[serde(rename = "colour", default, deserialize_with = "hex_colour")]
     pub fabric_colour: Option<[u8; 3]>,
 }

@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Returns numbers as a read-only array with rows of so many numbers.
+/// Returns `numbers` as a read-only array with rows of `width` numbers.
 pub(crate) fn rows<'py, T: numpy::Element>(
     py: Python<'py>,
     numbers: &[T],

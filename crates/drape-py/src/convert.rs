@@ -60,8 +60,8 @@ pub(crate) fn convert_pattern(
     Ok((files, pattern.notes().iter().map(ToString::to_string).collect()))
 }
 
-/// Drafts the sheet of a folder of exports, for a place beside which its files are named; returns its
-/// text, and the notes on what was taken.
+/// Drafts the sheet of a folder of exports, for a place beside which its files are named; returns
+/// its text, and the notes on what was taken.
 #[pyfunction]
 pub(crate) fn draft_sheet(folder: PathBuf, beside: PathBuf) -> PyResult<(String, Vec<String>)> {
     let draft = SheetDraft::of_folder(&folder, &beside).map_err(|error| match error {
@@ -103,7 +103,7 @@ fn usage(message: impl ToString) -> PyErr {
     failure(Kind::Usage, message)
 }
 
-/// Returns the first line of a pattern that was converted, that of the command.
+/// Returns the first line of a pattern converted from `path`, which the command writes too.
 fn heading(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     format!("Pattern converted from {name} by {VERSION}. Lengths are in mm, angles in degrees.")

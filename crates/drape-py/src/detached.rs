@@ -1,7 +1,7 @@
 //! Work on threads of its own, without the lock of the interpreter, which Ctrl-C ends.
 //!
-//! The thread that asked for the work waits for it: it looks for signals, and it alone calls what is
-//! written in Python, so that a callback may draw or print as any other code of its thread.
+//! The thread that asked for the work waits for it: it looks for signals, and it alone calls what
+//! is written in Python, so that a callback may draw or print as any other code of its thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +44,7 @@ impl<E> Outbox<E> {
 }
 
 impl Detached {
-    /// Makes so many threads, or as many as the machine has.
+    /// Makes `threads` threads, or one for each processor of the machine.
     pub(crate) fn new(threads: Option<usize>) -> PyResult<Self> {
         if threads == Some(0) {
             return Err(failure(Kind::Usage, "threads=0: give 1 or more, or None for all"));

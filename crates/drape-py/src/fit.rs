@@ -99,7 +99,7 @@ fn flatten(key: String, value: toml::Value, to: &mut Vec<(String, f64)>) {
         toml::Value::Float(number) => to.push((key, number)),
         toml::Value::Integer(number) => to.push((key, number as f64)),
         toml::Value::Table(table) => {
-            table.into_iter().for_each(|(own, value)| flatten(format!("{key}.{own}"), value, to));
+            table.into_iter().for_each(|(name, value)| flatten(format!("{key}.{name}"), value, to));
         }
         toml::Value::Array(values) => {
             let values = values.into_iter().enumerate();
@@ -249,8 +249,8 @@ impl Fabric {
 
     /// Bytes of the fabric as the material of another program, and what its numbers lose.
     ///
-    /// `load`, in N/m, is that at which the stretch is read; `modified` is the time of the fabric, in s
-    /// since 1970.
+    /// `load`, in N/m, is that at which the stretch is read; `modified` is the time of the fabric,
+    /// in s since 1970.
     fn material(
         &self,
         program: &str,
@@ -330,8 +330,8 @@ impl Fit {
             ] {
                 entry.set_item(key, row(py, numbers)?)?;
             }
-            let own = curve.parameters.iter().zip(&law.parameters).enumerate();
-            let parameters: PyResult<Vec<_>> = own
+            let shown = curve.parameters.iter().zip(&law.parameters).enumerate();
+            let parameters: PyResult<Vec<_>> = shown
                 .map(|(index, (estimate, shown))| {
                     let parameter = PyDict::new(py);
                     parameter.set_item("name", estimate.name)?;

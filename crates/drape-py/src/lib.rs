@@ -5,10 +5,10 @@
 //! The extension module `drape._drape`, which the Python sources in `python/drape` wrap:
 //!
 //! * `error`: mistakes and failures as exceptions;
-//! * `detached`: work on threads of its own, without the lock of the interpreter, which Ctrl-C ends;
-//! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of others; `scene`: scenes and their runs; `stepping`: a
-//!   simulation step by step; `recording`: runs that were stored; `instruments`: drapemeters and
-//!   the validation; `array`: NumPy arrays of numbers.
+//! * `detached`: work on other threads, without the lock of the interpreter, which Ctrl-C ends;
+//! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of other programs;
+//! * `scene`: scenes and their runs; `stepping`: a simulation step by step; `recording`: runs that
+//!   were stored; `instruments`: drapemeters and the validation; `array`: NumPy arrays of numbers.
 
 mod array;
 mod convert;

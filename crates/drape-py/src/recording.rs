@@ -81,7 +81,7 @@ impl Recording {
     }
 }
 
-/// Returns the page that shows runs, of at most so many megabytes.
+/// Returns the page that shows the runs in `folders`, of at most `megabytes`.
 #[pyfunction]
 #[pyo3(signature = (folders, megabytes=None))]
 pub(crate) fn view_html(

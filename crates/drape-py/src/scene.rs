@@ -200,8 +200,8 @@ impl Scene {
         Self::new(document.allowing(&allow), Vec::new(), Some(path))
     }
 
-    /// Makes a scene of documents, by their paths in a folder: its own text is the first, and it names
-    /// the others.
+    /// Makes a scene of documents, by their paths in a folder: its own text is the first, and it
+    /// names the others.
     #[staticmethod]
     fn from_toml(
         py: Python<'_>,
@@ -277,7 +277,7 @@ pub(crate) fn resume(
 ) -> PyResult<String> {
     let detached = Detached::new(settings.threads)?;
     let resumed = ResumableRun::open(&folder, settings.extend).map_err(of_run)?;
-    let own = match scene {
+    let scene = match scene {
         Some(scene) => scene.get().take(resumed.request.until)?,
         None if resumed.request.has_no_file() => {
             let message = "the scene was a text, which has no file: give it again, with scene=";
@@ -287,7 +287,7 @@ pub(crate) fn resume(
             Scene::read(resumed.request.scene.clone(), Vec::new())?.take(resumed.request.until)?
         }
     };
-    let (run, notes) = resumed.go_on(own, &settings.run_options(&detached)?).map_err(of_run)?;
+    let (run, notes) = resumed.go_on(scene, &settings.run_options(&detached)?).map_err(of_run)?;
     for note in &notes {
         warn(py, note)?;
     }

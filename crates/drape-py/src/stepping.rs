@@ -35,13 +35,12 @@ type Outline<'py> = (String, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 impl Simulation {
     fn check(&self) -> PyResult<()> {
-        match self.is_broken {
-            false => Ok(()),
-            true => Err(failure(
-                Kind::Solver,
-                "a step was interrupted and cannot be taken back; make the simulation anew",
-            )),
+        if self.is_broken {
+            let message =
+                "a step was interrupted and cannot be taken back; make the simulation anew";
+            return Err(failure(Kind::Solver, message));
         }
+        Ok(())
     }
 }
 
@@ -103,7 +102,8 @@ impl Simulation {
         self.simulation.next_step()
     }
 
-    /// Leads a body to positions of its vertices, three numbers each, or by a shift, a turn and its centre.
+    /// Leads a body to positions of its vertices, three numbers each, or by a shift, a turn and its
+    /// centre.
     fn lead_body(
         &mut self,
         name: &str,

@@ -1,4 +1,5 @@
-//! Stiffness of contact: that of the fabric's compression, or what stops the fastest impact.
+//! Stiffness of contact: the stiffness of the fabric in compression, or the stiffness that stops
+//! the fastest impact.
 
 use drape_collide::{Body, ContactDistances, Shape, SurfaceSettings};
 use drape_fabric::Fabric;
@@ -16,8 +17,8 @@ const PRESSED: f64 = 0.95;
 
 /// Least gap over its range at the pressure of the compression test: a linearity of 0.15.
 ///
-/// The stiffness there is `$1/4x^2$` times that at first touch: less would cost the solver more than
-/// the last few percent of the measured work are worth.
+/// The stiffness there is `$1/4x^2$` times the stiffness at first touch. A smaller gap would cost
+/// the solver more than the last few percent of the measured work are worth.
 const LEAST_GAP: f64 = 0.02;
 
 /// Least minimum separation over the thickness under pressure.
@@ -32,8 +33,9 @@ pub(crate) const STIFFNESS_MAX: f64 = 1e12;
 const SPEED_RATIO: f64 = 4.0;
 
 impl Scene {
-    /// Stiffness of the contact of surfaces, in N/m³: the scene's own, or the larger one of that of
-    /// the fabrics' compression and that which stops the fastest impact.
+    /// Returns the stiffness of the contact of surfaces, in N/m³: the stiffness that the scene
+    /// names, or the larger of two others. One follows from the fabrics in compression, the other
+    /// stops the fastest impact.
     #[must_use]
     pub fn contact_stiffness(&self) -> f64 {
         self.contact.stiffness.unwrap_or_else(|| {
@@ -86,8 +88,8 @@ impl Scene {
     }
 }
 
-/// Largest speed of a body's surface, in m/s; of a floor, whose corners are far out, that of its
-/// middle.
+/// Returns the largest speed of the surface of `body` in `motion`, in m/s. The corners of a floor
+/// are far out, so the speed of its middle is taken.
 pub(crate) fn body_speed(body: &Body, motion: &BodyMotion) -> f64 {
     match body.shape {
         Shape::Plane => motion.max_speed(&[body.pose.position]),
@@ -125,14 +127,16 @@ fn stopped_speed(fabric: &Fabric, stiffness: f64) -> f64 {
 /// Minimum separation of two layers of a fabric, in m.
 ///
 /// The barrier of the range `$r = T_0 - s$` gives way by `$T_0 - T_m$` under the pressure of the
-/// compression test, where its gap is `$x r$`. Its work up to there, over that of a straight line, is
+/// compression test, where its gap is `$x r$`. The ratio of the work up to this gap to the work of
+/// a straight line is
 ///
 /// ```math
 /// LC = \frac{2x\,(\tfrac12 - \ln 2x)}{1 - x} \quad (x < \tfrac12), \qquad 1 \quad (x \ge \tfrac12),
 /// \qquad s = \frac{T_m - x T_0}{1 - x}
 /// ```
 ///
-/// which the measured LC solves for `$x$`. Where LC was not measured, `$s$` is [`CRUSHED`] of `$T_m$`.
+/// which the measured LC solves for `$x$`. Where LC was not measured, `$s$` is [`CRUSHED`] of
+/// `$T_m$`.
 pub(crate) fn min_separation(fabric: &Fabric) -> f64 {
     let pressed = fabric.thickness_under_pressure();
     let Some(linearity) = fabric.compression_linearity else { return CRUSHED * pressed };

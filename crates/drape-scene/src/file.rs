@@ -36,7 +36,7 @@ pub(crate) const UNITS: [(&str, f64); 3] = [("m", 1.0), ("cm", 0.01), ("mm", 0.0
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
-    /// Name of the scene; that of the file if missing.
+    /// Name of the scene; the name of the file if missing.
     pub(crate) name: Option<String>,
     /// Model of the cloth: `kes`, yarn connectors with the laws of the fabric, or `breen-1994`, the
     /// particles of Breen, House and Wozny, with the first branches of the curves, without
@@ -82,11 +82,11 @@ pub(crate) struct SceneFile {
     /// Run to rest, without momentum: the lengths of its steps are no durations, and the run ends
     /// when the cloth is at rest; in time if missing.
     pub(crate) settle: Option<SettleFile>,
-    /// Coarser grids, with `[settle]` only: garments are sewn and cloth comes to rest on them first, one
-    /// after the other.
+    /// Coarser grids, with `[settle]` only: garments are sewn and cloth comes to rest on them
+    /// first, one after the other.
     pub(crate) refine: Option<RefineFile>,
-    /// Larger distances between particles where the cloth is flat, by the curvature of an earlier run;
-    /// none if missing. Coarser grids of `[refine]` are not graded.
+    /// Larger distances between particles where the cloth is flat, by the curvature of an earlier
+    /// run; none if missing. Coarser grids of `[refine]` are not graded.
     pub(crate) grading: Option<GradingFile>,
     /// Phase that follows when the cloth has come to rest, with `[settle]` only; bodies and pins
     /// move from the start if missing.
@@ -122,19 +122,20 @@ pub(crate) struct FabricFile {
     /// Fabric, sheet, or folder of a sheet, relative to the folder of the scene. A sheet is fitted
     /// first.
     pub(crate) file: String,
-    /// Colour of the front of the cloth in pictures, in the viewer and in files for other programs, as
-    /// `#RRGGBB` in sRGB; the back is a paler or darker tone. Without a colour, several fabrics have colours that can be told
-    /// apart.
+    /// Colour of the front of the cloth in pictures, in the viewer and in files for other programs,
+    /// as `#RRGGBB` in sRGB; the back is a paler or darker tone. Without a colour, several fabrics
+    /// have colours that can be told apart.
     #[serde(alias = "color")]
     pub(crate) colour: Option<String>,
-    /// Numbers that take the place of those of the fabric, in SI, by their keys in a `fabric.toml`,
+    /// Numbers that replace numbers of the fabric, in SI, by their keys in a `fabric.toml`,
     /// such as `"warp.bending.rigidity"`.
     #[serde(default)]
     pub(crate) set: BTreeMap<String, f64>,
 }
 
 impl SceneFile {
-    /// Returns the unit of its lengths, in m; that of a file without one where its own is unknown.
+    /// Returns the unit of lengths in the file, in m. An unknown unit counts as the metre, which is
+    /// the unit of a file that names none.
     pub(crate) fn unit(&self) -> f64 {
         let unit = UNITS.iter().find(|(name, _)| self.length.as_deref() == Some(name));
         unit.map_or(1.0, |(_, unit)| *unit)

@@ -51,8 +51,8 @@ impl Grading {
         Ok(Self { folder: folder.to_owned(), panels: panels.collect(), angle })
     }
 
-    /// Returns the largest spacing that is allowed at the material coordinates of a panel, in m, as a
-    /// function of them; nothing for a panel that the run does not have.
+    /// Returns the largest spacing that is allowed at the material coordinates of a panel, in m, as
+    /// a function of them; nothing for a panel that the run does not have.
     pub(crate) fn spacing_max(&self, panel: &str) -> Option<impl Fn([f64; 2]) -> f64> {
         let (_, map) = self.panels.iter().find(|(name, _)| name == panel)?;
         Some(|point| self.angle / map.around(point))
@@ -60,8 +60,8 @@ impl Grading {
 }
 
 impl CurvatureMap {
-    /// Returns the map of some triangles with their curvatures. Its bins are as wide as the particles
-    /// of the run are apart.
+    /// Returns the map of some triangles with their curvatures. Its bins are as wide as the
+    /// particles of the run are apart.
     fn of(material: &[[f64; 2]], (triangles, curvatures): (&[[u32; 3]], &[f64])) -> Self {
         let corners = |triangle: &[u32; 3]| triangle.map(|corner| material[corner as usize]);
         let area = |triangle: &[u32; 3]| {
@@ -85,8 +85,8 @@ impl CurvatureMap {
         point.map(|coordinate| (coordinate / self.size).floor() as i64)
     }
 
-    /// Returns the largest curvature in the bin of a point and in those around it, because folds may
-    /// lie elsewhere on another grid; infinity where the run has no cloth.
+    /// Returns the largest curvature in the bin of a point and in those around it, because folds
+    /// may lie elsewhere on another grid; infinity where the run has no cloth.
     fn around(&self, point: [f64; 2]) -> f64 {
         let [u, v] = self.bin(point).map(|place| [-1, 0, 1].map(|step| place.saturating_add(step)));
         let near = u.into_iter().flat_map(|u| v.map(|v| [u, v]));

@@ -6,17 +6,17 @@ use crate::check::memory::BASE;
 use crate::scene::Scene;
 use crate::scene::motion::BodyMotion;
 
-/// Memory that a run takes for a particle and a vertex of a body, in bytes: the former between 4.4 kB
-/// for cloth that hangs and 8 kB for cloth on a body.
+/// Memory that a run takes for a particle and a vertex of a body, in bytes: the former between 4.4
+/// kB for cloth that hangs and 8 kB for cloth on a body.
 const MEMORY: [u64; 2] = [8_000, 1_500];
 
-/// Disk that a frame takes for a particle and a vertex of a body that moves, in bytes: positions, and
-/// pressures of particles.
+/// Disk that a frame takes for a particle and a vertex of a body that moves, in bytes: positions,
+/// and pressures of particles.
 const FRAME: [u64; 2] = [26, 24];
 
-/// Disk that a run takes once for a particle and a vertex of a body, in bytes: the topology, the last
-/// frame, a page to look at, and one or two checkpoints of 650 to 800 bytes for a particle and 120 for
-/// a vertex.
+/// Disk that a run takes once for a particle and a vertex of a body, in bytes: the topology, the
+/// last frame, a page to look at, and one or two checkpoints of 650 to 800 bytes for a particle and
+/// 120 for a vertex.
 const ONCE: [u64; 2] = [1_200, 240];
 
 /// Memory and disk that a run of a scene takes, about.
@@ -41,8 +41,8 @@ impl Needs {
         self.disk_per_frame.saturating_mul(self.frames).saturating_add(self.disk_once)
     }
 
-    /// Returns the disk without which a run cannot end, in bytes: one that may end at rest stores two
-    /// frames at least.
+    /// Returns the disk without which a run cannot end, in bytes: one that may end at rest stores
+    /// two frames at least.
     #[must_use]
     pub fn disk_min(&self) -> u64 {
         let frames = if self.may_rest { self.frames.min(2) } else { self.frames };

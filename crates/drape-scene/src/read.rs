@@ -40,8 +40,8 @@ impl Scene {
         Self::from_documents_with(scene, &[], fabrics)
     }
 
-    /// Makes a scene of a document in memory. A fabric, a pattern or a mesh whose path, seen from the
-    /// scene's folder, is that of one of the other documents is taken from there.
+    /// Makes a scene of a document in memory. A fabric, a pattern or a mesh is taken from the
+    /// document in `others` that has its path, seen from the folder of `scene`.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -49,8 +49,8 @@ impl Scene {
         Self::from_documents_with(scene, others, &read_fabric)
     }
 
-    /// Makes a scene of documents in memory, as [`Scene::from_documents`] does, with a function that
-    /// makes the fabrics of the files that it names beside them.
+    /// Makes a scene of documents in memory, as [`Scene::from_documents`] does, with a function
+    /// that makes the fabrics of the files that it names beside them.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -62,8 +62,8 @@ impl Scene {
         Self::from_documents_or_refused(scene, others, fabrics).map_err(|refused| refused.error)
     }
 
-    /// Makes a scene of documents in memory, as [`Scene::from_documents_with`] does; what is refused has
-    /// the scene beside its mistakes where it could be made, to be shown.
+    /// Makes a scene of documents in memory, as [`Scene::from_documents_with`] does; what is
+    /// refused has the scene beside its mistakes where it could be made, to be shown.
     ///
     /// # Errors
     /// As for [`Scene::read`].

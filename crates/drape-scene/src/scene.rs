@@ -82,7 +82,7 @@ pub struct Scene {
     pub source: Source,
     /// Fabrics, in the order of their names.
     pub materials: Vec<Material>,
-    /// Panels, in the order of the file, those of garments behind.
+    /// Panels of the file in its order, then the panels of garments.
     pub panels: Vec<Panel>,
     /// Garments, in the order of the file.
     pub garments: Vec<Garment>,

@@ -34,40 +34,45 @@ impl Spacing {
     }
 }
 
-/// Returns the spacing of a scene, and after it those of the panels and garments that have their own.
-/// The spacing of a scene is the usual one if it names none, and is left out if no part has it.
+/// Returns the spacing of the scene `document`, then the spacings that panels and garments name.
+///
+/// The spacing of the scene is the usual one if the scene names none. It is left out if every panel
+/// and garment names a spacing.
 ///
 /// # Errors
 /// Mistakes of the grammar, of spelling and of types.
 pub fn spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
     let file: SceneFile = document.decode()?;
     let unit = file.unit();
-    let parts = file.panel.iter().enumerate().map(|(index, own)| ("panel", index, own.spacing));
-    let garments = file.garment.iter().enumerate();
-    let parts = parts.chain(garments.map(|(index, own)| ("garment", index, own.spacing)));
-    let own = |(kind, index, spacing): (&str, usize, Option<Given<Length>>)| {
-        let key = format!("{kind}.{index}.spacing");
-        spacing.map(|spacing| Spacing { key, value: spacing * unit })
-    };
-    let own: Vec<Option<Spacing>> = parts.map(own).collect();
-    let is_used = file.spacing.is_some() || own.iter().any(Option::is_none) || own.is_empty();
-    let common = file.spacing.map_or(SPACING, |spacing| spacing * unit);
-    let common = is_used.then(|| Spacing { key: "spacing".into(), value: common });
-    Ok(common.into_iter().chain(own.into_iter().flatten()).collect())
+    let panels = file.panel.iter().map(|panel| panel.spacing).enumerate();
+    let garments = file.garment.iter().map(|garment| garment.spacing).enumerate();
+    let panels = panels.map(|(index, spacing)| (format!("panel.{index}.spacing"), spacing));
+    let garments = garments.map(|(index, spacing)| (format!("garment.{index}.spacing"), spacing));
+    let parts: Vec<(String, Option<Given<Length>>)> = panels.chain(garments).collect();
+
+    let is_used = file.spacing.is_some()
+        || parts.iter().any(|(_, spacing)| spacing.is_none())
+        || parts.is_empty();
+    let value = file.spacing.map_or(SPACING, |spacing| spacing * unit);
+    let common = is_used.then(|| Spacing { key: "spacing".into(), value });
+    let named = parts
+        .into_iter()
+        .filter_map(|(key, spacing)| Some(Spacing { key, value: spacing? * unit }));
+    Ok(common.into_iter().chain(named).collect())
 }
 
-/// Returns the spacings of a scene's coarser grids, the coarsest first.
+/// Returns the spacings of the coarser grids of the scene `document`, the coarsest first.
 ///
 /// # Errors
 /// Mistakes of the grammar, of spelling and of types.
 pub fn coarser_spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
     let file: SceneFile = document.decode()?;
     let grids = file.refine.iter().flat_map(|refine| &refine.spacings).enumerate();
-    let own = |(index, spacing): (usize, &Given<Length>)| Spacing {
+    let spacings = grids.map(|(index, &spacing)| Spacing {
         key: format!("{REFINE}.{index}"),
-        value: *spacing * file.unit(),
-    };
-    Ok(grids.map(own).collect())
+        value: spacing * file.unit(),
+    });
+    Ok(spacings.collect())
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ pub struct StartSurfaces {
     pub contact: SurfaceContact,
     /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
     pub names: Vec<String>,
-    /// Vertices of each body among those of all bodies.
+    /// Vertices of each body among the vertices of all bodies.
     pub vertices: Vec<Range<usize>>,
     /// Positions at which the vertices of the bodies belong, in m.
     pub bodies: Vec<f64>,
@@ -43,8 +43,8 @@ enum Friction {
 }
 
 impl Friction {
-    /// Coefficient of a pair of groups: of two fabrics the geometric mean, with a body that of the
-    /// body.
+    /// Returns the coefficient of a pair of groups: the geometric mean for two fabrics, and the
+    /// coefficient of the body for a fabric and a body.
     fn pair(self, other: Self) -> f64 {
         match (self, other) {
             (Self::Fabric(a), Self::Fabric(b)) => (a * b).sqrt(),

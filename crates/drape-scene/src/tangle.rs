@@ -50,7 +50,7 @@ impl Tangle {
     /// near are orange, and each has the number of its part in the order in which parts are named.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// `to` fails.
     pub fn write_ply(&self, mut to: impl Write) -> io::Result<()> {
         let mut parts: Vec<&str> = Vec::new();
         let mut seen = BTreeSet::new();

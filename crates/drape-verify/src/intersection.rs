@@ -102,8 +102,8 @@ impl TurnedTriangle {
         Some(TurnedTriangle { corners, below: true })
     }
 
-    /// Returns the corners, in reversed order if the first corner of `other` lies below the plane of
-    /// `self`.
+    /// Returns the corners, in reversed order if the first corner of `other` lies below the plane
+    /// of `self`.
     fn seen_from(&self, other: &TurnedTriangle) -> Corners {
         if other.below { reversed(self.corners) } else { self.corners }
     }

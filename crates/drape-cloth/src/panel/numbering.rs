@@ -37,8 +37,8 @@ impl Numbering<'_> {
         self.node(point).and_then(|node| self.number(node))
     }
 
-    /// Keeps the nodes of the grid by their levels, the finest first. `level_at` returns the level of
-    /// the node at a point, up to `level_max`. Returns the grid of each level that has nodes.
+    /// Keeps the nodes of the grid by their levels, the finest first. `level_at` returns the level
+    /// of the node at a point, up to `level_max`. Returns the grid of each level that has nodes.
     pub(crate) fn number_grids(
         &mut self,
         level_max: u8,

@@ -164,8 +164,8 @@ mod tests {
     use crate::surface::exact::IntersectionTest;
     use crate::{ContactDistances, SurfaceParts, intersections};
 
-    /// Square grid of so many vertices a side at a height, from a corner, in m: positions and
-    /// triangles.
+    /// Returns positions, in m, and triangles of a square grid with `side` vertices along each side
+    /// at `height`. The first vertex has the number `first`.
     fn grid(side: u32, spacing: f64, height: f64, first: u32) -> (Vec<f64>, Vec<[u32; 3]>) {
         let vertices = (0..side * side)
             .flat_map(|k| [spacing * f64::from(k % side), spacing * f64::from(k / side), height]);

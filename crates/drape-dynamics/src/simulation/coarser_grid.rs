@@ -230,7 +230,7 @@ impl Simulation {
             return Ok(GridStart::NotCarried("its cloth cannot be placed on the next".into()));
         }
 
-        // The rest criteria are those of the scene, from the first step on this grid.
+        // The rest criteria of the scene hold from the first step on this grid.
         let relaxation = self.rest.criteria;
         self.world.set_relaxing(relaxation.is_some_and(|relaxation| !relaxation.inertia));
         if is_sewn {

@@ -53,7 +53,7 @@ pub(super) fn tables(summary: &Value) -> Vec<Value> {
     let measures = summary["measures"].as_object();
     tables.extend(measures.map(garment_tables).unwrap_or_default());
     for (key, title) in TABLES {
-        tables.push(Table::of(&[], key, title, &summary[key]));
+        tables.push(Table::new(&[], key, title, &summary[key]));
     }
     let filled = tables.into_iter().filter(|table| !table.rows.is_empty());
     filled.map(Table::json).collect()
@@ -67,9 +67,9 @@ fn garment_tables(measures: &Map<String, Value>) -> Vec<Table> {
     for key in ordered(&[], measures) {
         let value = &measures[key];
         if matches!(value, Value::Object(_) | Value::Array(_)) {
-            let known = GARMENT_TABLES.iter().find(|(own, _)| *own == key);
+            let known = GARMENT_TABLES.iter().find(|(table, _)| *table == key);
             let title = known.map_or_else(|| spoken(key), |(_, title)| (*title).to_owned());
-            others.push(Table::of(&[], key, &title, value));
+            others.push(Table::new(&[], key, &title, value));
         } else {
             numbers.add(&[], key, value);
         }
@@ -80,8 +80,8 @@ fn garment_tables(measures: &Map<String, Value>) -> Vec<Table> {
 }
 
 impl Table {
-    /// Returns the table of a value with a key, below some keys.
-    fn of(above: &[&str], key: &str, title: &str, value: &Value) -> Table {
+    /// Returns the table `title` of `value`, which has the key `key` below the keys `above`.
+    fn new(above: &[&str], key: &str, title: &str, value: &Value) -> Table {
         let mut table = Table { title: title.to_owned(), ..Table::default() };
         let path: Vec<&str> = above.iter().copied().chain([key]).collect();
         match value {
@@ -108,7 +108,7 @@ impl Table {
             columns.push((key, column));
         }
         // The directions of a cloth come in their usual order.
-        columns.sort_by_key(|(key, _)| COLUMNS.iter().position(|own| own == key));
+        columns.sort_by_key(|(key, _)| COLUMNS.iter().position(|column| column == key));
         let [(outer, first), _, ..] = columns[..] else { return false };
         let is_alike = |column: &Map<String, Value>| {
             column.len() == first.len()
@@ -128,7 +128,7 @@ impl Table {
         true
     }
 
-    /// Adds the items of a list, each below a heading with its name.
+    /// Adds `items` of the list at `path`, each below a heading with its name.
     fn add_items(&mut self, path: &[&str], items: &[Value]) {
         for (item, number) in items.iter().zip(1..) {
             let Value::Object(map) = item else {
@@ -138,13 +138,14 @@ impl Table {
             let named = NAMES.iter().find_map(|key| Some((*key, words(map.get(*key)?)?)));
             let (key, heading) = named.unwrap_or(("", number.to_string()));
             self.rows.push(vec![heading]);
-            for own in ordered(path, map).into_iter().filter(|own| *own != key) {
-                self.add(path, own, &map[own]);
+            for other in ordered(path, map).into_iter().filter(|other| *other != key) {
+                self.add(path, other, &map[other]);
             }
         }
     }
 
-    /// Adds the rows of a value with a key, below some keys; nothing if there is no value.
+    /// Adds the rows of `value`, which has the key `key` below the keys `above`. Adds nothing for
+    /// null.
     fn add(&mut self, above: &[&str], key: &str, value: &Value) {
         let path: Vec<&str> = above.iter().copied().chain([key]).collect();
         match value {
@@ -171,23 +172,23 @@ impl Table {
     }
 }
 
-/// Returns the keys of an object below some keys: those with plain names in the order of
-/// [`Quantity::rank`], then the others.
+/// Returns the keys of `map`, which is at `path`. Keys with plain names come first, in the order of
+/// [`Quantity::rank`].
 fn ordered<'a>(path: &[&str], map: &'a Map<String, Value>) -> Vec<&'a str> {
     let mut keys: Vec<&str> = map.keys().map(String::as_str).collect();
     keys.sort_by_key(|key| {
-        let own: Vec<&str> = path.iter().copied().chain([*key]).collect();
-        Quantity::rank(&own)
+        let path: Vec<&str> = path.iter().copied().chain([*key]).collect();
+        Quantity::rank(&path)
     });
     keys
 }
 
-/// Returns whether a value is one number or one text.
+/// Returns whether `value` is neither an object nor a list.
 fn is_simple(value: &Value) -> bool {
     !matches!(value, Value::Object(_) | Value::Array(_))
 }
 
-/// Returns a text, or a list of texts, as words.
+/// Returns `value` as words if it is a text or a list of texts.
 fn words(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),
@@ -199,7 +200,7 @@ fn words(value: &Value) -> Option<String> {
     }
 }
 
-/// Returns the plain name of the last of some keys.
+/// Returns the plain name of the last key of `path`.
 fn name(path: &[&str]) -> String {
     let key = path.last().copied().unwrap_or_default();
     match Quantity::of(path) {
@@ -208,18 +209,18 @@ fn name(path: &[&str]) -> String {
     }
 }
 
-/// Returns the unit of the value of the last of some keys.
+/// Returns the unit of the value at `path`.
 fn unit(path: &[&str]) -> Unit {
     let key = path.last().copied().unwrap_or_default();
     Quantity::of(path).map_or_else(|| Unit::of_unknown(key).0, |quantity| quantity.unit)
 }
 
-/// Returns a key as words.
+/// Returns `key` as words.
 fn spoken(key: &str) -> String {
     key.replace('_', " ")
 }
 
-/// Returns a value as text.
+/// Returns `value` in `unit` as text.
 fn text(unit: Unit, value: &Value) -> String {
     match value {
         Value::Null => "none".to_owned(),
@@ -248,10 +249,10 @@ mod tests {
 
     /// Returns the table with a title, as rows of texts, with its columns first.
     fn table(tables: &[Value], title: &str) -> Vec<Vec<String>> {
-        let own = tables.iter().find(|table| table["title"] == title).expect(title);
+        let table = tables.iter().find(|table| table["title"] == title).expect(title);
         let cells = |row: &Value| serde_json::from_value(row.clone()).expect("texts");
-        let rows = own["rows"].as_array().expect("rows").iter().map(cells);
-        let columns: Vec<String> = cells(&own["columns"]);
+        let rows = table["rows"].as_array().expect("rows").iter().map(cells);
+        let columns: Vec<String> = cells(&table["columns"]);
         Some(columns).filter(|columns| !columns.is_empty()).into_iter().chain(rows).collect()
     }
 
@@ -337,7 +338,7 @@ mod tests {
         assert_eq!(table(&tables, "contact"), [["new count", "3"]]);
         for cell in tables
             .iter()
-            .flat_map(|own| own["rows"].as_array().expect("rows"))
+            .flat_map(|table| table["rows"].as_array().expect("rows"))
             .flat_map(|row| row.as_array().expect("cells"))
         {
             let text = cell.as_str().expect("a text");

@@ -36,11 +36,11 @@ impl Scene {
         let mut stride = 1;
         loop {
             let scene = Scene::new(run, palette, &samples, stride)?;
-            let is = scene.elements(0).len();
-            if is <= size || stride >= last {
+            let length = scene.elements(0).len();
+            if length <= size || stride >= last {
                 return Ok(scene);
             }
-            stride = (stride * is.div_ceil(size.max(1))).clamp(stride + 1, last);
+            stride = (stride * length.div_ceil(size.max(1))).clamp(stride + 1, last);
         }
     }
 
@@ -57,9 +57,10 @@ impl Scene {
         chosen.push(last);
         let ShownSamples { frames, fields } = samples.shown(&chosen);
         let content = Content::new(recording, &frames, &fields);
-        let path = recording.folder().to_owned();
-        let unreadable = |reason: String| Error::Unreadable { path, reason };
-        let data = deflated(&content.bytes).map_err(|error| unreadable(error.to_string()))?;
+        let data = deflated(&content.bytes).map_err(|error| Error::Unreadable {
+            path: recording.folder().to_owned(),
+            reason: error.to_string(),
+        })?;
         let mut meta = meta(run, &frames, &fields, &content)?;
         meta["panels"] =
             recording.manifest().panels.iter().map(|part| panel(part, palette)).collect();
@@ -87,14 +88,13 @@ impl Content {
     fn new(recording: &Recording, frames: &[&Frame], fields: &[ShownField<'_>]) -> Content {
         let (topology, manifest) = (recording.topology(), recording.manifest());
         let mut bytes = Vec::new();
-        let numbers = |all: &mut dyn Iterator<Item = u32>, bytes: &mut Vec<u8>| {
-            bytes.extend(all.flat_map(u32::to_le_bytes));
-        };
-        numbers(&mut topology.cloth.iter().flatten().copied(), &mut bytes);
+        // The page reads the numbers in this order.
+        bytes.extend(topology.cloth.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
         let material = topology.material.iter().flatten();
         bytes.extend(material.flat_map(|length| (*length as f32).to_le_bytes()));
-        numbers(&mut topology.bodies.iter().flatten().copied(), &mut bytes);
-        numbers(&mut manifest.seam_pairs.iter().flatten().copied(), &mut bytes);
+        bytes.extend(topology.bodies.iter().flatten().flat_map(|corner| corner.to_le_bytes()));
+        bytes.extend(manifest.seam_pairs.iter().flatten().flat_map(|vertex| vertex.to_le_bytes()));
+
         let bounds = frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.cloth));
         let mut clothes = Differences::<u16>::new();
         for frame in frames {
@@ -121,18 +121,21 @@ impl Content {
     }
 }
 
-/// Returns the box of each body over all frames.
+/// Returns the box of each of `bodies` over all `frames`.
 fn body_bounds(bodies: &[SurfacePart], frames: &[&Frame]) -> Vec<Bounds> {
     let mut first = 0;
-    let of = |body: &SurfacePart| {
-        let own = first..first + body.vertices;
-        first = own.end;
-        frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.bodies[own.clone()]))
-    };
-    bodies.iter().map(of).collect()
+    let mut bounds = Vec::new();
+    for body in bodies {
+        let vertices = first..first + body.vertices;
+        first = vertices.end;
+        let places = frames.iter().map(|frame| &frame.bodies[vertices.clone()]);
+        bounds.push(places.fold(Bounds::EMPTY, |all, places| all.with(places)));
+    }
+    bounds
 }
 
-/// Returns the number of the state of the bodies in each frame: a new one where they have moved.
+/// Returns the number of the state of the bodies in each of `frames`. The number rises where the
+/// bodies have moved.
 fn body_states(frames: &[&Frame]) -> Vec<usize> {
     let mut states: Vec<usize> = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
@@ -148,17 +151,18 @@ fn body_states(frames: &[&Frame]) -> Vec<usize> {
     states
 }
 
+/// Returns the positions of the vertices of `bodies` in `frame`, in units of their `bounds`.
 fn body_words(bodies: &[SurfacePart], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
     let mut vertices = frame.bodies.iter();
     let mut words = Vec::new();
     for (body, bounds) in bodies.iter().zip(bounds) {
-        let own = vertices.by_ref().take(body.vertices);
-        words.extend(own.flat_map(|point| bounds.words(*point)));
+        let points = vertices.by_ref().take(body.vertices);
+        words.extend(points.flat_map(|point| bounds.words(*point)));
     }
     words
 }
 
-/// Returns what the page says of a panel, with the colours of its fabric.
+/// Returns the description of the panel `part` for the page, with the colours of its fabric.
 fn panel(part: &SurfacePart, palette: &FabricPalette) -> Value {
     let [front, back] = palette.sides(&part.fabric);
     json!({
@@ -167,7 +171,39 @@ fn panel(part: &SurfacePart, palette: &FabricPalette) -> Value {
     })
 }
 
-/// Returns what the page says of a run, without its panels.
+/// Returns the lower and the upper corner of `bounds`.
+fn corners(bounds: &Bounds) -> Value {
+    json!([bounds.low, bounds.high])
+}
+
+/// Returns the description of the body `part` for the page.
+fn body_entry(part: &SurfacePart, bounds: &Bounds) -> Value {
+    json!({
+        "name": part.name, "vertices": part.vertices, "triangles": part.triangles,
+        "box": corners(bounds),
+    })
+}
+
+/// Returns the description of `frame` for the page, with the state of its bodies, or -1 for a run
+/// without bodies.
+fn frame_entry(frame: &Frame, body_state: Option<usize>) -> Value {
+    json!({
+        "number": frame.number, "time": frame.time.unwrap_or(frame.number as f64),
+        "bodies": body_state.map_or(-1, |state| state as i64),
+    })
+}
+
+/// Returns the description of the field `shown` for the page, in a run of `frame_count` frames.
+fn field_entry(shown: &ShownField<'_>, frame_count: usize) -> Value {
+    json!({
+        "key": shown.field.key(), "label": shown.field.label(), "unit": shown.field.unit(),
+        "stops": scale::stops(shown.field.is_signed()), "low": shown.range[0],
+        "high": shown.range[1], "signed": shown.field.is_signed(),
+        "first": if shown.values.len() == frame_count { 0 } else { -1 },
+    })
+}
+
+/// Returns the description of `run` for the page, without its panels.
 fn meta(
     run: &Named<'_>,
     frames: &[&Frame],
@@ -175,32 +211,21 @@ fn meta(
     content: &Content,
 ) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
-    let corners = |bounds: &Bounds| json!([bounds.low, bounds.high]);
-    let body = |(part, bounds): (&SurfacePart, &Bounds)| {
-        json!({
-            "name": part.name, "vertices": part.vertices, "triangles": part.triangles,
-            "box": corners(bounds),
-        })
-    };
-    let bodies = manifest.bodies.iter().zip(&content.body_bounds).map(body);
-    let frame = |(k, frame): (usize, &&Frame)| {
-        json!({
-            "number": frame.number, "time": frame.time.unwrap_or(frame.number as f64),
-            "bodies": if manifest.bodies.is_empty() { -1 } else { content.body_states[k] as i64 },
-        })
-    };
-    let field = |shown: &ShownField<'_>| {
-        json!({
-            "key": shown.field.key(), "label": shown.field.label(), "unit": shown.field.unit(),
-            "stops": scale::stops(shown.field.is_signed()), "low": shown.range[0], "high": shown.range[1], "signed": shown.field.is_signed(),
-            "first": if shown.values.len() == frames.len() { 0 } else { -1 },
-        })
-    };
+    let has_bodies = !manifest.bodies.is_empty();
+
+    // Bodies and frames, by the states of the bodies.
+    let bodies = manifest.bodies.iter().zip(&content.body_bounds);
+    let bodies: Vec<Value> = bodies.map(|(part, bounds)| body_entry(part, bounds)).collect();
+    let states = content.body_states.iter().map(|&state| has_bodies.then_some(state));
+    let frame_entries: Vec<Value> =
+        frames.iter().zip(states).map(|(frame, state)| frame_entry(frame, state)).collect();
     let last_state = content.body_states.last().copied();
-    let body_states = if manifest.bodies.is_empty() { 0 } else { last_state.map_or(0, |s| s + 1) };
-    let energy = run.recording.energy()?.filter(|own| own.rows.last().is_some_and(Option::is_some));
+    let body_states = if has_bodies { last_state.map_or(0, |state| state + 1) } else { 0 };
+
+    let energy =
+        run.recording.energy()?.filter(|table| table.rows.last().is_some_and(Option::is_some));
     let energy = energy.map(|EnergyTable { names, rows }| {
-        json!({ "names": names, "rows": frames.iter().map(|own| &rows[own.number]).collect::<Vec<_>>() })
+        json!({ "names": names, "rows": frames.iter().map(|frame| &rows[frame.number]).collect::<Vec<_>>() })
     });
     let summary = run.recording.folder().join("summary.json");
     // A pipe in its place would wait for its writer.
@@ -213,9 +238,9 @@ fn meta(
         "bodyVertices": frames[0].bodies.len(), "bodyTriangles": topology.bodies.len(),
         "bodyStates": body_states, "pairs": manifest.seam_pairs.len(),
         "box": corners(&content.bounds),
-        "bodies": bodies.collect::<Vec<Value>>(),
-        "frames": frames.iter().enumerate().map(frame).collect::<Vec<Value>>(),
-        "fields": fields.iter().map(field).collect::<Vec<Value>>(),
+        "bodies": bodies,
+        "frames": frame_entries,
+        "fields": fields.iter().map(|shown| field_entry(shown, frames.len())).collect::<Vec<_>>(),
         "measures": tables(&summary.unwrap_or(Value::Null)),
         "energy": energy,
     }))

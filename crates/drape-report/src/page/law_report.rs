@@ -65,8 +65,8 @@ pub struct ModelScore {
     /// Akaike's information criterion, corrected for the number of points (AICc). The model with
     /// the smallest criterion is the best one.
     pub aicc: f64,
-    /// Root mean square error of its prediction of the last cycle from all others, over the range of
-    /// the measured load, a ratio; `None` where that was not tried.
+    /// Root mean square error of its prediction of the last cycle from all others, over the range
+    /// of the measured load, a ratio; `None` where that was not tried.
     pub prediction: Option<f64>,
     /// Whether the report describes this model.
     pub chosen: bool,

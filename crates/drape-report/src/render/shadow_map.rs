@@ -175,7 +175,8 @@ mod tests {
         let steps: Vec<f64> = lit.windows(2).map(|pair| pair[0] - pair[1]).collect();
         let largest = steps.iter().fold(0.0, |most: f64, step| most.max(*step));
         assert!(steps.iter().all(|step| *step >= -1e-6), "it falls");
-        // The edge is some 15 mm wide; a step of 0.2 mm is a seventieth of it, at most twice in the middle.
+        // The edge is some 15 mm wide; a step of 0.2 mm is a seventieth of it, at most twice in the
+        // middle.
         assert!(largest < 0.05, "a step of {largest}");
         assert!(lit[0] > 0.99 && lit[250] < 0.01, "from {} to {}", lit[0], lit[250]);
     }

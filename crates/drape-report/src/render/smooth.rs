@@ -232,7 +232,8 @@ mod tests {
         assert_eq!(smooth.vertices.len(), positions.len() / 3);
         for (vertex, normal) in smooth.vertices {
             let [x, _, z] = at(&positions, vertex as usize);
-            // The two sides of a vertex may have one or two triangles there: by a third of the tangent of 15°.
+            // The two sides of a vertex may have one or two triangles there: by a third of the
+            // tangent of 15°.
             let miss = dot(normal, [x, 0.0, z]).acos().to_degrees();
             assert!(miss < 5.11, "{miss}° at {vertex}");
         }

@@ -126,9 +126,10 @@ pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
         bodies.extend(rigid_mesh(checker, index, mesh));
     }
     for (index, mesh) in meshes() {
-        match changes(mesh) {
-            true => bodies.extend(changing_mesh(checker, index, mesh)),
-            false => check_no_frames(checker, index, mesh),
+        if changes(mesh) {
+            bodies.extend(changing_mesh(checker, index, mesh));
+        } else {
+            check_no_frames(checker, index, mesh);
         }
     }
     bodies
@@ -142,9 +143,10 @@ fn check_lengths(checker: &mut Checker<'_>, key: &str, lengths: &[(&str, f64, f6
         if !(least..=most).contains(&length) {
             let [least, most] = [least, most].map(figure);
             let message = format!("{} m is not between {least} and {most} m", figure(length));
-            let help = match rounded {
-                true => "up to half of the shortest side, or the radius",
-                false => "is the unit right? write it with one, such as \"30 cm\"",
+            let help = if rounded {
+                "up to half of the shortest side, or the radius"
+            } else {
+                "is the unit right? write it with one, such as \"30 cm\""
             };
             checker.fail(&format!("{key}.{name}"), message, help);
         }
@@ -204,33 +206,31 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
         }
         Err(error) => {
             let key = format!("collider.mesh[{index}].file");
-            match error.is_fault_of_surface() {
-                true if checker.given(&path).is_some() => {
-                    checker.fail(&key, error.to_string(), MEND_GIVEN);
-                }
-                true => {
-                    let path = checker.folder.join(&file.file);
-                    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                    let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
-                    let named =
-                        Path::new(&file.file).with_file_name(format!("{stem}-repaired.obj"));
-                    let help = format!(
-                        "`drape check {0}` shows all faults; `drape check {0} --repair {1}` mends \
+            if !error.is_fault_of_surface() {
+                checker.fail_with(&key, &error);
+            } else if checker.given(&path).is_some() {
+                checker.fail(&key, error.to_string(), MEND_GIVEN);
+            } else {
+                let path = checker.folder.join(&file.file);
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
+                let named = Path::new(&file.file).with_file_name(format!("{stem}-repaired.obj"));
+                let help = format!(
+                    "`drape check {0}` shows all faults; `drape check {0} --repair {1}` mends \
                          what is safe; then give file = {2:?}",
-                        path.display(),
-                        repaired.display(),
-                        named.display().to_string()
-                    );
-                    checker.fail(&key, error.to_string(), &help);
-                }
-                false => checker.fail_with(&key, &error),
+                    path.display(),
+                    repaired.display(),
+                    named.display().to_string()
+                );
+                checker.fail(&key, error.to_string(), &help);
             }
             None
         }
     }
 }
 
-/// Returns the unit of the coordinates of a mesh, in m: that of the scene if it has none of its own.
+/// Returns the unit of the coordinates of the mesh `file`, in m: the unit of the scene if `file`
+/// names none.
 fn scale(checker: &Checker<'_>, file: &MeshBodyFile) -> f64 {
     file.scale.map_or(checker.unit, Given::value)
 }
@@ -262,8 +262,8 @@ const WEARER: [f64; 2] = [0.15, 3.0];
 /// Height of a person, in m: the unit that gives it is the first that is advised.
 const PERSON: f64 = 1.7;
 
-/// Asks for the unit of a body that wears a garment and is as large as none does, where a unit would
-/// give it the size of one; returns whether there was nothing to ask.
+/// Asks for the unit of a body that wears a garment and is as large as none does, where a unit
+/// would give it the size of one; returns whether there was nothing to ask.
 fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, longest: f64) -> bool {
     let wears = |size: f64| (WEARER[0]..=WEARER[1]).contains(&size);
     if checker.file.garment.is_empty() || file.scale.is_some() || wears(longest) {

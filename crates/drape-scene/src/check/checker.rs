@@ -23,7 +23,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) file: &'a SceneFile,
     /// Folder of the file.
     pub(crate) folder: &'a Path,
-    /// Fabrics, patterns and meshes given along with the scene, by the paths by which it names them.
+    /// Fabrics, patterns and meshes given along with the scene, by the paths by which it names
+    /// them.
     pub(crate) documents: &'a [Document],
     /// Number of particles for which there is memory.
     pub(crate) particles_max: usize,
@@ -73,8 +74,8 @@ impl<'a> Checker<'a> {
         self.document
     }
 
-    /// Returns the path of a file that the scene names at a key; adds a mistake where the path leads
-    /// out of the folders of the scene.
+    /// Returns the path of a file that the scene names at a key; adds a mistake where the path
+    /// leads out of the folders of the scene.
     pub(crate) fn locate(&mut self, key: &str, name: &str) -> Option<PathBuf> {
         let path = self.folder.join(name);
         if self.given(&path).is_some() {

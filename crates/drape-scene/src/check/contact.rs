@@ -82,9 +82,10 @@ fn check_stiffness(checker: &mut Checker<'_>, settings: &ParticleSettings, bound
     let ContactBounds { weight, thickness, .. } = bounds;
     // The pressure of a stiffness of one: of particles that touch their body, of surfaces that have
     // a hundredth of their distance left.
-    let unit = match checker.file.keeps_surfaces_apart() {
-        false => ParticleSettings { stiffness: 1.0, ..*settings }.pressure(0.0),
-        true => 0.25 * thickness / NEAR,
+    let unit = if checker.file.keeps_surfaces_apart() {
+        0.25 * thickness / NEAR
+    } else {
+        ParticleSettings { stiffness: 1.0, ..*settings }.pressure(0.0)
     };
     let least = LAYERS * weight / unit;
     if checker.is_sound("contact.stiffness") && least.is_finite() && stiffness < least {

@@ -27,9 +27,10 @@ pub(crate) fn materials(
         let (file, fabric) = if let Some(document) = checker.given(&path) {
             (path, Fabric::from_document(document))
         } else if path.exists() {
-            let file = match path.is_dir() {
-                true => checker.locate(&key, &format!("{}/sheet.toml", entry.file))?,
-                false => path,
+            let file = if path.is_dir() {
+                checker.locate(&key, &format!("{}/sheet.toml", entry.file))?
+            } else {
+                path
             };
             let allowed = checker.document().allowed();
             let fabric = reader(FabricRequest { file: &file, model, allowed });

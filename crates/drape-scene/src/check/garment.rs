@@ -34,7 +34,7 @@ const HEIGHT_MAX: f64 = 10.0;
 
 /// Garment as its panels and its seams.
 pub(crate) struct CutGarment {
-    /// Its own name, or else that of the file of its pattern.
+    /// Name, or the name of the file of the pattern.
     pub(crate) name: String,
     pub(crate) panels: Vec<PlacedPanel>,
     pub(crate) seams: Vec<Seam>,

@@ -39,13 +39,13 @@ impl Content<'_> {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns the values that take the place of those of the text, one a line.
+    /// Returns the values that replace values of the text, one in each line.
     fn settings(&self) -> String {
         self.document.settings().iter().map(|setting| format!("\n{setting}")).collect()
     }
 
-    /// Returns the digests of the text, of what is set beside it, of each fabric, of the cloth at its
-    /// start and of each body.
+    /// Returns the digests of the text, of what is set beside it, of each fabric, of the cloth at
+    /// its start and of each body.
     pub(crate) fn parts(&self) -> Vec<SourcePart> {
         let part = |name: String, digest: blake3::Hash| SourcePart { name, digest: digest.into() };
         let mut parts =

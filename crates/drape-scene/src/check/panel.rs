@@ -35,8 +35,8 @@ const SIZES: RangeInclusive<f64> = 1e-4..=1e3;
 /// Smallest and largest spacings, in m.
 const SPACINGS: RangeInclusive<f64> = 1e-6..=1e2;
 
-/// Largest speed of cloth at the start, in m/s: a tenth of that of a bullet. Steps are no smaller
-/// for it.
+/// Largest speed of cloth at the start, in m/s: a tenth of the speed of a bullet. Steps are not
+/// smaller at this speed.
 const SPEED_MAX: f64 = 100.0;
 
 /// Panel at its place.
@@ -160,7 +160,8 @@ pub(crate) fn check_spacing(
     sound
 }
 
-/// Checks that the sides of a panel are those of one, and returns the particles that it has about.
+/// Checks that `sides` are lengths that panels have, and returns the approximate number of
+/// particles.
 fn check_size(checker: &mut Checker<'_>, key: &str, sides: &[f64], spacing: f64) -> Option<f64> {
     let wrong = sides.iter().find(|side| !SIZES.contains(side));
     if let Some(side) = wrong {
@@ -187,7 +188,7 @@ fn check_speed(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, velociti
     }
 }
 
-/// Makes the particles of a panel before it is deformed, which come after so many others.
+/// Makes the particles of a panel before it is deformed. They come after the particles made before.
 fn lattice(
     checker: &mut Checker<'_>,
     key: &str,

@@ -8,8 +8,8 @@ use crate::scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 /// say.
 const TOLERANCE: f64 = 1e-4;
 
-/// Error that the solver may leave in a step when the scene gives neither this nor a tolerance, as a
-/// fraction of the step's own. From 0.1 to 0.3 a swing took 439 to 403 matrices, a curtain 314 to
+/// Error that the solver may leave in a step when the scene gives neither this nor a tolerance, as
+/// a fraction of the step's own. From 0.1 to 0.3 a swing took 439 to 403 matrices, a curtain 314 to
 /// 241.
 const ERROR_FRACTION: f64 = 0.2;
 

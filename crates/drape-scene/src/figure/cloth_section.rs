@@ -98,8 +98,8 @@ impl Surface {
         let cuts: Vec<Cut> =
             self.triangles.iter().filter_map(|corners| self.cut(corners, cloth, height)).collect();
 
-        // Ends of cuts on one side of a triangle are joined. Ends at one place of a seam with ties are
-        // joined too.
+        // Ends of cuts on one side of a triangle are joined. Ends at one place of a seam with ties
+        // are joined too.
         let mut at_side: BTreeMap<Side, Vec<(u32, usize)>> = BTreeMap::new();
         for (number, cut) in cuts.iter().enumerate() {
             for (end, side) in cut.sides.into_iter().enumerate() {
@@ -136,8 +136,8 @@ impl Surface {
         sections.into_values().collect()
     }
 
-    /// Returns the cut through the triangle `corners` at `height`, in m, or `None` if the triangle lies
-    /// above or below.
+    /// Returns the cut through the triangle `corners` at `height`, in m, or `None` if the triangle
+    /// lies above or below.
     fn cut(&self, corners: &[u32; 3], cloth: ClothPlaces<'_>, height: f64) -> Option<Cut> {
         let place = |particle: u32| {
             let [x, y, z] = [0, 1, 2].map(|axis| cloth.positions[3 * particle as usize + axis]);

@@ -1,10 +1,11 @@
 //! Ease: girths of a garment and of the body at bust, waist and hip, and at heights that the scene
 //! names.
 //!
-//! The girth of the body is the length of a tape round the trunk, without the arms. The girth of the
-//! garment is the length of its section round the trunk, along the folds: as worn, and in the flat
-//! pattern. Ease is the girth of the garment minus the girth of the body. Ease as worn is negative
-//! where the cloth is stretched. Ease in the pattern is negative where the cloth has to stretch.
+//! The girth of the body is the length of a tape round the trunk, without the arms. The girth of
+//! the garment is the length of its section round the trunk, along the folds: as worn, and in the
+//! flat pattern. Ease is the girth of the garment minus the girth of the body. Ease as worn is
+//! negative where the cloth is stretched. Ease in the pattern is negative where the cloth has to
+//! stretch.
 
 use std::f64::consts::TAU;
 
@@ -19,8 +20,8 @@ use crate::scene::garment::Garment;
 /// Number of sectors into which directions from the trunk are divided.
 const SECTORS: usize = 36;
 
-/// Least number of sectors that an open section covers if the garment is worn there. A jacket covers
-/// them, a towel over one shoulder does not.
+/// Least number of sectors that an open section covers if the garment is worn there. A jacket
+/// covers them, a towel over one shoulder does not.
 const WORN_SECTORS: usize = 20;
 
 /// Largest distance below a landmark at which the sleeves part from a garment, in m. An armhole is
@@ -125,8 +126,8 @@ impl MeasuredGarment {
         measured.collect()
     }
 
-    /// Measures the garment, as `cloth` is, on the first of `figures` that wears it. Returns a pair for
-    /// each height at which the garment is worn, from the top down.
+    /// Measures the garment, as `cloth` is, on the first of `figures` that wears it. Returns a pair
+    /// for each height at which the garment is worn, from the top down.
     #[must_use]
     pub fn girths(&self, cloth: ClothPlaces<'_>, figures: &Figures) -> Vec<GirthPair> {
         for (bodies, landmarks) in &figures.candidates {
@@ -169,7 +170,8 @@ impl MeasuredGarment {
         girth.ok_or(NoGirth::Arms)
     }
 
-    /// Measures the garment round `trunk` at `height`, in m. Returns `None` if it is not worn there.
+    /// Measures the garment round `trunk` at `height`, in m. Returns `None` if it is not worn
+    /// there.
     fn girth(
         &self,
         cloth: ClothPlaces<'_>,
@@ -196,8 +198,8 @@ impl MeasuredGarment {
     }
 }
 
-/// Returns the landmarks `detected` on a body and the landmarks `named` in a scene, from the top down.
-/// A named landmark replaces a detected one with the same name.
+/// Returns the landmarks `detected` on a body and the landmarks `named` in a scene, from the top
+/// down. A named landmark replaces a detected one with the same name.
 pub(crate) fn merged(detected: &[Landmark], named: &[Landmark]) -> Vec<Landmark> {
     let unnamed =
         detected.iter().filter(|landmark| named.iter().all(|other| other.name != landmark.name));

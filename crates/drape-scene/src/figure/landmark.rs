@@ -2,13 +2,13 @@
 //!
 //! A figure stands on two legs and has a neck. The bust of a figure is at the level of the bust
 //! points, where the chest is deepest. The hip is at the most prominent level of the buttocks
-//! \[ISO17\]. The waist is where the trunk is thinnest. The feet point to the front. Each landmark is
-//! searched for within a range of fractions of the stature, in which people have it.
+//! \[ISO17\]. The waist is where the trunk is thinnest. The feet point to the front. Each landmark
+//! is searched for within a range of fractions of the stature, in which people have it.
 //!
 //! A dress form has no legs, and may have no head. The waist of a dress form is where its girth is
 //! least between two swellings, which are the bust and the hip. The distances between them must be
-//! distances that people have. A body that is neither a figure nor a dress form, such as a ball or a
-//! pole, has no landmarks.
+//! distances that people have. A body that is neither a figure nor a dress form, such as a ball or
+//! a pole, has no landmarks.
 
 use std::ops::RangeInclusive;
 
@@ -111,8 +111,8 @@ impl Landmark {
     }
 }
 
-/// Returns bust, waist and hip of `bodies`, which are one figure, from the top down. Landmarks that are
-/// not found are missing.
+/// Returns bust, waist and hip of `bodies`, which are one figure, from the top down. Landmarks that
+/// are not found are missing.
 pub(crate) fn landmarks(bodies: &[Triangulation]) -> Vec<Landmark> {
     let Some(profile) = Profile::new(bodies) else { return Vec::new() };
     match profile.crotch().filter(|_| profile.has_neck()) {
@@ -191,11 +191,6 @@ impl<'a> Profile<'a> {
 
     /// Returns the landmarks of a figure whose crotch is at the fraction `crotch` of the stature.
     fn of_figure(&self, crotch: f64) -> Vec<Landmark> {
-        let least = |trunk: &Trunk| -trunk.girth();
-        let most = |trunk: &Trunk| trunk.girth();
-        let usual = |fraction: f64| (self.height(fraction), FoundBy::Stature);
-        let shaped = |height: f64| (height, FoundBy::Shape);
-
         // The chest ends where the arms begin.
         let chest: Vec<&Slice> = self.within(&BUST).collect();
         let arms = chest.windows(2).find(|pair| pair[1].girth > ARMPIT * pair[0].girth);
@@ -203,18 +198,31 @@ impl<'a> Profile<'a> {
         let chest = *BUST.start()..=chest_end;
         let hips = HIP.start().max(crotch + ABOVE_CROTCH)..=*HIP.end();
 
-        // The bust is where the chest is deepest, because a back that leans moves the chest forwards
-        // or backwards. The hip is searched for at the back, which is opposite to the feet. Without
-        // feet, the largest girth is taken.
+        // The bust is where the chest is deepest, because a back that leans moves the chest
+        // forwards or backwards. The hip is searched for at the back, which is opposite to the
+        // feet. Without feet, the largest girth is taken.
         let across = self.across(crotch);
         let deepest = across.and_then(|across| self.peak(&chest, |trunk| trunk.depth(across)));
         let back = across.and_then(|across| self.back(across));
         let hindmost = back.and_then(|back| self.peak(&hips, |trunk| reach(trunk, back)));
-        let bust = deepest.or_else(|| self.peak(&chest, most)).map_or(usual(USUAL_BUST), shaped);
-        let hip = hindmost.or_else(|| self.peak(&hips, most));
-        let hip = hip.map_or(usual(USUAL_HIP.max(crotch + ABOVE_CROTCH)), shaped);
-        let waist = self.peak(&WAIST, least).map_or(usual(USUAL_WAIST), shaped);
-        vec![Landmark::new("bust", bust), Landmark::new("waist", waist), Landmark::new("hip", hip)]
+        let bust = deepest.or_else(|| self.peak(&chest, Trunk::girth));
+        let waist = self.peak(&WAIST, |trunk| -trunk.girth());
+        let hip = hindmost.or_else(|| self.peak(&hips, Trunk::girth));
+        let usual_hip = USUAL_HIP.max(crotch + ABOVE_CROTCH);
+        vec![
+            Landmark::new("bust", self.shaped_or_usual(bust, USUAL_BUST)),
+            Landmark::new("waist", self.shaped_or_usual(waist, USUAL_WAIST)),
+            Landmark::new("hip", self.shaped_or_usual(hip, usual_hip)),
+        ]
+    }
+
+    /// Returns the height that the shape of the body shows, in m, or else the height at the `usual`
+    /// fraction of the stature.
+    fn shaped_or_usual(&self, shaped: Option<f64>, usual: f64) -> (f64, FoundBy) {
+        match shaped {
+            Some(height) => (height, FoundBy::Shape),
+            None => (self.height(usual), FoundBy::Stature),
+        }
     }
 
     /// Returns a direction across the hips, from front to back or from back to front.
@@ -224,8 +232,8 @@ impl<'a> Profile<'a> {
         Some([-z, x])
     }
 
-    /// Returns `across` or its opposite, whichever points to the back. Returns `None` if the feet, which
-    /// point to the front, do not show it.
+    /// Returns `across` or its opposite, whichever points to the back. Returns `None` if the feet,
+    /// which point to the front, do not show it.
     fn back(&self, across: [f64; 2]) -> Option<[f64; 2]> {
         let middle = |range: RangeInclusive<f64>| {
             let middles: Vec<f64> =
@@ -236,8 +244,8 @@ impl<'a> Profile<'a> {
         (ahead.abs() > 0.01 * self.stature).then(|| across.map(|x| -ahead.signum() * x))
     }
 
-    /// Returns the height within `range` at which `measure` of the section is largest, in m. Returns
-    /// `None` if it is largest at an end of `range`.
+    /// Returns the height within `range` at which `measure` of the section is largest, in m.
+    /// Returns `None` if it is largest at an end of `range`.
     fn peak(&self, range: &RangeInclusive<f64>, measure: impl Fn(&Trunk) -> f64) -> Option<f64> {
         let slices: Vec<&Slice> = self.within(range).collect();
         let measures: Vec<f64> = slices.iter().map(|slice| measure(&slice.trunk)).collect();
@@ -248,8 +256,7 @@ impl<'a> Profile<'a> {
         let step = 1.0 / (FINE * SLICES) as f64;
         let middle = slices[most].fraction;
         let (first, last) = (slices[0].fraction, slices[slices.len() - 1].fraction);
-        let offset = |k: usize| (k as f64 - FINE as f64) * step;
-        let fractions = (0..=2 * FINE).map(|k| middle + offset(k));
+        let fractions = (0..=2 * FINE).map(|k| middle + (k as f64 - FINE as f64) * step);
         let heights = fractions.filter(|fraction| (first..=last).contains(fraction));
         let heights = heights.map(|fraction| self.height(fraction));
         let measured =
@@ -257,7 +264,8 @@ impl<'a> Profile<'a> {
         measured.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(height, _)| height)
     }
 
-    /// Returns the landmarks of a dress form. The thinnest place between two swellings is the waist.
+    /// Returns the landmarks of a dress form. The thinnest place between two swellings is the
+    /// waist.
     fn of_dress_form(&self) -> Vec<Landmark> {
         let waists = (1..self.slices.len().saturating_sub(1)).filter_map(|k| self.swellings(k));
         let girth = |candidate: &[usize; 3]| self.slices[candidate[1]].girth;
@@ -298,8 +306,8 @@ impl<'a> Profile<'a> {
         Some([hip?, waist, bust?])
     }
 
-    /// Returns the first of `slices` after which the girth falls by [`FALL`]. The first of `slices` has
-    /// the least girth.
+    /// Returns the first of `slices` after which the girth falls by [`FALL`]. The first of `slices`
+    /// has the least girth.
     fn first_swelling(&self, slices: &[usize]) -> Option<usize> {
         let mut top = *slices.first()?;
         for &k in slices {

@@ -55,8 +55,8 @@ pub(super) fn column(middle: [f64; 2], radii: [f64; 2], ends: [f64; 2]) -> Trian
     rings(&ends.map(|height| (height, middle, radii)))
 }
 
-/// Returns the parts of a person of 1 m who looks towards +z: bust at 0.725, waist at 0.64, hip at 0.52, with
-/// legs, feet, head and hanging arms.
+/// Returns the parts of a person of 1 m who looks towards +z: bust at 0.725, waist at 0.64, hip at
+/// 0.52, with legs, feet, head and hanging arms.
 pub(super) fn person() -> Vec<Triangulation> {
     let trunk = rings(&[
         (0.47, [0.0, 0.0], [0.112, 0.06]),

@@ -1,15 +1,15 @@
 //! Trunk: the horizontal section of a body without its arms.
 //!
-//! Arms that hang beside the trunk are separate lines in a section. If the surface of an arm and the
-//! surface of the trunk are one, the section is cut at the narrowest place between arm and trunk.
-//! Along the longest diameter of the section, the thickness of the trunk falls towards both ends. An
-//! arm is where the thickness rises again.
+//! Arms that hang beside the trunk are separate lines in a section. If the surface of an arm and
+//! the surface of the trunk are one, the section is cut at the narrowest place between arm and
+//! trunk. Along the longest diameter of the section, the thickness of the trunk falls towards both
+//! ends. An arm is where the thickness rises again.
 
 use drape_collide::Triangulation;
 use drape_collide::section::{SectionPlane, between, convex_hull, perimeter};
 
-/// Least area of a part of the trunk over the largest area in the section. The other leg has 0.9 and
-/// more, an arm or a hand 0.2 and less.
+/// Least area of a part of the trunk over the largest area in the section. The other leg has 0.9
+/// and more, an arm or a hand 0.2 and less.
 const LEG_MIN: f64 = 0.3;
 
 /// Least area of an arm over the largest area in the section. An eye or a fingertip has less.
@@ -99,8 +99,8 @@ impl Trunk {
         high - low
     }
 
-    /// Returns the unit vector along the longest diameter of the trunk, and the ratio of its extents
-    /// along and across this vector.
+    /// Returns the unit vector along the longest diameter of the trunk, and the ratio of its
+    /// extents along and across this vector.
     pub(crate) fn longest(&self) -> ([f64; 2], f64) {
         let hull = convex_hull(self.points().collect());
         let along = longest(&hull);
@@ -148,8 +148,8 @@ fn longest(hull: &[[f64; 2]]) -> [f64; 2] {
     diameter.map(|x| x / length)
 }
 
-/// Returns the hull of `line` without the arms whose surface is one with the trunk, and the hulls of
-/// these arms.
+/// Returns the hull of `line` without the arms whose surface is one with the trunk, and the hulls
+/// of these arms.
 fn without_arms(line: &[Piece]) -> (Vec<[f64; 2]>, Vec<Vec<[f64; 2]>>) {
     let hull = hull_of(line);
     let axis = longest(&hull);
@@ -182,8 +182,8 @@ fn thickness(line: &[Piece], axis: [f64; 2], at: f64) -> f64 {
     (high - low).max(0.0)
 }
 
-/// Returns the station at which an arm ends. `thickness` begins at the end of the section at which the
-/// arm may be.
+/// Returns the station at which an arm ends. `thickness` begins at the end of the section at which
+/// the arm may be.
 fn joint(thickness: &[f64]) -> Option<usize> {
     let count = (ARM_WIDTH_MAX * thickness.len() as f64) as usize;
     let least = (1..count).filter(|&k| {

@@ -54,7 +54,7 @@ pub(crate) struct SphereFile {
     /// Place of its middle.
     #[serde(default)]
     center: [Given<Length>; 3],
-    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    /// Coefficient of its friction with cloth; the coefficient of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
     /// Rigid motion along keys, about its own middle; at rest if missing.
@@ -81,7 +81,7 @@ pub(crate) struct BoxFile {
     /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
-    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    /// Coefficient of its friction with cloth; the coefficient of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
     /// Rigid motion along keys, about its own middle; at rest if missing.
@@ -111,7 +111,7 @@ pub(crate) struct CylinderFile {
     /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
-    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    /// Coefficient of its friction with cloth; the coefficient of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
     /// Rigid motion along keys, about its own middle; at rest if missing.
@@ -131,7 +131,7 @@ pub(crate) struct PlaneFile {
     /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
-    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    /// Coefficient of its friction with cloth; the coefficient of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
     /// Rigid motion along keys, about its own middle; at rest if missing.
@@ -156,7 +156,7 @@ pub(crate) struct MeshBodyFile {
     /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
-    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    /// Coefficient of its friction with cloth; the coefficient of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
     /// Rigid motion along keys, or a point cache such as `"walk.pc2"` with the position of every

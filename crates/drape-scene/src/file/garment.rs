@@ -13,15 +13,15 @@ use crate::file::panel::NoiseFile;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
-    /// Name, which its panels have before theirs: `NAME.PANEL`; that of the file of the pattern,
-    /// and its panels have their names alone, if missing.
+    /// Name, which stands before the names of its panels: `NAME.PANEL`; the name of the file of the
+    /// pattern, and the panels have their names alone, if missing.
     pub(crate) name: Option<String>,
     /// Pattern, relative to the folder of the scene: TOML, GarmentCode or FreeSewing JSON, SVG or
     /// DXF. It is cut at the spacing, placed and sewn.
     pub(crate) pattern: String,
     /// Fabric of the panels that name none.
     pub(crate) fabric: String,
-    /// Distance between its particles; that of the scene if missing.
+    /// Distance between its particles; the spacing of the scene if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) spacing: Option<Given<Length>>,
     /// Shift of all panels.
@@ -34,11 +34,11 @@ pub(crate) struct GarmentFile {
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
     pub(crate) noise: Option<NoiseFile>,
-    /// Heights above y = 0 at which girth and ease are measured, by their names: `waist = 1.08`. `bust`,
-    /// `waist` and `hip` are found on the body where they are missing.
+    /// Heights above y = 0 at which girth and ease are measured, by their names: `waist = 1.08`.
+    /// `bust`, `waist` and `hip` are found on the body where they are missing.
     #[serde(default)]
     pub(crate) measure: BTreeMap<String, Given<Length>>,
-    /// Keys of single panels, in place of those of the pattern.
+    /// Keys of single panels, which replace keys of the pattern.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, GarmentPanelFile>,
     /// Seams that the pattern has not, or that take the place of its own of the same name.
@@ -51,20 +51,20 @@ pub(crate) struct GarmentFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
-    /// Fabric; that of the garment if missing.
+    /// Fabric; the fabric of the garment if missing.
     pub(crate) fabric: Option<String>,
-    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; that of the pattern if
-    /// missing.
+    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; the angle of the
+    /// pattern if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
     pub(crate) grain: Option<Given<Angle>>,
-    /// Origin of the panel's frame; that of the pattern if missing.
+    /// Origin of the panel's frame; the origin of the pattern if missing.
     pub(crate) center: Option<[Given<Length>; 3]>,
-    /// Rotations about x, y and z, one after the other, in degrees; those of the pattern if
+    /// Rotations about x, y and z, one after the other, in degrees; the rotations of the pattern if
     /// missing.
     pub(crate) turn: Option<[Given<Angle>; 3]>,
-    /// Radius of the cylinder that it is bent to; that of the pattern if missing.
+    /// Radius of the cylinder that it is bent to; the radius of the pattern if missing.
     pub(crate) wrap: Option<Given<Length>>,
-    /// Layer in which it is worn; that of its garment if missing.
+    /// Layer in which it is worn; the layer of its garment if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) layer: Option<i64>,
 }
@@ -78,7 +78,7 @@ pub(crate) struct SewFile {
     #[cfg_attr(feature = "schema", schemars(extend("default" = 1.0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-3, 1e3)))]
     pub(crate) seconds: Option<Given<Time>>,
-    /// Bending stiffness of a seam over that of the fabric.
+    /// Bending stiffness of a seam over the bending stiffness of the fabric.
     #[cfg_attr(feature = "schema", schemars(extend("default" = 3.0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e3)))]
     pub(crate) stiffness: Option<f64>,

@@ -28,11 +28,11 @@ pub(crate) struct PanelFile {
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
     #[serde(default)]
     pub(crate) grain: Given<Angle>,
-    /// Offset of one particle from the middle of the panel, weft × warp, from which the lattice goes
-    /// on; 0 if missing. A disc with a `grid` has a stepped rim, and its drape takes about half of the
-    /// time; without it the rim is round.
+    /// Offset of one particle from the middle of the panel, weft × warp, from which the lattice
+    /// goes on; 0 if missing. A disc with a `grid` has a stepped rim, and its drape takes about
+    /// half of the time; without it the rim is round.
     pub(crate) grid: Option<[Given<Length>; 2]>,
-    /// Distance between its particles; that of the scene if missing.
+    /// Distance between its particles; the spacing of the scene if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) spacing: Option<Given<Length>>,
     /// Position of the middle of the panel.
@@ -81,7 +81,7 @@ pub(crate) struct StackFile {
     /// Number of panels in all; they are called NAME 2, NAME 3 and so on.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
     pub(crate) count: usize,
-    /// Vector from the middle of each to that of the next.
+    /// Vector from the middle of each panel to the middle of the next.
     pub(crate) step: [Given<Length>; 3],
     /// Rotation from each to the next, added to the panel's, in degrees.
     #[serde(default)]

@@ -24,8 +24,8 @@ pub(crate) struct PinFile {
     /// Edge that is held: `top`, `bottom`, `left` or `right`; of a panel of a garment one of its
     /// edges, by name; none if missing.
     pub(crate) edge: Option<String>,
-    /// Rows that an edge holds: all within so many spacings less a half. Along the yarns three rows
-    /// are a clamp, whose line lies midway between the second and the third.
+    /// Rows that an edge holds: all within this number of spacings less a half. Along the yarns
+    /// three rows are a clamp, whose line lies midway between the second and the third.
     #[cfg_attr(feature = "schema", schemars(extend("default" = 1)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
     pub(crate) rows: Option<usize>,

@@ -57,8 +57,8 @@ pub(crate) struct SettleFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RefineFile {
-    /// Spacings of the coarser grids, from the coarsest on, 8 at most. Panels and garments with a spacing of their
-    /// own keep its ratio to that of the scene.
+    /// Spacings of the coarser grids, from the coarsest on, 8 at most. Panels and garments that
+    /// name a spacing keep the ratio of this spacing to the spacing of the scene.
     pub(crate) spacings: Vec<Given<Length>>,
 }
 
@@ -67,8 +67,8 @@ pub(crate) struct RefineFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GradingFile {
-    /// Folder of an earlier run of the scene, such as at twice the spacing, relative to the folder of
-    /// the scene. The largest curvature in any of its frames counts.
+    /// Folder of an earlier run of the scene, such as at twice the spacing, relative to the folder
+    /// of the scene. The largest curvature in any of its frames counts.
     pub(crate) run: String,
     /// Largest angle by which the cloth turns from one particle to the next where they are farther
     /// apart than the spacing.

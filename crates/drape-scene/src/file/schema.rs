@@ -1,4 +1,4 @@
-//! JSON Schema of scenes: that of their tables, with what one table asks of another.
+//! JSON Schema of scenes: the schemas of their tables, and the conditions between tables.
 
 use serde_json::{Map, Value, json};
 

@@ -10,7 +10,7 @@ use crate::scene::seam::{Seam, SeamPairs};
 /// Garment of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Garment {
-    /// Its own name, or that of the file of its pattern.
+    /// Name, or the name of the file of the pattern.
     pub name: String,
     /// Its particles.
     pub particles: Range<usize>,

@@ -27,7 +27,7 @@ pub struct FabricRequest<'a> {
     pub file: &'a Path,
     /// Model whose laws the fabric is to have.
     pub model: Model,
-    /// Files and folders that the file may name beside those of its own and the working folder.
+    /// Files and folders that the file may name, beside its folder and the working folder.
     pub allowed: &'a [PathBuf],
 }
 

@@ -17,7 +17,7 @@ pub struct Panel {
     pub first: usize,
     /// Named edges of a panel of a garment.
     pub edges: Vec<PanelEdge>,
-    /// Layer in which it is worn: panels of a higher layer start outside those of a lower one.
+    /// Layer in which it is worn: panels of a higher layer start outside panels of a lower layer.
     pub layer: u32,
 }
 

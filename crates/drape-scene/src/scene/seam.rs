@@ -7,8 +7,8 @@ use drape_cloth::Tie;
 pub struct Seam {
     /// Name in the pattern.
     pub name: String,
-    /// Particles of both sides, in the order in which it runs; those of a pair are one at the tip
-    /// of a dart.
+    /// Particles of both sides, in the order in which the seam runs. At the tip of a dart both
+    /// particles of a pair are the same particle.
     pub pairs: SeamPairs,
     /// Numbers of the pairs, from 0, after which it goes on elsewhere, as over the mouth of a dart.
     pub breaks: Vec<usize>,
@@ -21,7 +21,7 @@ pub struct Seam {
 pub struct SeamPairs {
     /// Pairs that become one.
     pub pairs: Vec<[u32; 2]>,
-    /// Particles that then lie between two others: those of the longer side of a gather.
+    /// Particles that then lie between two other particles: the longer side of a gather.
     pub ties: Vec<Tie>,
 }
 
@@ -48,7 +48,7 @@ impl SeamPairs {
         self.pairs.is_empty() && self.ties.is_empty()
     }
 
-    /// Returns the constraints, those of the pairs first.
+    /// Returns the constraints of the pairs, then the constraints of the ties.
     pub fn constraints(&self) -> impl Iterator<Item = SeamConstraint> {
         let constraint = |weights: &[(u32, f64)]| {
             let weight = |&(particle, weight)| SeamWeight { particle, weight };
@@ -97,8 +97,8 @@ impl SeamConstraint {
         gap
     }
 
-    /// Lowers the gaps of the particles that are to meet, both of a pair or the tied one, to a width,
-    /// all in m.
+    /// Lowers the gaps of the particles that are to meet, both of a pair or the tied one, to a
+    /// width, all in m.
     pub fn narrow(&self, width: f64, gaps: &mut [f64]) {
         let whole = self.weights.iter().filter(|weight| weight.weight.abs() == 1.0);
         for &SeamWeight { particle, .. } in whole {

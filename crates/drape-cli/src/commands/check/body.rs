@@ -223,8 +223,8 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
         let _ = writeln!(text, "  hole: {edges} edges, {length:.1} mm long, around {position}");
     }
     if inspection.holes.len() > 5 {
-        let more = counted(inspection.holes.len() - 5, "hole", "holes");
-        let _ = writeln!(text, "  and {more} more");
+        let hidden_holes = counted(inspection.holes.len() - 5, "hole", "holes");
+        let _ = writeln!(text, "  and {hidden_holes} more");
     }
 
     for (places, fault) in [

@@ -126,7 +126,7 @@ fn sorted(spacings: &[f64]) -> Result<Vec<f64>, Failure> {
     if let Some(pair) = sorted.windows(2).find(|pair| pair[0] < (1.0 - 1e-9) * RATIO_MIN * pair[1])
     {
         return Err(Failure::Usage(format!(
-            "--spacings: {} and {} mm are too close, differences would be those of the grids' edges; take \
+            "--spacings: {} and {} mm are too close, their differences would come from the edges of the grids; take \
              {} mm or more in place of {0}",
             figure(pair[0]),
             figure(pair[1]),

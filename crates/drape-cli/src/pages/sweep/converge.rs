@@ -188,7 +188,7 @@ pub(crate) fn page(study: &Study, table: &Table, converged: &Converged) -> Resul
         format!("{} of {} runs ended well", grids.len(), table.records[0].cells.len()),
         format!(
             "the error of a value is taken as C hᵖ, h being the spacing; the order p comes of the three \
-             finest grids and is at most {GRID_ORDER}, which is also that of two grids"
+             finest grids and is at most {GRID_ORDER}; with two grids it is {GRID_ORDER}"
         ),
         "± is the uncertainty of the value on the finest grid: 1.25 times its error, 3 times with the \
          order of two grids, 3 times the range of the values where they approach no limit"

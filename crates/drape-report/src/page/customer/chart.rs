@@ -157,8 +157,8 @@ fn lane(number: &ComparedNumber, range: Option<[f64; 2]>, ends: Option<[f64; 2]>
     }
 }
 
-/// Returns the ends of the axis of a row, in SI. Returns `None` if `ranges` has no range or a number
-/// is not positive.
+/// Returns the ends of the axis of a row, in SI. Returns `None` if `ranges` has no range or a
+/// number is not positive.
 fn ends(ranges: &[Option<[f64; 2]>], numbers: &[ComparedNumber]) -> Option<[f64; 2]> {
     let [low, high] = ranges.iter().flatten().copied().reduce(union)?;
     let ratio = (high / low).max(LEAST_RATIO).powf(BEYOND);

@@ -79,7 +79,8 @@ fn shown_girth(girth: Option<f64>) -> String {
     girth.map_or_else(|| "–".to_owned(), |girth| format!("{:.0}", whole(girth)))
 }
 
-/// Returns the ease of a `girth` on a `body`, in m, as text in millimetres, or a dash without a girth.
+/// Returns the ease of a `girth` on a `body`, in m, as text in millimetres, or a dash without a
+/// girth.
 ///
 /// The shown ease is the difference of the shown girths.
 fn shown_ease(girth: Option<f64>, body: f64) -> String {

@@ -118,8 +118,8 @@ pub(crate) fn read_shapes(
     Ok(Shapes { motion: ShapeMotion::new(times, positions), mesh })
 }
 
-/// Reads the meshes of a sequence of files, `*` in whose name stands for their numbers; those of the
-/// disk count where none is given along with the scene.
+/// Reads the meshes of a sequence of files. A `*` in their name stands for the numbers of the
+/// files. Files of the disk count if no file is given along with the scene.
 fn sequence(
     checker: &Checker<'_>,
     pattern: &str,

@@ -2,7 +2,7 @@
 
 use drape_input::figure;
 
-/// Number of particles from which on a garment takes long.
+/// Least number of particles of a garment that takes long.
 const MANY: usize = 20_000;
 
 /// Processor time in s that a garment of one particle would take to be sewn and come to rest, and
@@ -15,11 +15,11 @@ const GROWTH: f64 = 1.3;
 /// Number of particles of a coarse garment.
 const FEW: f64 = 20_000.0;
 
-/// Number of particles of a garment from which on a coarser grid gains time.
+/// Least number of particles of a garment for which a coarser grid gains time.
 const SMALL: f64 = 4000.0;
 
-/// Returns a note on the cost of garments of so many particles at a spacing, in m, if that is high and
-/// they are not sewn on coarser grids.
+/// Returns a note on the cost of garments with this number of `particles` at `spacing`, in m.
+/// Returns `None` if the cost is low. The garments are not sewn on coarser grids.
 pub(crate) fn cost(particles: usize, spacing: f64) -> Option<String> {
     if particles < MANY {
         return None;

@@ -11,8 +11,8 @@ const STEP: f64 = 0.02;
 /// Highest layer.
 const HIGHEST: u32 = 20;
 
-/// Returns the placement of a panel of a layer: farther out by so many steps. The radius of a panel
-/// that is bent to a cylinder grows, a flat panel is moved to its right side.
+/// Returns `placement` of a panel moved out by one step for each `layer`. The radius of a panel
+/// that is bent to a cylinder grows. A flat panel is moved to its right side.
 pub(crate) fn worn_at(placement: Placement, layer: u32) -> Placement {
     let mut placement = placement;
     let distance = STEP * f64::from(layer);

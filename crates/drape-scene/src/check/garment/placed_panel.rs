@@ -167,8 +167,8 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
     Some(NumberedLattice { lattice: graded.lattice, numbers })
 }
 
-/// Checks the placement of a panel: that of the scene, or else of the pattern; shifted with the
-/// garment.
+/// Checks the placement of the panel `piece`. The placement of the scene comes before the placement
+/// of the pattern, and both are shifted with the garment.
 fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> {
     let &Piece { key, entry, .. } = piece;
     let (unit, panel_entry) = (checker.unit, piece.entry_of_panel());

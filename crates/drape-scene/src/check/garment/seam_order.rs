@@ -271,7 +271,7 @@ fn stitches(edges: &[&SideEdge], along: bool) -> Vec<[f64; 3]> {
     (0..STITCHES).filter_map(place).collect()
 }
 
-/// Returns the orders of so many edges that are compared.
+/// Returns the orders of `count` edges that are compared.
 fn orders_of(count: usize) -> Vec<Vec<usize>> {
     if count > EDGES_MAX {
         return vec![(0..count).collect(), (0..count).rev().collect()];

@@ -16,7 +16,7 @@ const SECONDS: f64 = 1.0;
 pub(crate) struct SewingSettings {
     /// Time until the seams are to be closed, in s.
     seconds: f64,
-    /// Bending stiffness of a seam over that of the fabric.
+    /// Bending stiffness of a seam over the bending stiffness of the fabric.
     stiffness: f64,
 }
 

@@ -3,8 +3,8 @@
 use drape_cloth::{Grain, Lattice, Mesh};
 use drape_pattern::Cut;
 
-/// Returns the number of each node of a cut in its lattice: those of the grid come first, row by
-/// row, then those of the outline.
+/// Returns the number of each node of `cut` in its lattice. Nodes of the grid come first, row by
+/// row, then nodes of the outline.
 pub(crate) fn node_numbers(cut: &Cut) -> Vec<u32> {
     let inner = cut.lattice.iter().flatten().count() as u32;
     let (mut grid, mut outline) = (0..inner, inner..);

@@ -120,7 +120,7 @@ impl Placement {
         positions
     }
 
-    /// Velocities of particles at positions, those of a rigid body, in m/s.
+    /// Returns the velocities of particles at `positions` that move as one rigid body, in m/s.
     pub(crate) fn velocities(&self, positions: &[f64]) -> Vec<f64> {
         let mut velocities = Vec::with_capacity(positions.len());
         for place in positions.chunks_exact(3) {

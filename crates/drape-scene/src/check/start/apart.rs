@@ -179,7 +179,8 @@ fn note(scene: &Scene, panel: usize, shift: [f64; 3], why: &str) -> String {
 /// `solids`. Returns `None` if the panel is outside already, is not flat, or would have to be moved
 /// farther than [`LEAVE_MAX`].
 fn shift_out(scene: &Scene, solids: &Solids<'_>, panel: usize) -> Option<[f64; 3]> {
-    // A limb can lie between the particles of a coarse panel, so the middles of triangles count too.
+    // A limb can lie between the particles of a coarse panel, so the middles of triangles count
+    // too.
     let particles = scene.panels[panel].particles();
     let middles = triangles_of(scene, panel)
         .map(|[a, b, c]| [0, 1, 2].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0));

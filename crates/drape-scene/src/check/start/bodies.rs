@@ -7,7 +7,7 @@ use drape_input::counted;
 
 use crate::scene::{MeshSource, MovingBody, Scene};
 
-/// Length of the longest horizontal side over the height from which on a wearer lies.
+/// Least ratio of the longest horizontal side to the height of a wearer that lies.
 const LYING: f64 = 1.5;
 
 /// Returns notes on the bodies of a scene that are meshes.

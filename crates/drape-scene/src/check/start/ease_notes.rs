@@ -1,5 +1,5 @@
-//! Notes on garments whose flat pattern is smaller than the body at bust, waist or hip, or at a height
-//! that the scene names. Nothing is sewn for them.
+//! Notes on garments whose flat pattern is smaller than the body at bust, waist or hip, or at a
+//! height that the scene names. Nothing is sewn for them.
 
 use crate::figure::ease::{Figures, merged, named};
 use crate::figure::landmark::{FoundBy, Landmark};

@@ -7,10 +7,10 @@
 //! G \ge (H + 2\pi d)\,\frac{n}{\pi}\tan\frac{\pi}{n}
 //! ```
 //!
-//! The section has the limbs of the body of which the ring encloses at least half. A shorter ring has
-//! to stretch, which a note says. The body at the start is not the body that the cloth lies on when it
-//! is sewn, so only the sewing shows whether the seams close. A place at which the garment would pull
-//! harder than the tensile test of a fabric does is not advised.
+//! The section has the limbs of the body of which the ring encloses at least half. A shorter ring
+//! has to stretch, which a note says. The body at the start is not the body that the cloth lies on
+//! when it is sewn, so only the sewing shows whether the seams close. A place at which the garment
+//! would pull harder than the tensile test of a fabric does is not advised.
 
 use std::f64::consts::{PI, TAU};
 

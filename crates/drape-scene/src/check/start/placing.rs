@@ -1,5 +1,5 @@
-//! Placing of garments: checks whether a garment starts round a body, and finds the shift that would
-//! bring the garment there.
+//! Placing of garments: checks whether a garment starts round a body, and finds the shift that
+//! would bring the garment there.
 //!
 //! A garment is about a body if its horizontal outline goes round a part of the body. A garment
 //! that hangs from the waist, as the number of its openings shows, is brought to the lowest place

@@ -4,9 +4,10 @@
 //! horizontal cut through panels that are sewn to each other all round. Its girth is its length
 //! before deformation.
 //!
-//! A horizontal cut is a girth only where panels stand upright, as gores do and sleeves on stretched
-//! arms do not. A panel stands upright if the mean of the gradient of the height over its cloth has
-//! a length near 1: on a cylinder whose axis is tilted by `$\theta$` it is `$\cos\theta$`.
+//! A horizontal cut is a girth only where panels stand upright, as gores do and sleeves on
+//! stretched arms do not. A panel stands upright if the mean of the gradient of the height over its
+//! cloth has a length near 1: on a cylinder whose axis is tilted by `$\theta$` it is
+//! `$\cos\theta$`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -116,7 +117,8 @@ impl<'a> RingFinder<'a> {
         let mut seams: Vec<(usize, usize)> = Vec::new();
         for (seam, joint) in &joints {
             match joint[..] {
-                // Cuts that end on the same side, such as those on both sides of a waist, do not meet.
+                // Cuts that end on the same side, such as those on both sides of a waist, do not
+                // meet.
                 [(one, side), (other, other_side)] if side != other_side => {
                     pairs.push([one as u32, other as u32]);
                     seams.push((one, *seam));

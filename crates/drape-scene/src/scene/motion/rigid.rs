@@ -4,8 +4,8 @@ use drape_collide::Pose;
 
 use super::resolution::MotionResolution;
 
-/// Rotation between two keys, in degrees, from which on a path does not count as straight, however
-/// small it is.
+/// Largest rotation between two keys, in degrees, on a path that counts as straight. A path with a
+/// larger rotation does not, however short it is.
 const ROTATION_MAX: f64 = 90.0;
 
 /// Key of a rigid motion: displacement and rotation at a time.

@@ -21,8 +21,8 @@ pub struct ShapeMotion {
 }
 
 impl ShapeMotion {
-    /// Returns a straight motion between two rising times, in s, from positions of vertices to others,
-    /// in m, with the triangles of the body.
+    /// Returns a straight motion between two rising times, in s, from positions of vertices to
+    /// others, in m, with the triangles of the body.
     ///
     /// # Errors
     /// Vertices that are too far out, or a triangle without an area at the end, in words.
