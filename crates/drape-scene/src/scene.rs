@@ -232,6 +232,13 @@ impl Scene {
         self.garments.iter().position(|garment| garment.particles.contains(&panel.first))
     }
 
+    /// Returns the numbers of the panels of `garment`, in the order of [`Scene::panels`].
+    pub(crate) fn panels_of(&self, garment: &Garment) -> Vec<usize> {
+        let panels = self.panels.iter().enumerate();
+        let of_garment = panels.filter(|(_, panel)| garment.particles.contains(&panel.first));
+        of_garment.map(|(number, _)| number).collect()
+    }
+
     /// Returns the contact of the particles with the bodies at the start.
     ///
     /// # Errors

@@ -44,7 +44,7 @@ pub(crate) fn leave_bodies(scene: &mut Scene) -> Vec<String> {
     };
     let mut shifts: Vec<(usize, [f64; 3])> = Vec::new();
     for garment in scene.garments.iter().filter(|garment| is_movable(scene, garment)) {
-        let panels = panels_of(scene, garment);
+        let panels = scene.panels_of(garment);
         let particles = panels.iter().flat_map(|&panel| scene.panels[panel].particles());
         let inside = particles.filter(|&particle| solids.distance(place(scene, particle)) < 0.0);
         let count = inside.count();
@@ -137,13 +137,6 @@ fn add_half_step(scene: &mut Scene, surfaces: &mut StartSurfaces, shifts: &mut S
 /// them.
 fn is_movable(scene: &Scene, garment: &Garment) -> bool {
     scene.contact.inflation.is_none() && !is_held(scene, garment)
-}
-
-/// Returns the numbers of the panels of `garment`.
-fn panels_of(scene: &Scene, garment: &Garment) -> Vec<usize> {
-    let panels = scene.panels.iter().enumerate();
-    let of_garment = panels.filter(|(_, panel)| garment.particles.contains(&panel.first));
-    of_garment.map(|(number, _)| number).collect()
 }
 
 /// Returns the position of `particle` at the start, in m.

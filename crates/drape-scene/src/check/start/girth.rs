@@ -84,9 +84,7 @@ pub(crate) struct Girths<'a> {
 impl<'a> Girths<'a> {
     /// Measures `garment` of `scene`. `bodies` are the solid bodies of `scene`.
     pub(crate) fn new(scene: &'a Scene, bodies: &'a [Triangulation], garment: &'a Garment) -> Self {
-        let panels: Vec<usize> = (0..scene.panels.len())
-            .filter(|&panel| garment.particles.contains(&scene.panels[panel].first))
-            .collect();
+        let panels = scene.panels_of(garment);
         let openings = openings(scene).into_iter();
         let mut rings: Vec<Ring> = openings.filter(|ring| panels.contains(&ring.panel)).collect();
         let count = rings.len();
