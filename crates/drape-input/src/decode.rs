@@ -93,9 +93,20 @@ pub(crate) struct Decoded<T> {
     pub(crate) keys: BTreeSet<String>,
 }
 
+/// Units of bare lengths that the key `length` of a text names, in m.
+const LENGTH_UNITS: [(&str, f64); 3] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
+
+/// Returns the unit of bare lengths in a text with the content `root`, in m: the metre where the
+/// text names no unit, or none that is known.
+fn length_unit(root: &Node) -> f64 {
+    let word = root.entry("length").and_then(|entry| entry.node.as_text());
+    let unit = LENGTH_UNITS.iter().find(|(name, _)| word.as_deref() == Some(name));
+    unit.map_or(1.0, |(_, metres)| *metres)
+}
+
 /// Decodes `root`, the content of a text, into a structure of type `T`.
 pub(crate) fn decode<T: DeserializeOwned>(root: &Node) -> Decoded<T> {
-    let state_cell = RefCell::new(ReadingState::default());
+    let state_cell = RefCell::new(ReadingState::new(length_unit(root)));
     loop {
         let reader = Reader { node: root, path: &ValuePath::root(), state: &state_cell };
         let reading = T::deserialize(reader);
@@ -125,8 +136,8 @@ pub(crate) fn decode<T: DeserializeOwned>(root: &Node) -> Decoded<T> {
         };
 
         if state.faults.is_empty() || state.is_last || value.is_none() {
-            let ReadingState { faults, keys, .. } = std::mem::take(&mut *state);
-            return Decoded { value, faults, keys };
+            let faults = std::mem::take(&mut state.faults);
+            return Decoded { value, faults, keys: std::mem::take(&mut state.keys) };
         }
         state.is_last = true;
     }

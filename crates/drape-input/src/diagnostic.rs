@@ -13,6 +13,7 @@ use std::path::PathBuf;
 use self::edit::Edit;
 use self::subject::Subject;
 use crate::figure::cut;
+use crate::node::key_path::KeyPath;
 
 /// One mistake of an input, with its place and its remedy.
 ///
@@ -24,8 +25,10 @@ use crate::figure::cut;
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// File with the mistake.
+    /// File with the mistake. Empty for a value that is in no file.
     pub file: PathBuf,
+    /// Key path of the wrong value, if the mistake concerns one.
+    pub key: Option<KeyPath>,
     /// Line of the mistake, from 1, if the mistake has a place in the text.
     pub line: Option<usize>,
     /// Column of the mistake, from 1, in characters.
@@ -49,6 +52,7 @@ impl Diagnostic {
     pub fn new(file: impl Into<PathBuf>, message: impl Into<String>) -> Self {
         Self {
             file: file.into(),
+            key: None,
             line: None,
             column: None,
             span: None,
@@ -90,14 +94,17 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
+        if !self.file.as_os_str().is_empty() {
+            write!(f, "{}", self.file.display())?;
+            if let Some(line) = self.line {
+                write!(f, ":{line}")?;
+            }
+            if let Some(column) = self.column {
+                write!(f, ":{column}")?;
+            }
+            f.write_str(": ")?;
         }
-        if let Some(column) = self.column {
-            write!(f, ":{column}")?;
-        }
-        write!(f, ": {}", self.message)?;
+        f.write_str(&self.message)?;
         match &self.help {
             Some(help) => write!(f, "\n  help: {help}"),
             None => Ok(()),

@@ -18,7 +18,7 @@ use crate::diagnostic::subject::Subject;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
-use crate::node::key_path::{KeyPart, key_parts};
+use crate::node::key_path::{KeyPart, KeyPath, key_parts};
 use crate::node::{Node, Value};
 use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
@@ -205,7 +205,7 @@ impl Document {
         let content = self.content();
         if !content.mistakes.is_empty() {
             let mistakes = content.mistakes.iter().map(|mistake| {
-                self.locate(mistake.span.clone(), mistake.message.clone()).help(&mistake.help)
+                self.placed(mistake.span.clone(), mistake.message.clone()).help(&mistake.help)
             });
             return Err(sorted(mistakes.collect()));
         }
@@ -221,7 +221,8 @@ impl Document {
     /// Returns `fault` with its line, its subject and the edits that correct it.
     fn diagnostic(&self, fault: Fault) -> Diagnostic {
         let Fault { span, key, message, help, change } = fault;
-        let mut mistake = self.locate(span, message);
+        let mut mistake = self.placed(span, message);
+        mistake.key = (!key.is_empty()).then(|| KeyPath::from(key.as_str()));
         mistake.help = (!help.is_empty()).then_some(help);
         mistake.subject = Subject::from_key(&self.content().root, &key);
         mistake.edits = match change {
@@ -299,11 +300,12 @@ impl Document {
 
         let message = format!("{}: {}", cut(key, KEY_MAX), message.into());
         let subject = Subject::from_key(&self.content().root, key);
+        let path = Some(KeyPath::from(key));
         let Some(located) = self.find(key) else {
-            return Diagnostic { subject, ..self.locate(None, message) };
+            return Diagnostic { subject, key: path, ..self.placed(None, message) };
         };
-        let mut mistake =
-            Diagnostic { subject, ..self.locate(Some(located.node.span.clone()), message) };
+        let span = Some(located.node.span.clone());
+        let mut mistake = Diagnostic { subject, key: path, ..self.placed(span, message) };
 
         // The list may be in the text while a setting replaced one of its elements.
         let setting = located.setting.filter(|_| mistake.span.is_some());
@@ -313,8 +315,42 @@ impl Document {
         mistake
     }
 
+    /// Returns `mistake`, which was found in a structure of the content of this document, with the
+    /// path of the document and the line and column of the key. Edits of the structure become edits
+    /// of the document.
+    ///
+    /// A mistake that has a file already is returned as it is.
+    #[must_use]
+    pub fn locate(&self, mistake: &Diagnostic) -> Diagnostic {
+        let Some(key) = mistake.key.as_ref().filter(|_| mistake.file.as_os_str().is_empty()) else {
+            return mistake.clone();
+        };
+        let key = key.to_string();
+        let message = mistake.message.strip_prefix(&format!("{key}: ")).unwrap_or(&mistake.message);
+        let mut located = self.at(&key, message);
+        located.help.clone_from(&mistake.help);
+        located.subject = mistake.subject.clone().or(located.subject);
+        located.edits = mistake
+            .edits
+            .iter()
+            .filter_map(|edit| {
+                let is_of_structure = edit.file.as_os_str().is_empty();
+                let here = is_of_structure.then(|| self.edit(&edit.key, edit.new.as_deref()));
+                here.unwrap_or_else(|| Some(edit.clone()))
+            })
+            .collect();
+        located
+    }
+
+    /// Returns the text of the value at the key path `key`, or `None` if the text has no such value.
+    #[must_use]
+    pub fn written(&self, key: &str) -> Option<&str> {
+        let located = self.find(key).filter(|located| located.is_value)?;
+        self.text.get(located.node.text.clone()?)
+    }
+
     /// Returns a mistake at `span`. A span behind the end of the text stands for a setting.
-    fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
+    fn placed(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
         let index = span.as_ref().and_then(|span| span.start.checked_sub(self.text.len() + 1));
         if let Some(setting) = index.and_then(|index| self.settings.get(index)) {
             let message = format!("{} ({}: {setting})", message.into(), setting.origin());

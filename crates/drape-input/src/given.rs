@@ -4,6 +4,11 @@
 //! A structure that mirrors a file has a [`Given`] with a [`Dimension`] for each quantity.
 //! [`Document`](crate::Document) reads a [`Given`] from `0.01` and from `"10 mm"`. The check of the
 //! structure converts the number to SI.
+//!
+//! A structure that has plain numbers names the dimension in `#[serde_as(as = "Length")]`.
+//! [`Document`](crate::Document) then resolves the unit while it reads the number: the field has the
+//! number in SI, and angles in degrees, as [`Given::value`] returns them. A bare length is in the
+//! unit that the key `length` of the text names.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -11,6 +16,13 @@ use std::ops::Mul;
 
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_with::{DeserializeAs, SerializeAs};
+#[cfg(feature = "schema")]
+use {
+    schemars::{JsonSchema, Schema, SchemaGenerator},
+    serde_with::schemars_1::JsonSchemaAs,
+    std::borrow::Cow,
+};
 
 use crate::unit::Quantity;
 
@@ -40,8 +52,10 @@ pub trait Dimension {
     const QUANTITY: Quantity;
     /// Value of the unit of a bare number in SI. 1 for lengths, which are in the unit of the file.
     const BARE: f64 = 1.0;
-    /// Token by which [`Document`](crate::Document) recognises the dimension.
+    /// Token by which [`Document`](crate::Document) recognises a [`Given`] of the dimension.
     const TOKEN: &'static str;
+    /// Token by which [`Document`](crate::Document) recognises a resolved number of the dimension.
+    const RESOLVED_TOKEN: &'static str;
     /// Unit of a bare number, in words.
     const UNIT: &'static str;
     /// Examples of a value: a bare number, and a number with a unit.
@@ -50,6 +64,17 @@ pub trait Dimension {
 
 /// One degree, in radians.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+/// What the reader of a text needs to know of a dimension.
+pub(crate) struct Token {
+    pub(crate) quantity: Quantity,
+    /// Examples of a value: a bare number, and a number with a unit.
+    pub(crate) examples: [&'static str; 2],
+    /// Value of the unit of a bare number in SI, if the number is to be resolved.
+    pub(crate) resolved: Option<f64>,
+    /// Whether a bare number is in the unit of lengths of the file, or in this unit per second.
+    pub(crate) is_in_unit_of_file: bool,
+}
 
 macro_rules! dimensions {
     ($($(#[$doc:meta])* $name:ident, $quantity:ident, $bare:expr, $unit:expr, $examples:expr;)*) => {
@@ -63,14 +88,44 @@ macro_rules! dimensions {
                 const BARE: f64 = $bare;
                 const UNIT: &'static str = $unit;
                 const TOKEN: &'static str = concat!("$drape-input:", stringify!($name));
+                const RESOLVED_TOKEN: &'static str =
+                    concat!("$drape-input:resolved:", stringify!($name));
                 const EXAMPLES: [&'static str; 2] = $examples;
+            }
+
+            impl<'de> DeserializeAs<'de, f64> for $name {
+                fn deserialize_as<S: Deserializer<'de>>(deserializer: S) -> Result<f64, S::Error> {
+                    deserializer.deserialize_newtype_struct($name::RESOLVED_TOKEN, NumberVisitor)
+                }
+            }
+
+            impl SerializeAs<f64> for $name {
+                fn serialize_as<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+                    serializer.serialize_f64(*number)
+                }
+            }
+
+            #[cfg(feature = "schema")]
+            impl JsonSchemaAs<f64> for $name {
+                fn schema_name() -> Cow<'static, str> {
+                    Given::<$name>::schema_name()
+                }
+
+                fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                    Given::<$name>::json_schema(generator)
+                }
             }
         )*
 
-        /// Returns the quantity and the examples of the dimension with the given `token`.
-        pub(crate) fn quantity_of_token(token: &str) -> Option<(Quantity, [&'static str; 2])> {
+        /// Returns what the reader needs to know of the dimension with the given `token`.
+        pub(crate) fn token(token: &str) -> Option<Token> {
             match token {
-                $($name::TOKEN => Some((Quantity::$quantity, $name::EXAMPLES)),)*
+                $($name::TOKEN | $name::RESOLVED_TOKEN => Some(Token {
+                    quantity: Quantity::$quantity,
+                    examples: $name::EXAMPLES,
+                    resolved: (token == $name::RESOLVED_TOKEN).then_some($bare),
+                    is_in_unit_of_file: $unit.starts_with("the unit of the file"),
+                }),)*
                 _ => None,
             }
         }
@@ -79,6 +134,19 @@ macro_rules! dimensions {
 
 dimensions! {
     /// Length. A bare number is in the unit of the file.
+    ///
+    /// ```
+    /// use drape_input::{Document, Length};
+    /// use serde_with::serde_as;
+    ///
+    /// #[serde_as]
+    /// #[derive(serde::Deserialize)]
+    /// struct Panel { length: String, #[serde_as(as = "[Length; 2]")] size: [f64; 2] }
+    ///
+    /// let text = "length = \"cm\"\nsize = [30, \"200 mm\"]\n";
+    /// assert_eq!(Document::new("a.toml", text).decode::<Panel>()?.size, [0.3, 0.2]);
+    /// # Ok::<(), drape_input::Diagnostics>(())
+    /// ```
     Length, Length, 1.0, "the unit of the file", ["0.01", "10 mm"];
     /// Angle. A bare number is in degrees.
     Angle, Angle, DEGREE, "degrees", ["45", "45 deg"];
@@ -88,6 +156,8 @@ dimensions! {
     Curvature, Curvature, 1.0, "1/m", ["20", "0.2 1/cm"];
     /// Time. A bare number is in s.
     Time, Time, 1.0, "s", ["0.5", "500 ms"];
+    /// Velocity. A bare number is in the unit of the file per second.
+    Velocity, Speed, 1.0, "the unit of the file per second", ["0.5", "0.5 m/s"];
     /// Speed. A bare number is in m/s.
     Speed, Speed, 1.0, "m/s", ["0.002", "2 mm/s"];
     /// Acceleration. A bare number is in m/s².
@@ -194,6 +264,25 @@ impl<D: Dimension> Serialize for Given<D> {
 impl<'de, D: Dimension> Deserialize<'de> for Given<D> {
     fn deserialize<S: Deserializer<'de>>(deserializer: S) -> Result<Self, S::Error> {
         deserializer.deserialize_newtype_struct(D::TOKEN, GivenVisitor(PhantomData))
+    }
+}
+
+/// Visitor of a resolved number.
+struct NumberVisitor;
+
+impl<'de> Visitor<'de> for NumberVisitor {
+    type Value = f64;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, or text with a number and a unit")
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<f64, E> {
+        Ok(number)
+    }
+
+    fn visit_newtype_struct<S: Deserializer<'de>>(self, from: S) -> Result<f64, S::Error> {
+        f64::deserialize(from)
     }
 }
 

@@ -45,11 +45,14 @@ pub use figure::{counted, excerpt, figure, figure_above, figure_below, figures, 
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,
-    ShearStiffness, Speed, TextOr, Time,
+    ShearStiffness, Speed, TextOr, Time, Velocity,
 };
+pub use node::key_path::{KeyPath, KeyStep};
 pub use quoting::{toml_key, toml_string};
 #[cfg(feature = "schema")]
-pub use schema::{at_least, laboratory_schema, one_of, positive, schema_of, unit_schema, within};
+pub use schema::{
+    at_least, between, laboratory_schema, one_of, positive, schema_of, unit_schema, within,
+};
 pub use setting::{Setting, SettingError};
 pub use spelling::closest;
 pub use unit::{NumberWithUnit, Quantity, Unit, UnitError, is_unit, parse_quantity, parse_unit};

@@ -30,6 +30,7 @@ impl<D: Dimension> JsonSchema for Given<D> {
         };
         json_schema!({
             "description": format!("{}{bare_unit}, such as {bare} or \"{unit}\"", capital(quantity.name())),
+            "unit": resolved_unit(D::UNIT),
             "anyOf": [
                 { "type": "number" },
                 { "type": "string", "pattern": format!("^{}$", quantity_pattern(quantity)) },
@@ -47,6 +48,11 @@ impl<T: JsonSchema> JsonSchema for TextOr<T> {
         let other = generator.subschema_for::<T>();
         json_schema!({ "anyOf": [{ "type": "string" }, other] })
     }
+}
+
+/// Returns the unit of a resolved number whose bare numbers are in `bare_unit`, in words.
+fn resolved_unit(bare_unit: &str) -> String {
+    bare_unit.replace("the unit of the file per second", "m/s").replace("the unit of the file", "m")
 }
 
 /// Returns `word` with a capital first letter.
@@ -126,6 +132,17 @@ pub fn within(least: f64, most: f64) -> impl Fn(&mut Schema) {
 /// Returns a transform that limits the numbers of a schema, or of its lists, to at least `least`.
 pub fn at_least(least: f64) -> impl Fn(&mut Schema) {
     move |schema| bound(schema, "minimum", least)
+}
+
+/// Returns a transform that limits the lengths of a schema, or of its lists, to the range from
+/// `least` to `most`, in m, whatever the unit of the file: the keywords `leastMetres` and
+/// `mostMetres`. Editors are told only that a length is positive.
+pub fn between(least: f64, most: f64) -> impl Fn(&mut Schema) {
+    move |schema| {
+        bound(schema, "exclusiveMinimum", 0.0);
+        bound(schema, "leastMetres", least);
+        bound(schema, "mostMetres", most);
+    }
 }
 
 /// Limits the numbers of `schema`, or of its lists, to values above 0.

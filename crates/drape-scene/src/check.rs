@@ -18,6 +18,7 @@ pub(crate) mod memory;
 mod motion;
 pub(crate) mod panel;
 mod pins;
+mod ranges;
 mod solver;
 mod start;
 pub(crate) mod time;
@@ -26,11 +27,10 @@ use std::collections::BTreeSet;
 
 use drape_cloth::{Breen, Cloth};
 use drape_collide::MeshInspection;
-use drape_input::{Diagnostics, Faults, Given, excerpt, figures};
+use drape_input::{Diagnostics, Faults, excerpt};
 
 use crate::contact_stiffness::max_impact_speed;
 use crate::error::Refused;
-use crate::file::SceneFile;
 use crate::scene::garment::Garment;
 use crate::scene::material::Material;
 use crate::scene::model::Model;
@@ -38,6 +38,7 @@ use crate::scene::panel::Panel;
 use crate::scene::{
     Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, Start, View,
 };
+use crate::spec::SceneSpec;
 
 use self::body::{CheckedBody, MeshFile};
 use self::checker::Checker;
@@ -49,21 +50,16 @@ use self::garment::sewing::{frictionless_cloth, sewing_settings};
 use self::hash::Content;
 use self::panel::PlacedPanel;
 
-/// Density of air at 20 °C and sea level, in kg/m³.
-const AIR_DENSITY: f64 = 1.2;
-
-/// Drag coefficient of a flat plate across the flow.
-const AIR_DRAG: f64 = 1.28;
-
 /// Checks the content of a scene's file.
 pub(crate) fn check(
     documents: &Documents<'_>,
-    file: &SceneFile,
+    spec: &SceneSpec,
     faults: Faults,
 ) -> Result<Scene, Box<Refused>> {
     let document = documents.scene;
-    let checker = &mut Checker::new(documents, file, faults);
-    let model = solver::model(checker);
+    let checker = &mut Checker::new(documents, spec, faults);
+    ranges::check_ranges(checker);
+    let model = spec.model;
     let materials = fabrics::materials(checker, documents.fabrics, model);
     let grading = panel::graded::grading(checker);
     let mut placed = panel::panels(checker, &materials, grading.as_ref());
@@ -104,13 +100,13 @@ pub(crate) fn check(
     };
     let contact = contact::contact(checker, bounds);
     let pins = pins::pins(checker, &placed);
-    if file.keeps_surfaces_apart() {
+    if spec.keeps_surfaces_apart() {
         let most = fabrics().map(max_impact_speed).fold(f64::INFINITY, f64::min);
         contact::speed::check_speeds(checker, &bodies, &pins, most);
     }
     let pins = pins.into_iter().map(|checked| checked.pin).collect();
     let sewing = sewing_settings(checker, seams.is_empty());
-    let folder = file.output.folder.as_ref();
+    let folder = spec.output.folder.as_ref();
     let folder = folder.and_then(|folder| checker.locate("output.folder", folder));
     // Seams and the start need sound panels.
     checker.finish_parts()?;
@@ -137,7 +133,7 @@ pub(crate) fn check(
     let panels: Vec<Panel> = placed.into_iter().map(|placed| placed.panel).collect();
     let bodies = with_friction(bodies, &materials);
     let content = Content {
-        document,
+        spec,
         materials: &materials,
         positions: &positions,
         bodies: &bodies,
@@ -169,12 +165,9 @@ pub(crate) fn check(
         solver,
         output: Output {
             folder,
-            view: View {
-                azimuth: file.output.azimuth.map(Given::value),
-                elevation: file.output.elevation.map(Given::value),
-            },
+            view: View { azimuth: spec.output.azimuth, elevation: spec.output.elevation },
         },
-        name: file.name.clone().unwrap_or_else(|| "unnamed".into()),
+        name: spec.name.clone().unwrap_or_else(|| "unnamed".into()),
         coarser: Vec::new(),
     };
     hold(&mut scene);
@@ -184,7 +177,7 @@ pub(crate) fn check(
     let mut scene = start::check_start(checker, scene)?;
     let note = scene.stiffness_note();
     scene.source.notes.extend(note);
-    if !scene.garments.is_empty() && relaxation.is_some() && file.refine.is_none() {
+    if !scene.garments.is_empty() && relaxation.is_some() && spec.refine.is_none() {
         scene.source.notes.extend(cost(scene.cloth.particles(), spacing));
     }
     Ok(scene)
@@ -193,9 +186,9 @@ pub(crate) fn check(
 /// Checks that panels are told apart by their names. Names that the scene itself has twice have
 /// been reported.
 fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
-    let file = checker.file;
+    let spec = checker.spec;
     let mut known = BTreeSet::new();
-    let names = file.panel.iter().map(|panel| panel.name.as_str());
+    let names = spec.panel.iter().map(|panel| panel.name.as_str());
     let twice: BTreeSet<&str> = names.filter(|name| !known.insert(*name)).collect();
     let mut known = BTreeSet::new();
     for PlacedPanel { panel, .. } in placed {
@@ -209,23 +202,10 @@ fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
     }
 }
 
-/// Checks air and gravity.
-fn environment(checker: &mut Checker<'_>) -> Environment {
-    let file = checker.file;
-    let air = file.air.as_ref();
-    let density = air.and_then(|a| a.density).map_or(AIR_DENSITY, Given::value);
-    let drag = air.and_then(|a| a.drag).unwrap_or(AIR_DRAG);
-    checker.within("air.density", density, 0.0..=100.0, "in kg/m³; 1.2 is usual, 0 a vacuum");
-    checker.within("air.drag", drag, 0.0..=10.0, "1.28 for a plate");
-    let gravity = file.gravity.map_or([0.0, -9.81, 0.0], |gravity| gravity.map(Given::value));
-    if gravity.iter().any(|g| !g.is_finite()) {
-        checker.fail(
-            "gravity",
-            format!("{} is not finite", figures(&gravity)),
-            "in m/s², [0, -9.81, 0]",
-        );
-    }
-    Environment { gravity, air: 0.5 * density * drag }
+/// Returns air and gravity.
+fn environment(checker: &Checker<'_>) -> Environment {
+    let SceneSpec { gravity, ref air, .. } = *checker.spec;
+    Environment { gravity, air: 0.5 * air.density * air.drag }
 }
 
 /// Gives bodies without friction of their own the largest friction of a fabric.

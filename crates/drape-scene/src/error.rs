@@ -1,5 +1,7 @@
 //! Error of reading a scene.
 
+use std::path::{Path, PathBuf};
+
 use drape_input::Diagnostics;
 
 use crate::scene::Scene;
@@ -28,6 +30,24 @@ impl From<Diagnostics> for Box<Refused> {
 }
 
 impl Refused {
+    /// Returns the refusal with mistakes of values: what the implied file at `path` says has no file
+    /// and no line.
+    pub(crate) fn without_file(mut self: Box<Self>, path: &Path) -> Box<Self> {
+        let mistakes = match &mut self.error {
+            Error::Input(mistakes) => mistakes,
+            Error::Tangled(tangle) => &mut tangle.mistakes,
+        };
+        for mistake in mistakes.0.iter_mut().filter(|mistake| mistake.file == path) {
+            mistake.file = PathBuf::new();
+            (mistake.line, mistake.column, mistake.span) = (None, None, None);
+            for edit in mistake.edits.iter_mut().filter(|edit| edit.file == path) {
+                edit.file = PathBuf::new();
+                edit.old = None;
+            }
+        }
+        self
+    }
+
     /// Returns the refusal of a scene that could be made.
     pub(crate) fn with(error: impl Into<Error>, scene: Scene) -> Box<Self> {
         Box::new(Self { error: error.into(), scene: Some(Box::new(scene)) })

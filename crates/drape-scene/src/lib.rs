@@ -10,20 +10,19 @@ mod spacings;
 mod surfaces;
 mod tangle;
 
-// From TOML to values
+// From specs to values
 mod check;
 mod error;
-mod file;
 mod read;
+mod spec;
 
 pub use check::checker::MESH_LIMIT;
 pub use error::{Error, Refused};
 pub use figure::cloth_section::ClothPlaces;
 pub use figure::ease::{Figures, GarmentGirth, GirthPair, MeasuredGarment, NoGirth};
 pub use figure::landmark::{FoundBy, Landmark};
-#[cfg(feature = "schema")]
-pub use file::schema::scene_schema;
 pub use needs::Needs;
+pub use read::Sources;
 pub use scene::clock::Clock;
 pub use scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 pub use scene::garment::{Garment, Sewing};
@@ -38,6 +37,21 @@ pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 pub use scene::{
     Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, SourcePart, Start, View,
 };
-pub use spacings::{Spacing, coarser_spacings, spacings};
+pub use spacings::Spacing;
+pub use spec::body::{
+    BoxSpec, ColliderSpec, CylinderSpec, MeshMotion, MeshSpec, PlaneSpec, SphereSpec,
+};
+pub use spec::contact::{ContactSpec, InflateSpec, Pinch};
+pub use spec::file_or::FileOr;
+pub use spec::garment::{GarmentPanelSpec, GarmentSpec, SeamSpec, SewSpec};
+pub use spec::motion::MotionSpec;
+pub use spec::panel::{FoldSpec, NoiseSpec, PanelSpec, RippleSpec, StackSpec};
+pub use spec::pin::{Axis, PinSpec};
+pub use spec::run::{
+    GradingSpec, MotionPhaseSpec, OutputSpec, RefineSpec, SettleSpec, SolverSpec, TimeSpec,
+};
+pub use spec::schema::scene_schema;
+pub use spec::text::SaveError;
+pub use spec::{AirSpec, FabricSpec, LengthUnit, SceneSpec};
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};

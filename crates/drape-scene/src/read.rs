@@ -1,16 +1,122 @@
-//! Reading of scenes, from files or from memory.
+//! Scenes from specs, and from files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostics, Document, Setting, figure};
+use drape_input::{Diagnostics, Document, Faults, figure};
 
 use crate::check::check;
 use crate::check::documents::Documents;
 use crate::error::{Error, Refused};
-use crate::file::SceneFile;
 use crate::scene::Scene;
 use crate::scene::material::{FabricReader, read_fabric};
-use crate::spacings::{REFINE, Spacing, spacings};
+use crate::spacings::REFINE;
+use crate::spec::SceneSpec;
+
+/// Where the files that a spec names are found.
+#[derive(Clone, Copy)]
+pub struct Sources<'a> {
+    /// Folder from which names of files are seen.
+    pub folder: &'a Path,
+    /// Files and folders outside of this folder and of the working folder that may be named.
+    pub allowed: &'a [PathBuf],
+    /// Documents that take the place of the files with their paths.
+    pub documents: &'a [Document],
+    /// Function that makes a fabric of a file, such as a sheet that is fitted.
+    pub fabrics: FabricReader<'a>,
+}
+
+impl<'a> Sources<'a> {
+    /// Returns the sources in `folder`, where fabrics are in files of fabrics.
+    #[must_use]
+    pub fn new(folder: &'a Path) -> Self {
+        Self { folder, allowed: &[], documents: &[], fabrics: &read_fabric }
+    }
+}
+
+impl SceneSpec {
+    /// Checks the spec and makes a scene of it. The spec holds everything itself and names no file.
+    ///
+    /// # Errors
+    /// All mistakes that could be found, each with its key, its value and a remedy; with them the
+    /// triangles that cross at the start, if some do. A name of a file is a mistake.
+    pub fn build(&self) -> Result<Scene, Error> {
+        let mistakes: Vec<_> = self
+            .named_files()
+            .into_iter()
+            .map(|key| {
+                let message = "names a file, and there is no folder to find it in";
+                let help = "hold the thing itself, or build with the sources of files";
+                Document::new("", "").at(&key, message).help(help)
+            })
+            .collect();
+        Diagnostics::check(mistakes)?;
+        self.build_with(&Sources::new(Path::new("")))
+    }
+
+    /// Checks the spec and makes a scene of it. Files that the spec names are read from `sources`.
+    ///
+    /// # Errors
+    /// The errors of [`build`](Self::build), and the mistakes of files.
+    pub fn build_with(&self, sources: &Sources<'_>) -> Result<Scene, Error> {
+        self.build_or_refused(sources).map_err(|refused| refused.error)
+    }
+
+    /// Makes a scene as [`build_with`](Self::build_with) does. What is refused has the scene beside
+    /// its mistakes where it could be made, to be shown.
+    ///
+    /// # Errors
+    /// The errors of [`build_with`](Self::build_with).
+    pub fn build_or_refused(&self, sources: &Sources<'_>) -> Result<Scene, Box<Refused>> {
+        /// Name that stands for the file that a spec does not have.
+        const NO_FILE: &str = "<scene>";
+
+        let path = sources.folder.join(NO_FILE);
+        let text = self.without_held().text();
+        let implied = Document::new(&path, text).allowing(sources.allowed);
+        let documents =
+            Documents { scene: &implied, others: sources.documents, fabrics: sources.fabrics };
+        self.scene(&documents, Faults::default()).map_err(|refused| refused.without_file(&path))
+    }
+
+    /// Returns the scene of the spec, which the document of `documents` says, with its coarser
+    /// grids. The text of the document has `faults`.
+    fn scene(&self, documents: &Documents<'_>, faults: Faults) -> Result<Scene, Box<Refused>> {
+        let mut scene = check(documents, self, faults)?;
+        scene.coarser = self.coarser_scenes(documents)?;
+        Ok(scene)
+    }
+
+    /// Returns the scenes of the spec, which has been checked, on its coarser grids.
+    fn coarser_scenes(&self, documents: &Documents<'_>) -> Result<Vec<Scene>, Error> {
+        let Some(refine) = &self.refine else { return Ok(Vec::new()) };
+        let finest = self.spacings()[0].value;
+        let grids = refine.spacings.iter().enumerate();
+        let scenes = grids.map(|(index, spacing)| {
+            let coarse = self.coarsened(spacing / finest);
+            check(documents, &coarse, Faults::default()).map_err(|refused| {
+                let message = format!("a grid of {} mm: {}", figure(1e3 * spacing), refused.error);
+                let mistake = documents.scene.at(&format!("{REFINE}[{index}]"), message);
+                Diagnostics::from(mistake.help("take a finer one, or leave it out")).into()
+            })
+        });
+        scenes.collect()
+    }
+
+    /// Returns the keys whose values name files.
+    fn named_files(&self) -> Vec<String> {
+        let named = |file: Option<&str>| file.is_some_and(|name| !name.is_empty());
+        let fabrics = self.fabric.iter().filter(|(_, fabric)| named(fabric.file.file()));
+        let fabrics =
+            fabrics.map(|(name, _)| format!("fabric.{}.file", drape_input::toml_key(name)));
+        let garments = self.garment.iter().enumerate();
+        let garments = garments.filter(|(_, garment)| named(garment.pattern.file()));
+        let garments = garments.map(|(index, _)| format!("garment[{index}].pattern"));
+        let meshes = self.collider.mesh.iter().enumerate();
+        let meshes = meshes.filter(|(_, mesh)| named(mesh.file.file()));
+        let meshes = meshes.map(|(index, _)| format!("collider.mesh[{index}].file"));
+        fabrics.chain(garments).chain(meshes).collect()
+    }
+}
 
 impl Scene {
     /// Reads a scene and everything it names. Its fabrics are in files of fabrics.
@@ -72,43 +178,7 @@ impl Scene {
         others: &[Document],
         fabrics: FabricReader<'_>,
     ) -> Result<Self, Box<Refused>> {
-        let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
-        let documents = Documents { scene, others, fabrics };
-        let mut checked = check(&documents, &file, faults)?;
-        checked.coarser = coarser_scenes(&documents, &file)?;
-        Ok(checked)
+        let (spec, faults) = SceneSpec::with_faults(scene)?;
+        spec.scene(&Documents { scene, others, fabrics }, faults)
     }
-}
-
-/// Returns the scene of a file, which has been checked, on its coarser grids.
-///
-/// # Errors
-/// What keeps it from being simulated there.
-fn coarser_scenes(documents: &Documents<'_>, file: &SceneFile) -> Result<Vec<Scene>, Error> {
-    let Some(refine) = &file.refine else { return Ok(Vec::new()) };
-    let spacings = spacings(documents.scene)?;
-    let grids = refine.spacings.iter().enumerate();
-    grids
-        .map(|(index, spacing)| on_grid(documents, &spacings, (index, *spacing * file.unit())))
-        .collect()
-}
-
-/// Returns the scene on the grid of a number and a spacing, in m.
-fn on_grid(
-    documents: &Documents<'_>,
-    spacings: &[Spacing],
-    (index, spacing): (usize, f64),
-) -> Result<Scene, Error> {
-    let settings: Vec<Setting> =
-        spacings.iter().map(|part| part.scaled(spacing / spacings[0].value)).collect();
-    let scene = documents.scene.clone().with_settings(&settings)?;
-    let (mut file, faults) = scene.decode_with_faults::<SceneFile>()?;
-    file.refine = None;
-    file.grading = None;
-    let documents = Documents { scene: &scene, ..*documents };
-    check(&documents, &file, faults).map_err(|refused| {
-        let message = format!("a grid of {} mm: {}", figure(1e3 * spacing), refused.error);
-        let mistake = documents.scene.at(&format!("{REFINE}[{index}]"), message);
-        Diagnostics::from(mistake.help("take a finer one, or leave it out")).into()
-    })
 }

@@ -1,9 +1,8 @@
 //! Spacings that a scene names, with their keys.
 
-use drape_input::{Diagnostics, Document, Given, Length, Setting, figure};
+use drape_input::{Setting, figure};
 
-use crate::check::panel::SPACING;
-use crate::file::SceneFile;
+use crate::spec::SceneSpec;
 
 /// Key of the coarser grids.
 pub(crate) const REFINE: &str = "refine.spacings";
@@ -34,49 +33,60 @@ impl Spacing {
     }
 }
 
-/// Returns the spacing of the scene `document`, then the spacings that panels and garments name.
-///
-/// The spacing of the scene is the usual one if the scene names none. It is left out if every panel
-/// and garment names a spacing.
-///
-/// # Errors
-/// Mistakes of the grammar, of spelling and of types.
-pub fn spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
-    let file: SceneFile = document.decode()?;
-    let unit = file.unit();
-    let panels = file.panel.iter().map(|panel| panel.spacing).enumerate();
-    let garments = file.garment.iter().map(|garment| garment.spacing).enumerate();
-    let panels = panels.map(|(index, spacing)| (format!("panel.{index}.spacing"), spacing));
-    let garments = garments.map(|(index, spacing)| (format!("garment.{index}.spacing"), spacing));
-    let parts: Vec<(String, Option<Given<Length>>)> = panels.chain(garments).collect();
+impl SceneSpec {
+    /// Returns the spacing of the scene, then the spacings that panels and garments name.
+    ///
+    /// The spacing of the scene is left out if every panel and garment names a spacing.
+    #[must_use]
+    pub fn spacings(&self) -> Vec<Spacing> {
+        let panels = self.panel.iter().map(|panel| panel.spacing).enumerate();
+        let garments = self.garment.iter().map(|garment| garment.spacing).enumerate();
+        let panels = panels.map(|(index, spacing)| (format!("panel.{index}.spacing"), spacing));
+        let garments =
+            garments.map(|(index, spacing)| (format!("garment.{index}.spacing"), spacing));
+        let parts: Vec<(String, Option<f64>)> = panels.chain(garments).collect();
 
-    let is_used = file.spacing.is_some()
-        || parts.iter().any(|(_, spacing)| spacing.is_none())
-        || parts.is_empty();
-    let value = file.spacing.map_or(SPACING, |spacing| spacing * unit);
-    let common = is_used.then(|| Spacing { key: "spacing".into(), value });
-    let named = parts
-        .into_iter()
-        .filter_map(|(key, spacing)| Some(Spacing { key, value: spacing? * unit }));
-    Ok(common.into_iter().chain(named).collect())
+        let is_used = parts.iter().any(|(_, spacing)| spacing.is_none()) || parts.is_empty();
+        let common = is_used.then(|| Spacing { key: "spacing".into(), value: self.spacing });
+        let named = parts
+            .into_iter()
+            .filter_map(|(key, spacing)| spacing.map(|value| Spacing { key, value }));
+        common.into_iter().chain(named).collect()
+    }
+
+    /// Returns the spacings of the coarser grids, the coarsest first.
+    #[must_use]
+    pub fn coarser_spacings(&self) -> Vec<Spacing> {
+        let grids = self.refine.iter().flat_map(|refine| &refine.spacings).enumerate();
+        grids.map(|(index, &value)| Spacing { key: format!("{REFINE}.{index}"), value }).collect()
+    }
+
+    /// Returns the spec on a coarser grid, on which all spacings are `factor` times as large. It has
+    /// no coarser grids itself and is not graded.
+    #[must_use]
+    pub fn coarsened(&self, factor: f64) -> Self {
+        let mut spec = self.clone();
+        spec.refine = None;
+        spec.grading = None;
+        spec.spacing = rounded(factor * spec.spacing);
+        let panels = spec.panel.iter_mut().map(|panel| &mut panel.spacing);
+        let garments = spec.garment.iter_mut().map(|garment| &mut garment.spacing);
+        for spacing in panels.chain(garments).flatten() {
+            *spacing = rounded(factor * *spacing);
+        }
+        spec
+    }
 }
 
-/// Returns the spacings of the coarser grids of the scene `document`, the coarsest first.
-///
-/// # Errors
-/// Mistakes of the grammar, of spelling and of types.
-pub fn coarser_spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
-    let file: SceneFile = document.decode()?;
-    let grids = file.refine.iter().flat_map(|refine| &refine.spacings).enumerate();
-    let spacings = grids.map(|(index, &spacing)| Spacing {
-        key: format!("{REFINE}.{index}"),
-        value: spacing * file.unit(),
-    });
-    Ok(spacings.collect())
+/// Returns `spacing`, in m, as a person would write it in millimetres.
+fn rounded(spacing: f64) -> f64 {
+    figure(1e3 * spacing).parse().map_or(spacing, |millimetres: f64| millimetres * 0.001)
 }
 
 #[cfg(test)]
 mod tests {
+    use drape_input::Document;
+
     use super::*;
 
     #[test]
@@ -85,16 +95,17 @@ mod tests {
                     [[panel]]\nname = \"b\"\nfabric = \"f\"\nspacing = \"0.5 cm\"\n\
                     [[garment]]\npattern = \"p.toml\"\nfabric = \"f\"\nspacing = 8\n\
                     [time]\nstep = 0.005\nend = 1\n";
-        let found = spacings(&Document::new("scene.toml", text)).expect("a scene");
-        let found: Vec<(&str, f64)> =
-            found.iter().map(|own| (own.key.as_str(), (1e6 * own.value).round() / 1e6)).collect();
+        let spacings = |text: &str| {
+            let spec = SceneSpec::from_document(&Document::new("scene.toml", text));
+            spec.expect("a scene").spacings()
+        };
+        let pairs: Vec<(String, f64)> =
+            spacings(text).into_iter().map(|spacing| (spacing.key, spacing.value)).collect();
         let expected =
             [("spacing", 0.02), ("panel.1.spacing", 0.005), ("garment.0.spacing", 0.008)];
-        assert_eq!(found, expected);
-        let own = text.replace("spacing = 20\n[[panel]]\nname = \"a\"\nfabric = \"f\"\n", "");
-        let found = spacings(&Document::new("scene.toml", own)).expect("a scene");
-        assert_eq!(found[0].key, "panel.0.spacing");
-        let usual = spacings(&Document::new("scene.toml", "[time]\nstep = 0.005\nend = 1\n"));
-        assert_eq!(usual.expect("a scene")[0].value, SPACING);
+        assert_eq!(pairs, expected.map(|(key, value)| (key.to_owned(), value)));
+        let named = text.replace("spacing = 20\n[[panel]]\nname = \"a\"\nfabric = \"f\"\n", "");
+        assert_eq!(spacings(&named)[0].key, "panel.0.spacing");
+        assert_eq!(spacings("[time]\nstep = 0.005\nend = 1\n")[0].value, 0.01);
     }
 }

@@ -337,11 +337,11 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
             "finite",
             6,
         ),
-        ("[time]", "noise = { amplitude = 1e-4, length = 0 }\n[time]", "0 is no length", 6),
+        ("[time]", "noise = { amplitude = 1e-4, length = 0 }\n[time]", "0 m is not above 0", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrid = [0.001, 0]", "follow", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\nhole = 0.1", "rectangle", 6),
         ("rectangle = [0.2, 0.3]", "spacing = 0.01\ndisc = 0.3\nhole = 0.29", "0.005", 5),
-        ("rectangle = [0.2, 0.3]", "disc = 0.3\nhole = -0.1", "-0.05", 6),
+        ("rectangle = [0.2, 0.3]", "disc = 0.3\nhole = -0.1", "-0.1 m is not above 0", 6),
         ("rectangle = [0.2, 0.3]", "spacing = 0.15\nrectangle = [0.2, 0.3]\ngrain = 45", "0.15", 5),
     ];
     for (old, new, value, line) in cases {

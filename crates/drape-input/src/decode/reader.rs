@@ -7,11 +7,11 @@ use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqA
 use serde::forward_to_deserialize_any;
 
 use crate::figure::excerpt;
-use crate::given;
+use crate::given::{self, Token};
 use crate::node::{Entry, Node, Value};
 use crate::quoting::{toml_key, toml_string};
 use crate::spelling::closest;
-use crate::unit::{NumberWithUnit, Quantity, parse_quantity};
+use crate::unit::{NumberWithUnit, parse_quantity};
 
 use super::stand_in::{ExpectedKind, StandIn};
 use super::state::{Change, Fault, ReadingState};
@@ -138,6 +138,21 @@ impl<'a> Reader<'a> {
         state.faults.push(Fault { span, key, message, help, change });
     }
 
+    /// Records the mistake that `word` is none of `choices`.
+    fn fault_of_choice(&self, word: &str, choices: &[&str]) {
+        let near = closest(word, choices.iter().copied());
+        let help = match near {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => {
+                let quoted: Vec<String> =
+                    choices.iter().map(|choice| format!("\"{choice}\"")).collect();
+                format!("one of {}", quoted.join(", "))
+            }
+        };
+        let message = format!("there is no \"{}\"", excerpt(word));
+        self.correctable_fault(message, help, near.map(toml_string));
+    }
+
     /// Records that the value does not have the expected `kind`, and calls `visit` with a stand-in.
     fn stand_in<V>(&self, kind: ExpectedKind, visit: impl FnOnce(StandIn<'_>) -> V) -> V {
         self.fault_of_kind(kind);
@@ -161,6 +176,20 @@ impl<'a> Reader<'a> {
     fn fault_of_infinite(&self, number: f64) {
         let word = if number.is_nan() { "nan" } else { "inf" };
         self.fault(format!("{word} is not a finite number"), "write a finite number".into());
+    }
+
+    /// Returns the number, if the value is a finite number.
+    fn bare_number(&self) -> Option<f64> {
+        match self.node.value {
+            Value::Integer(number) => Some(number as f64),
+            Value::Float(number) => Some(number).filter(|number| number.is_finite()),
+            _ => None,
+        }
+    }
+
+    /// Returns the factor by which a bare number of the quantity of `token` is resolved.
+    fn bare_factor(&self, token: &Token) -> f64 {
+        if token.is_in_unit_of_file { self.state.borrow().length_unit } else { 1.0 }
     }
 
     /// Reads a whole number between `least` and `most`.
@@ -194,16 +223,16 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads a `quantity`: a bare number, or a text with a number and a unit. `examples` are a bare
-    /// number and such a text.
-    fn quantity<'de, V: Visitor<'de>>(
-        self,
-        quantity: Quantity,
-        examples: [&'static str; 2],
-        visitor: V,
-    ) -> Result<V::Value, Stop> {
+    /// Reads the quantity of `token`: a bare number, or a text with a number and a unit.
+    fn quantity<'de, V: Visitor<'de>>(self, token: &Token, visitor: V) -> Result<V::Value, Stop> {
+        let Token { quantity, examples, resolved, .. } = *token;
         let text = match &self.node.value {
-            Value::Integer(_) | Value::Float(_) => return self.number(visitor),
+            Value::Integer(_) | Value::Float(_) => match (resolved, self.bare_number()) {
+                (Some(_), Some(number)) => {
+                    return visitor.visit_f64(number * self.bare_factor(token));
+                }
+                _ => return self.number(visitor),
+            },
             Value::Text(text) => text,
             _ => {
                 self.fault_of_kind(ExpectedKind::Quantity(quantity.name(), examples));
@@ -217,6 +246,12 @@ impl<'a> Reader<'a> {
             Ok(NumberWithUnit { number, .. }) if !number.is_finite() => {
                 self.fault_of_infinite(number);
                 visitor.visit_f64(1.0)
+            }
+            Ok(NumberWithUnit { number, unit }) if has_unit && resolved.is_some() => {
+                // An angle stays in degrees, so that a quarter turn is exact.
+                let bare = resolved.unwrap_or(1.0);
+                let is_bare = unit.factor == bare;
+                visitor.visit_f64(if is_bare { number } else { number * unit.factor / bare })
             }
             Ok(NumberWithUnit { number, unit }) if has_unit => {
                 visitor.visit_seq(SeqDeserializer::new([number, unit.factor].into_iter()))
@@ -313,13 +348,34 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         visitor.visit_unit()
     }
 
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        choices: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        let Value::Text(word) = &self.node.value else {
+            return self.stand_in(ExpectedKind::Text, |stand_in| {
+                stand_in.deserialize_enum(name, choices, visitor)
+            });
+        };
+        let choice = choices.iter().find(|choice| *choice == word);
+        if choice.is_none() {
+            self.fault_of_choice(word, choices);
+        }
+        // A wrong word counts as the first choice.
+        let choice: &str = choice.or(choices.first()).unwrap_or(&"");
+        let choice: StrDeserializer<'_, Stop> = choice.into_deserializer();
+        visitor.visit_enum(choice)
+    }
+
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Stop> {
-        match (given::quantity_of_token(name), &self.node.value) {
-            (Some((quantity, examples)), _) => self.quantity(quantity, examples, visitor),
+        match (given::token(name), &self.node.value) {
+            (Some(token), _) => self.quantity(&token, visitor),
             (None, Value::Text(text)) if name == given::TEXT_OR => visitor.visit_str(text),
             _ => visitor.visit_newtype_struct(self),
         }
@@ -380,7 +436,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i128 u128 char bytes byte_buf unit unit_struct tuple_struct enum
+        i8 i16 i32 i128 u128 char bytes byte_buf unit unit_struct tuple_struct
     }
 }
 

@@ -124,13 +124,25 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
         visitor.visit_map(StandInFields { keys, expected: &inner })
     }
 
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        choices: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        self.note(ExpectedKind::Text);
+        let choice: StrDeserializer<'_, Stop> =
+            choices.first().copied().unwrap_or_default().into_deserializer();
+        visitor.visit_enum(choice)
+    }
+
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Stop> {
-        if let Some((quantity, examples)) = given::quantity_of_token(name) {
-            self.note(ExpectedKind::Quantity(quantity.name(), examples));
+        if let Some(token) = given::token(name) {
+            self.note(ExpectedKind::Quantity(token.quantity.name(), token.examples));
             return visitor.visit_f64(1.0);
         }
         if name == given::TEXT_OR {
@@ -141,7 +153,7 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct enum
+        i8 i16 i32 i128 u8 u16 u32 u128 f32 char bytes byte_buf unit unit_struct tuple_struct
         identifier ignored_any
     }
 }

@@ -25,8 +25,9 @@ pub(crate) enum Change {
 }
 
 /// State of a reading.
-#[derive(Default)]
 pub(crate) struct ReadingState {
+    /// Unit of bare lengths in the text, in m.
+    pub(super) length_unit: f64,
     /// Mistakes so far.
     pub(super) faults: Vec<Fault>,
     /// Key paths of wrong and missing values.
@@ -37,4 +38,18 @@ pub(crate) struct ReadingState {
     pub(super) wrong: BTreeSet<usize>,
     /// Whether this is the last reading, which leaves wrong values out and records no mistakes.
     pub(super) is_last: bool,
+}
+
+impl ReadingState {
+    /// Returns the state before a reading of a text whose bare lengths are in `length_unit`, in m.
+    pub(super) fn new(length_unit: f64) -> Self {
+        Self {
+            length_unit,
+            faults: Vec::new(),
+            keys: BTreeSet::new(),
+            needed: BTreeSet::new(),
+            wrong: BTreeSet::new(),
+            is_last: false,
+        }
+    }
 }

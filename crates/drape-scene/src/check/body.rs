@@ -4,13 +4,14 @@ mod shape_files;
 
 use std::path::{Path, PathBuf};
 
-use drape_collide::{Body, Mesh, Pose, Shape};
-use drape_input::{Given, figure};
+use drape_collide::{Body, Mesh, Pose, Shape, Triangulation};
+use drape_input::figure;
 
 use crate::check::checker::Checker;
 use crate::check::motion::rigid_motion;
-use crate::file::body::{CommonFile, MeshBodyFile};
 use crate::scene::motion::{BodyMotion, rotate, rotate_pose};
+use crate::spec::body::{CommonKeys, CylinderSpec, MeshSpec};
+use crate::spec::file_or::FileOr;
 
 use self::shape_files::{Sampling, ShapeError, read_shapes};
 
@@ -18,10 +19,6 @@ use self::shape_files::{Sampling, ShapeError, read_shapes};
 /// 1.7 mm, 170 m or 1.7 km long.
 const SIZE_MIN: f64 = 2e-3;
 const SIZE_MAX: f64 = 100.0;
-
-/// Shortest and longest side of other bodies, in m.
-const LENGTH_MIN: f64 = 1e-4;
-const LENGTH_MAX: f64 = 1e4;
 
 /// Largest coordinate of the middle of a body, in m.
 const FAR: f64 = 1e4;
@@ -51,8 +48,10 @@ pub(crate) struct MeshFile {
 }
 
 impl MeshFile {
-    fn new(checker: &Checker<'_>, file: &MeshBodyFile) -> Self {
-        Self { path: checker.folder.join(&file.file), scale: scale(checker, file) }
+    /// Returns the file of the mesh `spec`, or `None` if the mesh is in memory.
+    fn new(checker: &Checker<'_>, spec: &MeshSpec) -> Option<Self> {
+        let path = checker.folder.join(spec.file.file()?);
+        Some(Self { path, scale: scale(checker, spec) })
     }
 }
 
@@ -62,55 +61,33 @@ struct Entry<'a> {
     kind: &'a str,
     /// Index among the bodies of this kind.
     index: usize,
-    common: CommonFile<'a>,
+    common: CommonKeys<'a>,
 }
 
 /// Checks the bodies of a scene.
 pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
-    let (colliders, unit) = (&checker.file.collider, checker.unit);
+    let colliders = &checker.spec.collider;
     let mut bodies = Vec::new();
     for (index, sphere) in colliders.sphere.iter().enumerate() {
-        let radius = sphere.radius * unit;
-        let key = format!("collider.sphere[{index}]");
-        check_lengths(checker, &key, &[("radius", radius, LENGTH_MAX)]);
-        let shape = Shape::Sphere { radius };
+        let shape = Shape::Sphere { radius: sphere.radius };
         let entry = Entry { kind: "sphere", index, common: sphere.common() };
         bodies.push(rigid_body(checker, &entry, shape));
     }
     for (index, cuboid) in colliders.boxes.iter().enumerate() {
-        let half_extents = cuboid.size.map(|side| 0.5 * side * unit);
-        let edge_radius = cuboid.edge_radius * unit;
+        let half_extents = cuboid.size.map(|side| 0.5 * side);
+        let edge_radius = cuboid.edge_radius;
         let key = format!("collider.box[{index}]");
         let shortest = half_extents.iter().copied().fold(f64::INFINITY, f64::min);
-        let [x, y, z] = half_extents.map(|half| 2.0 * half);
-        check_lengths(
-            checker,
-            &key,
-            &[
-                ("size[0]", x, LENGTH_MAX),
-                ("size[1]", y, LENGTH_MAX),
-                ("size[2]", z, LENGTH_MAX),
-                ("edge_radius", edge_radius, shortest.max(0.0)),
-            ],
-        );
+        check_edge_radius(checker, &key, edge_radius, shortest);
         let shape = Shape::Box { half_extents, edge_radius };
         let entry = Entry { kind: "box", index, common: cuboid.common() };
         bodies.push(rigid_body(checker, &entry, shape));
     }
     for (index, cylinder) in colliders.cylinder.iter().enumerate() {
-        let [radius, edge_radius] =
-            [cylinder.radius, cylinder.edge_radius].map(|radius| radius * unit);
-        let half_height = 0.5 * cylinder.height * unit;
+        let CylinderSpec { radius, edge_radius, .. } = *cylinder;
+        let half_height = 0.5 * cylinder.height;
         let key = format!("collider.cylinder[{index}]");
-        check_lengths(
-            checker,
-            &key,
-            &[
-                ("radius", radius, LENGTH_MAX),
-                ("height", 2.0 * half_height, LENGTH_MAX),
-                ("edge_radius", edge_radius, radius.min(half_height).max(0.0)),
-            ],
-        );
+        check_edge_radius(checker, &key, edge_radius, radius.min(half_height));
         let shape = Shape::Cylinder { radius, half_height, edge_radius };
         let entry = Entry { kind: "cylinder", index, common: cylinder.common() };
         bodies.push(rigid_body(checker, &entry, shape));
@@ -121,12 +98,11 @@ pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
     }
     // Rigid meshes come before those that change their shape.
     let meshes = || colliders.mesh.iter().enumerate();
-    let changes = |mesh: &MeshBodyFile| mesh.frames.is_some() || mesh.point_cache().is_some();
-    for (index, mesh) in meshes().filter(|(_, mesh)| !changes(mesh)) {
+    for (index, mesh) in meshes().filter(|(_, mesh)| !mesh.changes_shape()) {
         bodies.extend(rigid_mesh(checker, index, mesh));
     }
     for (index, mesh) in meshes() {
-        if changes(mesh) {
+        if mesh.changes_shape() {
             bodies.extend(changing_mesh(checker, index, mesh));
         } else {
             check_no_frames(checker, index, mesh);
@@ -135,37 +111,23 @@ pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
     bodies
 }
 
-/// Checks the lengths of a body, each with its key and its range, in m.
-fn check_lengths(checker: &mut Checker<'_>, key: &str, lengths: &[(&str, f64, f64)]) {
-    for &(name, length, most) in lengths {
-        let rounded = name == "edge_radius";
-        let least = if rounded { 0.0 } else { LENGTH_MIN };
-        if !(least..=most).contains(&length) {
-            let [least, most] = [least, most].map(figure);
-            let message = format!("{} m is not between {least} and {most} m", figure(length));
-            let help = if rounded {
-                "up to half of the shortest side, or the radius"
-            } else {
-                "is the unit right? write it with one, such as \"30 cm\""
-            };
-            checker.fail(&format!("{key}.{name}"), message, help);
-        }
+/// Checks that the `edge_radius` of a body, whose table has the key path `key`, is at most `most`,
+/// in m.
+fn check_edge_radius(checker: &mut Checker<'_>, key: &str, edge_radius: f64, most: f64) {
+    if edge_radius > most.max(0.0) {
+        let [radius, most] = [edge_radius, most.max(0.0)].map(figure);
+        let message = format!("{radius} m is not between 0 and {most} m");
+        let help = "up to half of the shortest side, or the radius";
+        checker.fail(&format!("{key}.edge_radius"), message, help);
     }
 }
 
 /// Checks the keys that all bodies have in common.
-fn check_common(checker: &mut Checker<'_>, key: &str, common: &CommonFile<'_>) {
-    if let Some(friction) = common.friction {
-        let help = "a coefficient of friction, such as 0.3";
-        checker.within(&format!("{key}.friction"), friction, 0.0..=10.0, help);
-    }
+fn check_common(checker: &mut Checker<'_>, key: &str, common: &CommonKeys<'_>) {
     let far = |x: &f64| !(x.abs() <= FAR);
-    if let Some(x) = common.center.map(|x| x * checker.unit).iter().find(|x| far(x)) {
+    if let Some(x) = common.center.iter().find(|x| far(x)) {
         let message = format!("{} m is too far out", figure(*x));
         checker.fail(&format!("{key}.center"), message, "up to 10 km: is the unit right?");
-    }
-    if common.turn.iter().any(|x| !x.is_finite()) {
-        checker.fail(&format!("{key}.turn"), "is not finite", "degrees about x, y and z");
     }
 }
 
@@ -174,7 +136,7 @@ fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> Che
     let Entry { kind, index, common } = entry;
     check_common(checker, &format!("collider.{kind}[{index}]"), common);
     let name = common.name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned);
-    let center = common.center.map(|x| x * checker.unit);
+    let center = common.center;
     let key = format!("collider.{kind}[{index}].motion");
     let motion = common.motion.and_then(|motion| rigid_motion(checker, &key, motion, center));
     let body = Body::new(name, shape, rotate_pose(Pose::new(center), common.turn));
@@ -188,12 +150,15 @@ fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> Che
 }
 
 /// Makes a rigid body of a mesh.
-fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> Option<CheckedBody> {
-    if !check_scale(checker, index, file) {
+fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Option<CheckedBody> {
+    if !checker.is_sound(&format!("collider.mesh[{index}].scale")) {
         return None;
     }
-    let path = checker.locate(&format!("collider.mesh[{index}].file"), &file.file)?;
-    let read = checker.mesh(&path).map(|outline| outline.scaled(scale(checker, file)));
+    let path = match &file.file {
+        FileOr::File(name) => Some(checker.locate(&format!("collider.mesh[{index}].file"), name)?),
+        FileOr::Value(_) => None,
+    };
+    let read = outline(checker, file).map(|outline| outline.scaled(scale(checker, file)));
     match read.and_then(|outline| Mesh::new(&outline.vertices, &outline.triangles)) {
         Ok(mesh) => {
             let longest = longest(&mesh);
@@ -201,20 +166,18 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
                 check_size(checker, index, longest);
             }
             let entry = Entry { kind: "mesh", index, common: file.common() };
-            let file = Some(MeshFile::new(checker, file));
+            let file = MeshFile::new(checker, file);
             Some(CheckedBody { file, ..rigid_body(checker, &entry, Shape::Mesh(mesh)) })
         }
         Err(error) => {
             let key = format!("collider.mesh[{index}].file");
             if !error.is_fault_of_surface() {
                 checker.fail_with(&key, &error);
-            } else if checker.given(&path).is_some() {
-                checker.fail(&key, error.to_string(), MEND_GIVEN);
-            } else {
-                let path = checker.folder.join(&file.file);
+            } else if let Some(path) = path.filter(|path| checker.given(path).is_none()) {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
-                let named = Path::new(&file.file).with_file_name(format!("{stem}-repaired.obj"));
+                let named = file.file.file().unwrap_or_default();
+                let named = Path::new(named).with_file_name(format!("{stem}-repaired.obj"));
                 let help = format!(
                     "`drape check {0}` shows all faults; `drape check {0} --repair {1}` mends \
                          what is safe; then give file = {2:?}",
@@ -223,23 +186,29 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
                     named.display().to_string()
                 );
                 checker.fail(&key, error.to_string(), &help);
+            } else {
+                checker.fail(&key, error.to_string(), MEND_GIVEN);
             }
             None
         }
     }
 }
 
-/// Returns the unit of the coordinates of the mesh `file`, in m: the unit of the scene if `file`
-/// names none.
-fn scale(checker: &Checker<'_>, file: &MeshBodyFile) -> f64 {
-    file.scale.map_or(checker.unit, Given::value)
+/// Returns the surface of the mesh `spec`, in its unit.
+pub(crate) fn outline(
+    checker: &Checker<'_>,
+    spec: &MeshSpec,
+) -> Result<Triangulation, drape_collide::Error> {
+    match &spec.file {
+        FileOr::File(name) => checker.mesh(&checker.folder.join(name)),
+        FileOr::Value(outline) => Ok(Triangulation::clone(outline)),
+    }
 }
 
-/// Checks the unit of the coordinates of a mesh.
-fn check_scale(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> bool {
-    let help = "the metres that a unit of the file stands for: \"1 mm\", \"1 cm\" or 1";
-    let key = format!("collider.mesh[{index}].scale");
-    checker.within(&key, scale(checker, file), 1e-6..=1e3, help)
+/// Returns the unit of the coordinates of the mesh `file`, in m: the unit of the scene if `file`
+/// names none.
+fn scale(checker: &Checker<'_>, file: &MeshSpec) -> f64 {
+    file.scale.unwrap_or(checker.spec.length.metres())
 }
 
 /// Checks the size of a mesh: one that is no size for cloth has another unit than the scene says.
@@ -264,12 +233,13 @@ const PERSON: f64 = 1.7;
 
 /// Asks for the unit of a body that wears a garment and is as large as none does, where a unit
 /// would give it the size of one; returns whether there was nothing to ask.
-fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, longest: f64) -> bool {
+fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshSpec, longest: f64) -> bool {
     let wears = |size: f64| (WEARER[0]..=WEARER[1]).contains(&size);
-    if checker.file.garment.is_empty() || file.scale.is_some() || wears(longest) {
+    if checker.spec.garment.is_empty() || file.scale.is_some() || wears(longest) {
         return true;
     }
-    let in_file = longest / checker.unit;
+    let unit = checker.spec.length.metres();
+    let in_file = longest / unit;
     let mut units: Vec<(&str, f64)> =
         UNITS.into_iter().filter(|(_, unit)| wears(in_file * unit)).collect();
     let unlike = |(_, unit): &(&str, f64)| (in_file * unit / PERSON).ln().abs();
@@ -282,7 +252,7 @@ fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, long
         .collect();
     if !choices.is_empty() {
         let message = format!("the body is {longest:.2} m long, too large or small for a garment");
-        let help = format!("{}; scale = {} keeps its size", choices.join(", "), checker.unit);
+        let help = format!("{}; scale = {} keeps its size", choices.join(", "), unit);
         checker.fail(&format!("collider.mesh[{index}].file"), message, &help);
     }
     choices.is_empty()
@@ -299,8 +269,8 @@ fn longest(mesh: &Mesh) -> f64 {
 }
 
 /// Refuses keys of frames in a mesh that has none.
-fn check_no_frames(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) {
-    for (key, given) in [("rate", file.rate.is_some()), ("start", file.start.is_some())] {
+fn check_no_frames(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) {
+    for (key, given) in [("rate", file.rate.is_some()), ("start", file.start != 0.0)] {
         if given {
             let help = "it belongs to motion = \"….pc2\" or frames = \"…_*.obj\"";
             let key = format!("collider.mesh[{index}].{key}");
@@ -310,11 +280,7 @@ fn check_no_frames(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile)
 }
 
 /// Makes a body of a mesh that changes its shape.
-fn changing_mesh(
-    checker: &mut Checker<'_>,
-    index: usize,
-    file: &MeshBodyFile,
-) -> Option<CheckedBody> {
+fn changing_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Option<CheckedBody> {
     let key = if file.frames.is_some() { "frames" } else { "motion" };
     let key = format!("collider.mesh[{index}].{key}");
     let Some(rate) = file.rate else {
@@ -322,29 +288,28 @@ fn changing_mesh(
         checker.fail(&key, "the motion has no rate", help);
         return None;
     };
-    let help = "frames per second; 24 is usual";
-    let sound = checker.within(&format!("collider.mesh[{index}].rate"), rate, 1e-3..=1e5, help);
-    let start = file.start.map_or(0.0, Given::value);
-    let help = "when the first frame is left, in s";
-    let key_of_start = format!("collider.mesh[{index}].start");
-    if !checker.within(&key_of_start, start, 0.0..=1e6, help) || !sound {
+    let start = file.start;
+    let times = ["rate", "start"].map(|key| format!("collider.mesh[{index}].{key}"));
+    if times.iter().any(|key| !checker.is_sound(key)) {
         return None;
     }
-    if !checker.file.keeps_surfaces_apart() {
+    if !checker.spec.keeps_surfaces_apart() {
         let help = "it needs contact.surfaces = true, which is the default";
         checker.fail(&key, "only surfaces meet a body that changes its shape", help);
         return None;
     }
     let common = file.common();
     check_common(checker, &format!("collider.mesh[{index}]"), &common);
-    if !check_scale(checker, index, file) {
+    if !checker.is_sound(&format!("collider.mesh[{index}].scale")) {
         return None;
     }
-    checker.locate(&format!("collider.mesh[{index}].file"), &file.file)?;
-    let (unit, scale) = (checker.unit, scale(checker, file));
+    if let FileOr::File(name) = &file.file {
+        checker.locate(&format!("collider.mesh[{index}].file"), name)?;
+    }
+    let scale = scale(checker, file);
     let place = |point: [f64; 3]| {
         let arm = rotate(point.map(|x| scale * x), common.turn);
-        [0, 1, 2].map(|axis| common.center[axis] * unit + arm[axis])
+        [0, 1, 2].map(|axis| common.center[axis] + arm[axis])
     };
     match read_shapes(file, checker, Sampling { rate, start }, place) {
         Ok(shapes) => {
@@ -352,7 +317,7 @@ fn changing_mesh(
             let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);
             let body = Body::new(name, Shape::Mesh(shapes.mesh), Pose::default());
             let motion = Some(BodyMotion::Shapes(shapes.motion));
-            let file = Some(MeshFile::new(checker, file));
+            let file = MeshFile::new(checker, file);
             Some(CheckedBody { body, friction: common.friction, motion, motion_key: key, file })
         }
         Err(ShapeError::File(error)) => {

@@ -12,15 +12,15 @@ use drape_input::{
 
 use crate::check::documents::Documents;
 use crate::check::memory::particles_max;
-use crate::file::{SceneFile, UNITS};
+use crate::spec::SceneSpec;
 
 /// Limit of meshes and of their motions.
 pub const MESH_LIMIT: SizeLimit = SizeLimit::new("meshes", MESH_BYTES_MAX);
 
 /// File of a scene that is being checked, with the mistakes found so far.
 pub(crate) struct Checker<'a> {
-    /// Content of the file.
-    pub(crate) file: &'a SceneFile,
+    /// Scene as it is described.
+    pub(crate) spec: &'a SceneSpec,
     /// Folder of the file.
     pub(crate) folder: &'a Path,
     /// Fabrics, patterns and meshes given along with the scene, by the paths by which it names
@@ -28,8 +28,6 @@ pub(crate) struct Checker<'a> {
     pub(crate) documents: &'a [Document],
     /// Number of particles for which there is memory.
     pub(crate) particles_max: usize,
-    /// Unit of the lengths of the file, in m.
-    pub(crate) unit: f64,
     document: &'a Document,
     /// Mistakes of spelling and type, and what they leave unknown.
     faults: Faults,
@@ -50,23 +48,20 @@ pub(crate) struct UnknownName<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Begins to check a file with faults, whose unit is looked up at once.
-    pub(crate) fn new(documents: &Documents<'a>, file: &'a SceneFile, faults: Faults) -> Self {
+    /// Begins to check `spec`, whose text has `faults`.
+    pub(crate) fn new(documents: &Documents<'a>, spec: &'a SceneSpec, faults: Faults) -> Self {
         let document = documents.scene;
-        let mut checker = Self {
-            file,
+        Self {
+            spec,
             folder: document.path().parent().unwrap_or(Path::new("")),
             documents: documents.others,
             particles_max: particles_max(),
-            unit: 1.0,
             document,
             faults,
             mistakes: Vec::new(),
             late: Vec::new(),
             keys: BTreeSet::new(),
-        };
-        checker.unit = checker.choice("length", file.length.as_deref(), &UNITS);
-        checker
+        }
     }
 
     /// Document of the file.
@@ -227,27 +222,24 @@ impl<'a> Checker<'a> {
         sound
     }
 
-    /// Returns the choice that a word names, or the first when there is no word.
+    /// Returns the choice that `word` names, or adds a mistake at `key`.
     pub(crate) fn choice<T: Copy>(
         &mut self,
         key: &str,
-        word: Option<&str>,
+        word: &str,
         choices: &[(&str, T)],
-    ) -> T {
-        let found = choices.iter().find(|(name, _)| word.is_none_or(|word| word == *name));
-        if let (None, Some(word)) = (found, word) {
-            let names: Vec<&str> = choices.iter().map(|c| c.0).collect();
-            let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
-            let near = closest(word, names.iter().copied());
-            let help = match near {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("one of {}", quoted.join(", ")),
-            };
-            let index = self.fail(key, format!("there is no \"{}\"", excerpt(word)), &help);
-            if let Some(near) = near {
-                self.remedy(index, key, Some(&toml_string(near)));
-            }
+    ) -> Option<T> {
+        let choice = choices.iter().find(|(name, _)| word == *name);
+        if choice.is_none() {
+            let names: Vec<&str> = choices.iter().map(|choice| choice.0).collect();
+            let unknown = UnknownName { name: word, known: &names, kind: "choices" };
+            self.unknown(key, format!("there is no \"{}\"", excerpt(word)), unknown);
         }
-        found.unwrap_or(&choices[0]).1
+        choice.map(|(_, choice)| *choice)
+    }
+
+    /// Returns the value at `key` as the text of the scene gives it, if there is a text.
+    pub(crate) fn written(&self, key: &str) -> Option<String> {
+        self.document.written(key).map(str::to_owned)
     }
 }

@@ -2,15 +2,12 @@
 
 pub(crate) mod speed;
 
-use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
-use drape_input::{Given, figure};
+use drape_collide::ParticleSettings;
+use drape_input::figure;
 
 use crate::check::checker::Checker;
-use crate::contact_stiffness::STIFFNESS_MAX;
 use crate::scene::contact::{ContactSettings, DistanceGrowth, Inflation};
-
-/// Time over which bodies grow when the scene does not say, in s.
-const INFLATION_SECONDS: f64 = 0.5;
+use crate::spec::contact::{InflateSpec, Pinch};
 
 /// Number of layers of the heaviest fabric that contact carries at least.
 const LAYERS: f64 = 10.0;
@@ -38,51 +35,35 @@ pub(crate) struct ContactBounds {
 
 /// Checks the settings of contact.
 pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> ContactSettings {
-    let (file, unit) = (&checker.file.contact, checker.unit);
-    let particles = particles(checker);
+    let spec = &checker.spec.contact;
+    let particles = ParticleSettings {
+        activation_distance: spec.offset,
+        stiffness: spec.stiffness.unwrap_or(ParticleSettings::default().stiffness),
+        slip_speed: spec.slip_speed,
+        ..ParticleSettings::default()
+    };
     check_stiffness(checker, &particles, bounds);
-    let stick = SurfaceSettings::STICKING_DISPLACEMENT;
-    let sticking_displacement = file.stick.map_or(stick, |stick| stick * unit);
-    let help = "some micrometres are usual";
-    checker.within("contact.stick", sticking_displacement, 1e-9..=1e-2, help);
+    if spec.pinch != Pinch::Error {
+        check_surfaces(checker, "contact.pinch");
+    }
     ContactSettings {
-        surfaces: checker.file.keeps_surfaces_apart(),
+        surfaces: checker.spec.keeps_surfaces_apart(),
         particles,
-        stiffness: file.stiffness.map(Given::value),
-        sticking_displacement,
-        pinch: pinch(checker),
+        stiffness: spec.stiffness,
+        sticking_displacement: spec.stick,
+        pinch: spec.pinch.into(),
         inflation: inflation(checker, bounds),
         growth: growth(checker, bounds),
     }
 }
 
-/// Checks the settings of the contact of particles.
-fn particles(checker: &mut Checker<'_>) -> ParticleSettings {
-    let (file, unit) = (&checker.file.contact, checker.unit);
-    let mut settings = ParticleSettings::default();
-    if let Some(offset) = file.offset {
-        settings.activation_distance = offset * unit;
-        let help = "the distance at which contact begins; 1 mm is usual";
-        checker.within("contact.offset", settings.activation_distance, 1e-5..=0.1, help);
-    }
-    if let Some(stiffness) = file.stiffness.map(Given::value) {
-        settings.stiffness = stiffness;
-        checker.within("contact.stiffness", stiffness, 1.0..=STIFFNESS_MAX, "in N/m³");
-    }
-    if let Some(speed) = file.slip_speed.map(Given::value) {
-        settings.slip_speed = speed;
-        checker.within("contact.slip_speed", speed, 1e-9..=1.0, "in m/s; 0.001 is usual");
-    }
-    settings
-}
-
 /// Checks that contact carries the cloth, some layers of it, at a distance that is left.
 fn check_stiffness(checker: &mut Checker<'_>, settings: &ParticleSettings, bounds: ContactBounds) {
-    let Some(stiffness) = checker.file.contact.stiffness.map(Given::value) else { return };
+    let Some(stiffness) = checker.spec.contact.stiffness else { return };
     let ContactBounds { weight, thickness, .. } = bounds;
     // The pressure of a stiffness of one: of particles that touch their body, of surfaces that have
     // a hundredth of their distance left.
-    let unit = if checker.file.keeps_surfaces_apart() {
+    let unit = if checker.spec.keeps_surfaces_apart() {
         0.25 * thickness / NEAR
     } else {
         ParticleSettings { stiffness: 1.0, ..*settings }.pressure(0.0)
@@ -100,28 +81,11 @@ fn check_stiffness(checker: &mut Checker<'_>, settings: &ParticleSettings, bound
     }
 }
 
-/// Checks the treatment of cloth that bodies close on.
-fn pinch(checker: &mut Checker<'_>) -> PinchPolicy {
-    let policies = [
-        ("error", PinchPolicy::Error),
-        ("thin", PinchPolicy::Thin),
-        ("release", PinchPolicy::Release),
-    ];
-    let word = checker.file.contact.pinch.as_deref();
-    if word.is_some() {
-        check_surfaces(checker, "contact.pinch");
-    }
-    checker.choice("contact.pinch", word, &policies)
-}
-
 /// Checks the growth of bodies at the start, if there is one.
 fn inflation(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<Inflation> {
-    let inflate = checker.file.contact.inflate.as_ref()?;
+    let inflate = checker.spec.contact.inflate.as_ref()?;
     check_surfaces(checker, "contact.inflate");
-    let depth = inflate.depth * checker.unit;
-    let seconds = inflate.seconds.map_or(INFLATION_SECONDS, Given::value);
-    let help = "how far inside of where it belongs the surface of a body starts; 10 mm is usual";
-    checker.within("contact.inflate.depth", depth, 1e-6..=0.1, help);
+    let &InflateSpec { depth, seconds } = inflate;
     let help = "in s; cloth follows a body by a spacing in a step at most";
     let least = (depth * bounds.step / bounds.spacing).max(bounds.step);
     checker.within("contact.inflate.seconds", seconds, least..=1e3, help);
@@ -130,7 +94,7 @@ fn inflation(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<Inflati
 
 /// Checks the growth of the distances that surfaces keep, if there is one.
 fn growth(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<DistanceGrowth> {
-    let seconds = checker.file.contact.grow?.value();
+    let seconds = checker.spec.contact.grow?;
     check_surfaces(checker, "contact.grow");
     let help = "in s, from a step to the whole run; 0.2 is usual";
     checker.within("contact.grow", seconds, bounds.step..=bounds.end, help);
@@ -139,7 +103,7 @@ fn growth(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<DistanceGr
 
 /// Checks that surfaces are kept apart, as a key asks for.
 fn check_surfaces(checker: &mut Checker<'_>, key: &str) {
-    if !checker.file.keeps_surfaces_apart() {
+    if !checker.spec.keeps_surfaces_apart() {
         checker.fail(key, "nothing is kept apart here", SURFACES);
     }
 }

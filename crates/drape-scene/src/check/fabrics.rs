@@ -1,5 +1,7 @@
 //! Fabrics of a scene.
 
+use std::path::PathBuf;
+
 use drape_cloth::Lattice;
 use drape_fabric::Fabric;
 use drape_input::{
@@ -9,6 +11,8 @@ use drape_input::{
 use crate::check::checker::{Checker, UnknownName};
 use crate::scene::material::{FabricReader, FabricRequest, Material};
 use crate::scene::model::Model;
+use crate::spec::FabricSpec;
+use crate::spec::file_or::FileOr;
 
 /// Reads the fabrics in the order of their names; none where a fabric has mistakes.
 pub(crate) fn materials(
@@ -16,19 +20,27 @@ pub(crate) fn materials(
     reader: FabricReader<'_>,
     model: Model,
 ) -> Vec<Option<Material>> {
-    let file = checker.file;
-    if file.fabric.is_empty() {
+    let spec = checker.spec;
+    if spec.fabric.is_empty() {
         let help = "add [fabric.NAME] with file = \"…\", a fabric.toml or a sheet.toml";
         checker.fail_file("the scene has no fabric", help);
     }
-    let read = |(name, entry): (&String, &crate::file::FabricFile)| {
+    let read = |(name, entry): (&String, &FabricSpec)| {
         let key = format!("fabric.{}.file", toml_key(name));
-        let path = checker.locate(&key, &entry.file)?;
+        let named = match &entry.file {
+            FileOr::File(named) => named,
+            FileOr::Value(fabric) => {
+                let fabric = changed(checker, name, Fabric::clone(fabric))?;
+                let (file, colour) = (PathBuf::new(), colour(checker, name)?);
+                return Some(Material { name: name.clone(), file, fabric, colour });
+            }
+        };
+        let path = checker.locate(&key, named)?;
         let (file, fabric) = if let Some(document) = checker.given(&path) {
             (path, Fabric::from_document(document))
         } else if path.exists() {
             let file = if path.is_dir() {
-                checker.locate(&key, &format!("{}/sheet.toml", entry.file))?
+                checker.locate(&key, &format!("{named}/sheet.toml"))?
             } else {
                 path
             };
@@ -36,7 +48,7 @@ pub(crate) fn materials(
             let fabric = reader(FabricRequest { file: &file, model, allowed });
             (file, fabric)
         } else {
-            checker.no_file(&key, &entry.file, &path);
+            checker.no_file(&key, named, &path);
             return None;
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;
@@ -44,12 +56,12 @@ pub(crate) fn materials(
         let colour = colour(checker, name)?;
         Some(Material { name: name.clone(), file, fabric, colour })
     };
-    file.fabric.iter().map(read).collect()
+    spec.fabric.iter().map(read).collect()
 }
 
 /// Returns the colour that the scene states for a fabric, if any; nothing where it is no colour.
 fn colour(checker: &mut Checker<'_>, name: &str) -> Option<Option<[u8; 3]>> {
-    let Some(text) = &checker.file.fabric[name].colour else { return Some(None) };
+    let Some(text) = &checker.spec.fabric[name].colour else { return Some(None) };
     let digits = text.strip_prefix('#').unwrap_or_default();
     let is_hexadecimal = digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
     if let (true, Ok(number)) = (is_hexadecimal, u32::from_str_radix(digits, 16)) {
@@ -64,7 +76,7 @@ fn colour(checker: &mut Checker<'_>, name: &str) -> Option<Option<[u8; 3]>> {
 
 /// Returns a fabric with the numbers of its `set` table in the scene in place of its own.
 fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabric> {
-    let numbers = &checker.file.fabric[name].set;
+    let numbers = &checker.spec.fabric[name].set;
     if numbers.is_empty() {
         return Some(fabric);
     }
@@ -92,7 +104,7 @@ fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabr
 
 /// Returns the number of the fabric of a name.
 pub(crate) fn material_index(checker: &mut Checker<'_>, key: &str, name: &str) -> Option<usize> {
-    let known: Vec<&str> = checker.file.fabric.keys().map(String::as_str).collect();
+    let known: Vec<&str> = checker.spec.fabric.keys().map(String::as_str).collect();
     let material = known.iter().position(|known| *known == name);
     if material.is_none() {
         let message = format!("there is no fabric \"{}\"", excerpt(name));

@@ -18,14 +18,15 @@ use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, PatternT
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::fabrics::check_thickness;
-use crate::check::panel::noise::noise;
-use crate::check::panel::{PlacedPanel, SPACING, check_spacing};
-use crate::file::garment::GarmentFile;
+use crate::check::panel::PlacedPanel;
+use crate::check::panel::noise::Noise;
 use crate::grading::Grading;
 use crate::scene::material::Material;
 use crate::scene::seam::{Seam, SeamPairs};
+use crate::spec::file_or::FileOr;
+use crate::spec::garment::GarmentSpec;
 
-use self::layer::layer;
+use self::layer::check_layer;
 use self::placed_panel::{Piece, placed_panel};
 use self::seam_order::{PlacedSeam, SeamHome};
 
@@ -59,14 +60,20 @@ pub(crate) fn garments(
     first: usize,
     grading: Option<&Grading>,
 ) -> Vec<CutGarment> {
-    let file = checker.file;
+    let spec = checker.spec;
     let mut first = first;
     let mut garments = Vec::new();
-    for (index, entry) in file.garment.iter().enumerate() {
+    for (index, entry) in spec.garment.iter().enumerate() {
         let key = format!("garment[{index}]");
         let named = format!("{key}.pattern");
-        let Some(path) = checker.locate(&named, &entry.pattern) else { continue };
-        let Some(pattern) = pattern(checker, (&named, &entry.pattern), &path) else { continue };
+        let pattern = match &entry.pattern {
+            FileOr::Value(pattern) => Some(Pattern::clone(pattern)),
+            FileOr::File(name) => {
+                let path = checker.locate(&named, name);
+                path.and_then(|path| pattern(checker, (&named, name), &path))
+            }
+        };
+        let Some(pattern) = pattern else { continue };
         let Some(pattern) = changed(checker, &key, entry, pattern) else { continue };
         let uncut = UncutPattern { pattern: &pattern, first, grading };
         let Some(garment) = cut(checker, &key, entry, uncut) else { continue };
@@ -87,7 +94,7 @@ pub(crate) fn garments(
     }
     let seams = garments.iter().flat_map(|garment| &garment.seams);
     let known: Vec<&str> = seams.map(|seam| seam.name.as_str()).collect();
-    for (index, name) in file.sew.twisted.iter().enumerate() {
+    for (index, name) in spec.sew.twisted.iter().enumerate() {
         if !known.contains(&name.as_str()) {
             let unknown = UnknownName { name, known: &known, kind: "seams" };
             let key = format!("sew.twisted[{index}]");
@@ -125,7 +132,7 @@ fn pattern(checker: &mut Checker<'_>, (key, name): (&str, &str), path: &Path) ->
 fn changed(
     checker: &mut Checker<'_>,
     key: &str,
-    entry: &GarmentFile,
+    entry: &GarmentSpec,
     pattern: Pattern,
 ) -> Option<Pattern> {
     let mut pattern = pattern;
@@ -133,9 +140,7 @@ fn changed(
         let name = pattern.panels()[number].name().to_owned();
         let Some(grain) = entry.panel.get(&name).and_then(|panel| panel.grain) else { continue };
         let key = format!("{key}.panel.{}.grain", toml_key(&name));
-        let help = "degrees from the panel's y axis to its warp, anticlockwise";
-        let grain = grain.value();
-        if checker.within(&key, grain, -180.0..=180.0, help) {
+        if checker.is_sound(&key) {
             pattern = pattern.with_grain(number, grain.to_radians()).ok()?;
         }
     }
@@ -146,8 +151,9 @@ fn changed(
         return None;
     }
     let prefix = format!("{key}.");
-    let place = PatternTable { document: checker.document(), prefix: &prefix, unit: checker.unit };
-    match pattern.with_seams(&entry.seam, &place) {
+    let place = PatternTable { document: checker.document(), prefix: &prefix, unit: 1.0 };
+    let seams = entry.seam.iter().map(|(name, seam)| (name.clone(), seam.keys()));
+    match pattern.with_seams(&seams.collect(), &place) {
         Ok(pattern) => Some(pattern),
         Err(mistakes) => {
             checker.extend(mistakes);
@@ -167,29 +173,28 @@ struct UncutPattern<'a> {
 fn cut(
     checker: &mut Checker<'_>,
     key: &str,
-    entry: &GarmentFile,
+    entry: &GarmentSpec,
     uncut: UncutPattern<'_>,
 ) -> Option<CutGarment> {
     let UncutPattern { pattern, first, grading } = uncut;
-    let unit = checker.unit;
     let known: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
     for name in entry.panel.keys().filter(|name| !known.contains(&name.as_str())) {
         let message = format!("the pattern has no panel \"{}\"", excerpt(name));
         let unknown = UnknownName { name, known: &known, kind: "panels of the pattern" };
         checker.unknown(&format!("{key}.panel.{}", toml_key(name)), message, unknown);
     }
-    let sound = check_spacing(checker, &format!("{key}.spacing"), entry.spacing);
-    if !sound || !checker.is_sound("spacing") {
+    if !checker.is_sound(&format!("{key}.spacing")) || !checker.is_sound("spacing") {
         return None;
     }
-    let spacing = entry.spacing.or(checker.file.spacing).map_or(SPACING, |s| s * unit);
+    let spacing = entry.spacing.unwrap_or(checker.spec.spacing);
     let spacing_key = match entry.spacing {
         Some(_) => format!("{key}.spacing"),
         None => "spacing".into(),
     };
     let cut = pieces(checker, (key, &spacing_key), Cutter::new(spacing).cut(pattern))?;
-    let layer = layer(checker, &format!("{key}.layer"), entry.layer).unwrap_or(0);
-    let mut noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
+    let layer = entry.layer;
+    check_layer(checker, &format!("{key}.layer"), layer);
+    let mut noise = entry.noise.as_ref().map(Noise::new);
     let (mut pieces, mut next) = (Vec::new(), first);
     for (index, panel) in cut.panels.iter().enumerate() {
         let piece = Piece { key, entry, pattern, cut: &cut, index, first: next, grading };
@@ -222,7 +227,8 @@ fn cut(
     let name = match &entry.name {
         Some(name) => name.clone(),
         None => {
-            let name = Path::new(&entry.pattern).file_stem().unwrap_or_default();
+            let file = entry.pattern.file().unwrap_or("garment");
+            let name = Path::new(file).file_stem().unwrap_or_default();
             name.to_string_lossy().into_owned()
         }
     };
@@ -236,40 +242,36 @@ fn cut(
 fn measured_heights(
     checker: &mut Checker<'_>,
     key: &str,
-    entry: &GarmentFile,
+    entry: &GarmentSpec,
 ) -> BTreeMap<String, f64> {
-    let unit = checker.unit;
-    let heights = entry.measure.iter().map(|(name, height)| (name.clone(), *height * unit));
-    let heights: BTreeMap<String, f64> = heights.collect();
     let help = "the height above y = 0, in the file's unit, or with a unit: \"1080 mm\"";
-    for (name, height) in &heights {
+    for (name, height) in &entry.measure {
         let key = format!("{key}.measure.{}", toml_key(name));
-        checker.within(&key, height / unit, -HEIGHT_MAX / unit..=HEIGHT_MAX / unit, help);
+        checker.within(&key, *height, -HEIGHT_MAX..=HEIGHT_MAX, help);
     }
-    heights
+    entry.measure.clone()
 }
 
 /// Checks the order and the sense of the seams of a garment, whose edges have their places from a
 /// function.
 fn check_seam_order(
     checker: &mut Checker<'_>,
-    (key, entry): (&str, &GarmentFile),
+    (key, entry): (&str, &GarmentSpec),
     pattern: &Pattern,
     places: impl Fn(EdgeId) -> Vec<[f64; 3]>,
 ) {
-    let path = checker.folder.join(&entry.pattern);
-    let meant = &checker.file.sew.twisted;
+    let meant = &checker.spec.sew.twisted;
     let twisted = pattern.seams().iter().filter(|seam| !meant.contains(&seam.name));
-    let file = match checker.given(&path) {
-        Some(document) => document.clone(),
-        None => Document::read(&path).unwrap_or_else(|_| Document::new(&path, "")),
-    };
-    let of_pattern = SeamHome { document: &file, key: "seam".into() };
+    let file = entry.pattern.file().map(|name| checker.folder.join(name)).map(|path| {
+        let given = checker.given(&path).cloned();
+        given.or_else(|| Document::read(&path).ok()).unwrap_or_else(|| Document::new(&path, ""))
+    });
+    let of_pattern = file.as_ref().filter(|file| !Pattern::is_drawing_text(file));
+    let of_pattern = of_pattern.map(|document| SeamHome { document, key: "seam".into() });
     let of_scene = SeamHome { document: checker.document(), key: format!("{key}.seam") };
-    let is_toml = !Pattern::is_drawing_text(&file);
     let mistake = |seam: &drape_pattern::Seam| {
-        let is_own = is_toml && !entry.seam.contains_key(&seam.name);
-        let home = if is_own { &of_pattern } else { &of_scene };
+        let of_pattern = of_pattern.as_ref().filter(|_| !entry.seam.contains_key(&seam.name));
+        let home = of_pattern.unwrap_or(&of_scene);
         PlacedSeam::new(pattern, seam, &places).mistake(home)
     };
     let mistakes: Vec<Diagnostic> = twisted.filter_map(mistake).collect();

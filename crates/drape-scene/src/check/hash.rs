@@ -1,17 +1,23 @@
 //! Hash of a scene and all that it names.
+//!
+//! The hash is the digest of the spec and of the content of what the spec names: fabrics, patterns,
+//! bodies and their motions. The order of keys, comments and units in a file do not change the hash,
+//! and a spec that a program makes has the hash of the file that says the same.
 
 use drape_collide::Shape;
-use drape_input::Document;
 
 use crate::scene::garment::Sewing;
 use crate::scene::material::Material;
 use crate::scene::motion::BodyMotion;
 use crate::scene::panel::Panel;
 use crate::scene::{MovingBody, SourcePart};
+use crate::spec::SceneSpec;
+use crate::spec::body::MeshMotion;
+use crate::spec::file_or::FileOr;
 
 /// Content of a scene that makes its hash.
 pub(crate) struct Content<'a> {
-    pub(crate) document: &'a Document,
+    pub(crate) spec: &'a SceneSpec,
     pub(crate) materials: &'a [Material],
     pub(crate) positions: &'a [f64],
     pub(crate) bodies: &'a [MovingBody],
@@ -23,8 +29,7 @@ impl Content<'_> {
     /// Returns the hash.
     pub(crate) fn hash(&self) -> String {
         let mut hasher = blake3::Hasher::new();
-        hasher.update(self.document.text().as_bytes());
-        hasher.update(self.settings().as_bytes());
+        hasher.update(self.text().as_bytes());
         for material in self.materials {
             hasher.update(material.fabric.to_toml().as_bytes());
         }
@@ -39,21 +44,26 @@ impl Content<'_> {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns the values that replace values of the text, one in each line.
-    fn settings(&self) -> String {
-        self.document.settings().iter().map(|setting| format!("\n{setting}")).collect()
+    /// Returns the spec as a text, without the names of files: their content counts.
+    fn text(&self) -> String {
+        let mut spec = self.spec.in_metres().without_held();
+        spec.fabric.values_mut().for_each(|fabric| fabric.file = FileOr::default());
+        spec.garment.iter_mut().for_each(|garment| garment.pattern = FileOr::default());
+        for mesh in &mut spec.collider.mesh {
+            mesh.file = FileOr::default();
+            mesh.frames = None;
+            if let Some(MeshMotion::File(name)) = &mut mesh.motion {
+                name.clear();
+            }
+        }
+        spec.text()
     }
 
-    /// Returns the digests of the text, of what is set beside it, of each fabric, of the cloth at
-    /// its start and of each body.
+    /// Returns the digests of the spec, of each fabric, of the cloth at its start and of each
+    /// body.
     pub(crate) fn parts(&self) -> Vec<SourcePart> {
         let part = |name: String, digest: blake3::Hash| SourcePart { name, digest: digest.into() };
-        let mut parts =
-            vec![part("the scene".into(), blake3::hash(self.document.text().as_bytes()))];
-        if !self.document.settings().is_empty() {
-            let digest = blake3::hash(self.settings().as_bytes());
-            parts.push(part("what is set beside the scene".into(), digest));
-        }
+        let mut parts = vec![part("the scene".into(), blake3::hash(self.text().as_bytes()))];
         for Material { name, fabric, .. } in self.materials {
             let digest = blake3::hash(fabric.to_toml().as_bytes());
             parts.push(part(format!("the fabric \"{name}\""), digest));

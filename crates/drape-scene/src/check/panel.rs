@@ -11,29 +11,22 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use drape_cloth::{Grain, Lattice};
-use drape_input::{Given, Length, Subject, excerpt, figure, figure_below, tidy};
+use drape_input::{Subject, excerpt, figure, figure_below, tidy};
 
 use crate::check::checker::Checker;
 use crate::check::fabrics::{check_thickness, material_index};
 use crate::check::memory::PARTICLES_MAX;
-use crate::file::panel::{FoldFile, PanelFile};
 use crate::grading::Grading;
 use crate::scene::material::Material;
 use crate::scene::panel::Panel;
+use crate::spec::panel::{FoldSpec, PanelSpec};
 
 use self::folds::{FoldLine, UnfoldedPanel, folded};
 use self::graded::graded;
-use self::noise::noise;
 use self::placement::Placement;
-
-/// Distance between particles when the scene gives none, in m.
-pub(crate) const SPACING: f64 = 0.01;
 
 /// Shortest and longest sides of panels, in m: others have the wrong unit.
 const SIZES: RangeInclusive<f64> = 1e-4..=1e3;
-
-/// Smallest and largest spacings, in m.
-const SPACINGS: RangeInclusive<f64> = 1e-6..=1e2;
 
 /// Largest speed of cloth at the start, in m/s: a tenth of the speed of a bullet. Steps are not
 /// smaller at this speed.
@@ -54,18 +47,17 @@ pub(crate) fn panels(
     materials: &[Option<Material>],
     grading: Option<&Grading>,
 ) -> Vec<PlacedPanel> {
-    let file = checker.file;
-    if file.panel.is_empty() && file.garment.is_empty() {
+    let spec = checker.spec;
+    if spec.panel.is_empty() && spec.garment.is_empty() {
         let help =
             "add [[panel]] with name, fabric and rectangle or disc, or [[garment]] with a pattern";
         checker.fail_file("the scene has no panel", help);
     }
-    check_spacing(checker, "spacing", file.spacing);
     let mut panels: Vec<PlacedPanel> = Vec::new();
     let mut first = 0;
-    let names: Vec<&str> = file.panel.iter().map(|panel| panel.name.as_str()).collect();
+    let names: Vec<&str> = spec.panel.iter().map(|panel| panel.name.as_str()).collect();
     let mut known = BTreeSet::new();
-    for (index, entry) in file.panel.iter().enumerate() {
+    for (index, entry) in spec.panel.iter().enumerate() {
         let key = format!("panel[{index}]");
         if !known.insert(names[index]) {
             let message = format!("there are two panels \"{}\"", excerpt(&entry.name));
@@ -80,8 +72,7 @@ pub(crate) fn panels(
                 .map(|graded| graded.lattice),
             None => lattice,
         };
-        let noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
-        let placement = Placement::check(checker, &key, entry, noise);
+        let placement = Placement::check(checker, &key, entry);
         let (Some(material), Some(lattice)) = (material, lattice) else { continue };
         if let Some(Some(material)) = materials.get(material) {
             check_thickness(checker, &key, &lattice, material);
@@ -93,7 +84,7 @@ pub(crate) fn panels(
                 _ => format!("{} {}", entry.name, copy + 1),
             };
             let lattice = lattice.clone();
-            let placement = placement.copied(copy, entry.stack.as_ref(), checker.unit);
+            let placement = placement.copied(copy, entry.stack.as_ref());
             let positions = placement.positions(&lattice);
             let velocities = placement.velocities(&positions);
             if copy == 0 {
@@ -112,25 +103,19 @@ pub(crate) fn panels(
 fn fold(
     checker: &mut Checker<'_>,
     key: &str,
-    entry: &PanelFile,
+    entry: &PanelSpec,
     lattice: Lattice,
 ) -> Option<Lattice> {
-    let unit = checker.unit;
-    let lines = entry.fold.iter().map(|fold: &FoldFile| FoldLine {
-        ends: [fold.from, fold.to].map(|end| end.map(|x| x * unit)),
-        angle: fold.angle.value().to_radians(),
+    let lines = entry.fold.iter().map(|fold: &FoldSpec| FoldLine {
+        ends: [fold.from, fold.to],
+        angle: fold.angle.to_radians(),
     });
     folded(checker, &format!("{key}.fold"), &entry.name, UnfoldedPanel { lattice, lines })
 }
 
 /// Checks the number of panels that an entry stands for.
-fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, particles: usize) -> usize {
+fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelSpec, particles: usize) -> usize {
     let Some(stack) = &entry.stack else { return 1 };
-    let numbers = stack.step.map(Given::number).into_iter();
-    if numbers.chain(stack.turn.map(Given::value)).any(|x| !x.is_finite()) {
-        let help = "step is in the file's unit";
-        checker.fail(&format!("{key}.stack"), "is not finite", help);
-    }
     let limit = checker.particles_max;
     let most = (limit / particles.max(1)).max(1);
     if (1..=most).contains(&stack.count) {
@@ -140,24 +125,6 @@ fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, particles: us
     let help = format!("from 1 panel to {most}, for {limit} particles in all");
     checker.fail(&format!("{key}.stack.count"), message, &help);
     1
-}
-
-/// Returns whether a spacing of a key, if one is given, can be one.
-pub(crate) fn check_spacing(
-    checker: &mut Checker<'_>,
-    key: &str,
-    spacing: Option<Given<Length>>,
-) -> bool {
-    let Some(spacing) = spacing else { return true };
-    let help = "the distance between particles, with its unit: \"10 mm\" is usual";
-    let metres = spacing * checker.unit;
-    let sound = SPACINGS.contains(&metres);
-    if !sound {
-        let [low, high] = [SPACINGS.start(), SPACINGS.end()].map(|x| figure(*x));
-        let message = format!("{} m is not between {low} and {high} m", figure(metres));
-        checker.fail(key, message, help);
-    }
-    sound
 }
 
 /// Checks that `sides` are lengths that panels have, and returns the approximate number of
@@ -175,12 +142,12 @@ fn check_size(checker: &mut Checker<'_>, key: &str, sides: &[f64], spacing: f64)
 }
 
 /// Checks that no particle of a panel begins faster than cloth moves.
-fn check_speed(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, velocities: &[f64]) {
+fn check_speed(checker: &mut Checker<'_>, key: &str, entry: &PanelSpec, velocities: &[f64]) {
     let (velocities, _) = velocities.as_chunks::<3>();
     let square = velocities.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>());
     let speed = square.fold(0.0, f64::max).sqrt();
     if speed > SPEED_MAX {
-        let spins = entry.velocity.iter().all(|v| v.number() == 0.0);
+        let spins = entry.velocity.iter().all(|v| *v == 0.0);
         let key = format!("{key}.{}", if spins { "spin" } else { "velocity" });
         let message = format!("the panel begins with up to {} m/s", figure(speed.round()));
         let help = "cloth moves at up to 100 m/s; spin is in degrees per second";
@@ -192,20 +159,18 @@ fn check_speed(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, velociti
 fn lattice(
     checker: &mut Checker<'_>,
     key: &str,
-    entry: &PanelFile,
+    entry: &PanelSpec,
     before: usize,
 ) -> Option<Lattice> {
-    let unit = checker.unit;
     let has_spacing = entry.spacing.is_some();
     let spacing_key = if has_spacing { format!("{key}.spacing") } else { "spacing".into() };
-    let sound = check_spacing(checker, &format!("{key}.spacing"), entry.spacing);
-    if !sound || !checker.is_sound("spacing") {
+    if !checker.is_sound(&format!("{key}.spacing")) || !checker.is_sound("spacing") {
         return None;
     }
-    let spacing = entry.spacing.or(checker.file.spacing).map_or(SPACING, |s| s * unit);
+    let spacing = entry.spacing.unwrap_or(checker.spec.spacing);
     let (shape, sides) = match (entry.rectangle, entry.disc) {
-        (Some(size), _) => ("rectangle", size.map(|side| side * unit)),
-        (None, Some(disc)) => ("disc", [disc * unit; 2]),
+        (Some(size), _) => ("rectangle", size),
+        (None, Some(disc)) => ("disc", [disc; 2]),
         (None, None) => ("rectangle", [1.0; 2]),
     };
     let count = check_size(checker, &format!("{key}.{shape}"), &sides, spacing)?;
@@ -229,21 +194,18 @@ fn lattice(
         checker.about(mistake, Subject::Panel(entry.name.clone()));
         return None;
     }
-    let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
+    let grid = entry.grid.unwrap_or_default();
     let grain = grain(checker, key, entry)?;
-    let radius = |diameter: Given<Length>| 0.5 * diameter * unit;
     let lattice = match (entry.rectangle, entry.disc, entry.hole) {
-        (Some(size), None, None) => {
-            Lattice::rectangle_at(grain, grid, size.map(|side| side * unit), spacing)
-        }
+        (Some(size), None, None) => Lattice::rectangle_at(grain, grid, size, spacing),
         (None, Some(diameter), hole) => {
             let round = match hole {
                 None => {
                     let rimmed = has_rim(checker, entry);
-                    let rimmed = rimmed.then(|| disc::disc(radius(diameter), spacing)).flatten();
-                    rimmed.map_or_else(|| Lattice::disc_on(grid, radius(diameter), spacing), Ok)
+                    let rimmed = rimmed.then(|| disc::disc(0.5 * diameter, spacing)).flatten();
+                    rimmed.map_or_else(|| Lattice::disc_on(grid, 0.5 * diameter, spacing), Ok)
                 }
-                Some(hole) => Lattice::ring_on(grid, [hole, diameter].map(radius), spacing),
+                Some(hole) => Lattice::ring_on(grid, [0.5 * hole, 0.5 * diameter], spacing),
             };
             round.map(|round| round.with_grain(grain))
         }
@@ -260,7 +222,6 @@ fn lattice(
     };
     let place = match &lattice {
         Err(drape_cloth::Error::Spacing { .. } | drape_cloth::Error::TooMany { .. }) => spacing_key,
-        _ if entry.hole.is_some_and(|hole| !(hole.number() > 0.0)) => format!("{key}.hole"),
         _ if entry.disc.is_some() => format!("{key}.disc"),
         _ => format!("{key}.rectangle"),
     };
@@ -289,8 +250,8 @@ fn lattice(
 }
 
 /// Returns whether a disc may have a rim of triangles: not with a `grid`, and not in Breen's model.
-fn has_rim(checker: &Checker<'_>, entry: &PanelFile) -> bool {
-    entry.grid.is_none() && !checker.file.is_breen()
+fn has_rim(checker: &Checker<'_>, entry: &PanelSpec) -> bool {
+    entry.grid.is_none() && !checker.spec.is_breen()
 }
 
 /// Says which spacing suits a panel of a size, in m, in place of a spacing, in m.
@@ -305,12 +266,11 @@ fn spacing_help(spacing: f64, size: f64) -> String {
 }
 
 /// Checks the direction of the yarns in a panel; a grid whose place has no meaning is refused.
-fn grain(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<Grain> {
-    let help = "degrees from the panel's height to its warp, anticlockwise; 45 is the bias";
-    if !checker.within(&format!("{key}.grain"), entry.grain.value(), -180.0..=180.0, help) {
+fn grain(checker: &mut Checker<'_>, key: &str, entry: &PanelSpec) -> Option<Grain> {
+    if !checker.is_sound(&format!("{key}.grain")) {
         return None;
     }
-    if entry.grid.is_some() && entry.rectangle.is_some() && entry.grain.value() % 90.0 == 0.0 {
+    if entry.grid.is_some() && entry.rectangle.is_some() && entry.grain % 90.0 == 0.0 {
         let message = format!("the yarns of panel \"{}\" follow its sides", entry.name);
         checker.fail(
             &format!("{key}.grid"),
@@ -318,5 +278,5 @@ fn grain(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<Grai
             "its grid begins at a corner; leave grid out",
         );
     }
-    Some(Grain::from_degrees(entry.grain.value()))
+    Some(Grain::from_degrees(entry.grain))
 }

@@ -1,14 +1,14 @@
 //! Pins of a scene.
 
-use drape_input::{Given, closest, excerpt, figure, figures};
+use drape_input::{closest, excerpt, figures};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::motion::rigid_motion;
 use crate::check::panel::PlacedPanel;
-use crate::file::panel::PanelFile;
-use crate::file::pin::PinFile;
 use crate::scene::panel::Panel;
 use crate::scene::pin::{HoldUntil, Pin};
+use crate::spec::panel::PanelSpec;
+use crate::spec::pin::{Axis, PinSpec};
 
 /// Pin of a scene, with the key of its motion.
 pub(crate) struct CheckedPin {
@@ -19,14 +19,14 @@ pub(crate) struct CheckedPin {
 /// Checks the pins of placed panels. A pin of a panel that is known and was not placed, for it has
 /// mistakes, is not checked further.
 pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[PlacedPanel]) -> Vec<CheckedPin> {
-    let file = checker.file;
+    let spec = checker.spec;
     let mut pins = Vec::new();
-    for (index, entry) in file.pin.iter().enumerate() {
+    for (index, entry) in spec.pin.iter().enumerate() {
         pins.extend(pin(checker, index, entry, panels));
     }
-    for (index, entry) in file.pin.iter().enumerate() {
+    for (index, entry) in spec.pin.iter().enumerate() {
         // A pin that holds until the cloth has come to rest lets go only where something follows.
-        if entry.until.as_deref() == Some("rest") && file.motion.is_none() {
+        if entry.until == HoldUntil::Rest && spec.motion.is_none() {
             let help = "leave until out, or add [motion] with what follows the rest";
             checker.fail(&format!("pin[{index}].until"), "the run ends at rest", help);
         }
@@ -38,7 +38,7 @@ pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[PlacedPanel]) -> Vec<Che
 fn pin(
     checker: &mut Checker<'_>,
     index: usize,
-    pin: &PinFile,
+    pin: &PinSpec,
     panels: &[PlacedPanel],
 ) -> Option<CheckedPin> {
     let key = format!("pin[{index}]");
@@ -66,19 +66,13 @@ fn pin(
         checker.fail(&key, "the pin holds nothing", help);
         return None;
     }
-    if pin.rows.is_some() && pin.edge.is_none() {
+    if pin.rows != 1 && pin.edge.is_none() {
         let help = "rows = 2 belongs to an edge";
         checker.fail(&format!("{key}.rows"), "there is no edge", help);
     }
-    if let Some(radius) = pin.radius.map(Given::number) {
-        let key = format!("{key}.radius");
-        if pin.points.is_empty() {
-            let help = "leave it out; rows = 2 holds more of an edge";
-            checker.fail(&key, "there are no points", help);
-        } else if !(radius >= 0.0 && radius.is_finite()) {
-            let help = "the distance from its points, in the file's unit; or leave it out";
-            checker.fail(&key, format!("{} is no distance", figure(radius)), help);
-        }
+    if pin.radius.is_some() && pin.points.is_empty() {
+        let help = "leave it out; rows = 2 holds more of an edge";
+        checker.fail(&format!("{key}.radius"), "there are no points", help);
     }
     particles.sort_unstable();
     particles.dedup();
@@ -94,40 +88,30 @@ fn pin(
         Some(motion) => Some(rigid_motion(checker, &motion_key, motion, middle)?),
         None => None,
     };
-    let release = pin.release.map_or(f64::INFINITY, Given::value);
-    if pin.release.is_some() {
-        checker.within(&format!("{key}.release"), release, 0.0..=1e5, "when it lets go, in s");
-    }
-    let choices = [("end", HoldUntil::End), ("sewn", HoldUntil::Sewn), ("rest", HoldUntil::Rest)];
-    let until = checker.choice(&format!("{key}.until"), pin.until.as_deref(), &choices);
+    let release = pin.release.unwrap_or(f64::INFINITY);
     let axes = axes(checker, &key, pin);
-    let pin = Pin { particles, start, motion, release, until, axes };
+    let pin = Pin { particles, start, motion, release, until: pin.until, axes };
     Some(CheckedPin { pin, motion_key })
 }
 
 /// Returns whether a panel of a name may be one that has mistakes.
 fn is_left_out(checker: &Checker<'_>, name: &str, placed: &[PlacedPanel]) -> bool {
-    let file = checker.file;
-    let plain = |panel: &PanelFile| {
+    let spec = checker.spec;
+    let plain = |panel: &PanelSpec| {
         name == panel.name || panel.stack.is_some() && name.starts_with(&panel.name)
     };
     let cut = placed.iter().filter(|placed| !placed.panel.edges.is_empty()).count();
-    file.panel.iter().any(plain) || !file.garment.is_empty() && cut == 0
+    spec.panel.iter().any(plain) || !spec.garment.is_empty() && cut == 0
 }
 
 /// Checks whether a pin holds along x, y and z.
-fn axes(checker: &mut Checker<'_>, key: &str, pin: &PinFile) -> [bool; 3] {
-    let Some(names) = &pin.axes else { return [true; 3] };
-    if names.is_empty() {
+fn axes(checker: &mut Checker<'_>, key: &str, pin: &PinSpec) -> [bool; 3] {
+    let Some(axes) = &pin.axes else { return [true; 3] };
+    if axes.is_empty() {
         let help = "axes = [\"y\"] holds up and down; without axes it holds altogether";
         checker.fail(&format!("{key}.axes"), "it holds in no direction", help);
     }
-    let mut axes = [false; 3];
-    for (number, name) in names.iter().enumerate() {
-        let key = format!("{key}.axes[{number}]");
-        axes[checker.choice(&key, Some(name.as_str()), &[("x", 0), ("y", 1), ("z", 2)])] = true;
-    }
-    axes
+    [Axis::X, Axis::Y, Axis::Z].map(|axis| axes.contains(&axis))
 }
 
 /// Finds the particles of an edge of a garment's panel.
@@ -146,20 +130,19 @@ fn named_edge(checker: &mut Checker<'_>, key: &str, edge: &str, panel: &Panel) -
 }
 
 /// Finds the particles nearest to the points that a pin names, or all within its radius of them.
-fn points(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) -> Vec<usize> {
-    let unit = checker.unit;
+fn points(checker: &mut Checker<'_>, key: &str, pin: &PinSpec, panel: &Panel) -> Vec<usize> {
     let coordinates = panel.lattice.panel_coordinates();
     let [across, along] = panel.lattice.spacing;
     let mut particles = Vec::new();
     for (number, point) in pin.points.iter().enumerate() {
-        let [u, v] = point.map(|x| x * unit);
+        let [u, v] = *point;
         let distance = |c: &[f64; 2]| (c[0] - u).hypot(c[1] - v);
         let by_distance = |a: &usize, b: &usize| {
             distance(&coordinates[*a]).total_cmp(&distance(&coordinates[*b]))
         };
         let nearest = (0..coordinates.len()).min_by(by_distance);
         if let Some(radius) = pin.radius {
-            let within = |&place: &usize| distance(&coordinates[place]) <= radius * unit;
+            let within = |&place: &usize| distance(&coordinates[place]) <= radius;
             let before = particles.len();
             particles.extend((0..coordinates.len()).filter(within).map(|p| panel.first + p));
             if particles.len() > before {
@@ -171,11 +154,12 @@ fn points(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) ->
                 particles.push(panel.first + nearest);
             }
             _ => {
-                let place = figures(&point.map(Given::number));
+                let key = format!("{key}.points[{number}]");
+                let place = checker.written(&key).unwrap_or_else(|| figures(point));
                 let message = format!("{place} is not on panel \"{}\"", panel.name);
                 let help = "places are width × height from the lower left corner of a rectangle, \
                             from the middle of a disc";
-                checker.fail(&format!("{key}.points[{number}]"), message, help);
+                checker.fail(&key, message, help);
             }
         }
     }
@@ -184,13 +168,15 @@ fn points(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) ->
 
 /// Finds the particles of the outermost rows along an edge: those less than half a spacing farther
 /// inside it than the last of the rows, also where the rows run at an angle to it.
-fn rows_at_edge(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) -> Vec<usize> {
-    let rows = pin.rows.unwrap_or(1);
+fn rows_at_edge(checker: &mut Checker<'_>, key: &str, pin: &PinSpec, panel: &Panel) -> Vec<usize> {
     let edges =
         [("top", (1, 1.0)), ("bottom", (1, -1.0)), ("left", (0, -1.0)), ("right", (0, 1.0))];
-    let (axis, end) = checker.choice(&format!("{key}.edge"), pin.edge.as_deref(), &edges);
+    let word = pin.edge.as_deref().unwrap_or_default();
+    let Some((axis, end)) = checker.choice(&format!("{key}.edge"), word, &edges) else {
+        return Vec::new();
+    };
     let depths = panel.lattice.depths(axis, end);
-    let numbered = depths.iter().enumerate().filter(|(_, depth)| **depth < rows as f64 - 0.5);
+    let numbered = depths.iter().enumerate().filter(|(_, depth)| **depth < pin.rows as f64 - 0.5);
     let particles: Vec<usize> = numbered.map(|(particle, _)| panel.first + particle).collect();
     if particles.is_empty() {
         checker.fail(&format!("{key}.rows"), "holds nothing", "rows = 1 or more");

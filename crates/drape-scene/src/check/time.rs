@@ -1,11 +1,12 @@
 //! Times of a simulation: steps, relaxation and the grids on which the cloth comes to rest, motion.
 
-use drape_input::{Given, figure};
+use drape_input::figure;
 
 use crate::check::checker::Checker;
 use crate::scene::clock::Clock;
 use crate::scene::relaxation::Relaxation;
-use crate::spacings::{REFINE, spacings};
+use crate::spacings::REFINE;
+use crate::spec::run::{SettleSpec, TimeSpec};
 
 /// Time between frames when the scene does not say, in s.
 const FRAME_INTERVAL: f64 = 0.04;
@@ -21,12 +22,6 @@ const GROWTH: f64 = 4.0;
 /// Factor by which a step may become longer than the first in relaxation when the scene does not
 /// say. The last steps of a quasi-static relaxation are long: there a step is a minimisation.
 const RELAXATION_GROWTH: f64 = 200.0;
-
-/// Speed below which cloth is at rest when the scene does not say, in m/s.
-const REST_SPEED: f64 = 0.002;
-
-/// Acceleration below which cloth is at rest when the scene does not say, over g.
-const REST_RESIDUAL: f64 = 1e-3;
 
 /// Displacement of a particle in one step of relaxation when the scene does not say, as a fraction
 /// of the spacing.
@@ -45,25 +40,17 @@ const GRIDS_MAX: usize = 8;
 
 /// Checks steps, their end, and the times of frames.
 pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
-    let (file, unit) = (checker.file, checker.unit);
-    let time = &file.time;
-    let [first, end] = [time.step, time.end].map(Given::value);
-    let [step_min, step_max] = [time.step_min, time.step_max].map(|step| step.map(Given::value));
-    let sound = checker.within("time.step", first, 1e-7..=0.1, "in s; 0.005 is usual");
+    let spec = checker.spec;
+    let TimeSpec { step: first, end, step_min, step_max, error, ramp } = spec.time;
+    let sound = checker.is_sound("time.step");
     // A wrong step would make the other times wrong too.
     let step = if sound { first } else { 0.0 };
     checker.within("time.end", end, step..=1e5, "in s, at least one step");
-    let interval = file.output.every.map_or(FRAME_INTERVAL.max(step), Given::value);
+    let interval = spec.output.every.unwrap_or(FRAME_INTERVAL.max(step));
     checker.within("output.every", interval, step..=1e5, "in s, at least one step");
-    let ramp = time.ramp.map_or(0.0, Given::value);
-    checker.within("time.ramp", ramp, 0.0..=1e5, "in s; 0 for full gravity at once");
-    let error = time.error.map(|error| error * unit);
-    if let Some(error) = error {
-        let help = "an error of positions; 0.1 mm is usual";
-        checker.within("time.error", error, 1e-9..=0.1, help);
-        let quasi_static =
-            file.settle.as_ref().is_some_and(|settle| !settle.inertia.unwrap_or(false));
-        if quasi_static && file.motion.is_none() {
+    if error.is_some() {
+        let quasi_static = spec.settle.as_ref().is_some_and(|settle| !settle.inertia);
+        if quasi_static && spec.motion.is_none() {
             let message = "steps on the way to rest have no error in time";
             let help =
                 "leave it out: settle.stride sets their length; or add inertia = true to [settle]";
@@ -71,7 +58,7 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
             checker.remedy(mistake, "time.error", None);
         }
     }
-    let varies = error.is_some() || file.settle.is_some();
+    let varies = error.is_some() || spec.settle.is_some();
     for (key, length, range) in
         [("time.step_min", step_min, 1e-9..=step), ("time.step_max", step_max, step..=100.0)]
     {
@@ -88,8 +75,8 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
         (None, Some(_)) => HALVINGS,
         (None, None) => 0,
     };
-    let inertia = file.settle.as_ref().is_some_and(|settle| settle.inertia.unwrap_or(false));
-    let growth = match (error, &file.settle) {
+    let inertia = spec.settle.as_ref().is_some_and(|settle| settle.inertia);
+    let growth = match (error, &spec.settle) {
         (Some(_), None) => GROWTH,
         (Some(_), Some(_)) if inertia => GROWTH,
         (_, Some(_)) => RELAXATION_GROWTH,
@@ -108,25 +95,17 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
     }
 }
 
-/// Checks the relaxation of particles that are a spacing apart, in m, if there is to be one.
-pub(crate) fn relaxation(checker: &mut Checker<'_>, spacing: f64) -> Option<Relaxation> {
-    let unit = checker.unit;
-    let settle = checker.file.settle.as_ref()?;
-    let speed = settle.speed.map_or(REST_SPEED, Given::value);
-    checker.within("settle.speed", speed, 1e-6..=10.0, "in m/s; 0.002 is usual");
-    let residual = settle.residual.unwrap_or(REST_RESIDUAL);
-    checker.within("settle.residual", residual, 1e-8..=1.0, "over g; 0.001 is usual");
-    let stride = settle.stride.map_or(STRIDE * spacing, |stride| stride * unit);
-    let help = "a length; a quarter of the spacing is usual";
-    checker.within("settle.stride", stride, 1e-7..=1.0, help);
-    let inertia = settle.inertia.unwrap_or(false);
-    Some(Relaxation { speed, residual, stride, inertia })
+/// Returns the relaxation of particles that are `spacing` apart, in m, if there is to be one.
+pub(crate) fn relaxation(checker: &Checker<'_>, spacing: f64) -> Option<Relaxation> {
+    let settle = checker.spec.settle.as_ref()?;
+    let &SettleSpec { speed, residual, stride, inertia } = settle;
+    Some(Relaxation { speed, residual, stride: stride.unwrap_or(STRIDE * spacing), inertia })
 }
 
 /// Checks the spacings of the coarser grids, and that the cloth comes to rest on them.
 pub(crate) fn refinement(checker: &mut Checker<'_>) {
-    let Some(refine) = &checker.file.refine else { return };
-    if checker.file.settle.is_none() {
+    let Some(refine) = &checker.spec.refine else { return };
+    if checker.spec.settle.is_none() {
         let message = "cloth that does not come to rest has no coarser grids";
         checker.fail("refine", message, "add [settle], or leave [refine] out");
     }
@@ -135,10 +114,8 @@ pub(crate) fn refinement(checker: &mut Checker<'_>) {
         checker.fail(REFINE, message, &format!("name {GRIDS_MAX} at most, such as [0.02]"));
         return;
     }
-    let unit = checker.unit;
-    let Ok(spacings) = spacings(checker.document()) else { return };
-    let grids = refine.spacings.iter().map(|spacing| *spacing * unit);
-    let grids: Vec<f64> = grids.chain([spacings[0].value]).collect();
+    let finest = checker.spec.spacings()[0].value;
+    let grids: Vec<f64> = refine.spacings.iter().copied().chain([finest]).collect();
     // A comparison that NaN fails.
     let too_close =
         grids.windows(2).position(|pair| !(pair[0] >= 0.999_999 * GRID_RATIO_MIN * pair[1]));
@@ -159,15 +136,10 @@ pub(crate) fn refinement(checker: &mut Checker<'_>) {
 /// Checks the time for which bodies and pins move when the cloth has come to rest, in s, if they do
 /// so then.
 pub(crate) fn motion_seconds(checker: &mut Checker<'_>) -> Option<f64> {
-    let file = checker.file;
-    let seconds = file.motion.as_ref()?.seconds.value();
-    checker.within(
-        "motion.seconds",
-        seconds,
-        file.time.step.value()..=1e5,
-        "in s, at least one step",
-    );
-    if file.settle.is_none() {
+    let spec = checker.spec;
+    let seconds = spec.motion.as_ref()?.seconds;
+    checker.within("motion.seconds", seconds, spec.time.step..=1e5, "in s, at least one step");
+    if spec.settle.is_none() {
         let help = "add [settle], or leave [motion] out: bodies then move from the start";
         checker.fail("motion", "the cloth is not asked to come to rest", help);
     }

@@ -1,5 +1,8 @@
 //! Pins: particles that are held, or led along a motion.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::scene::motion::RigidMotion;
 
 /// Pin of a scene.
@@ -20,14 +23,16 @@ pub struct Pin {
 }
 
 /// Event at which a pin lets go.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum HoldUntil {
+    /// The run ends.
+    #[default]
+    End,
     /// The garment is sewn.
     Sewn,
     /// The cloth has come to rest, and bodies begin to move.
     Rest,
-    /// The run ends.
-    End,
 }
 
 /// Particle with the position at which a pin holds it.

@@ -1,5 +1,8 @@
 //! Settings of the solver that a scene asks for.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// Settings of the solver that a scene asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {
@@ -18,7 +21,8 @@ pub struct SolverSettings {
 }
 
 /// Formula of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// Backward differences of second order.
     #[default]
@@ -30,7 +34,8 @@ pub enum Integrator {
 }
 
 /// Iteration that solves the equations of an implicit step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Broyden's quasi-Newton method, begun with the system matrix.
     #[default]
@@ -44,7 +49,8 @@ pub enum Method {
 }
 
 /// Solver of the linear systems.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum LinearSolver {
     /// Preconditioned conjugate gradients.
     #[default]

@@ -11,7 +11,7 @@ use clap::Args;
 use drape::input::{Document, Setting, figure, toml_string};
 use drape::run::file::{self, FileKind};
 use drape::run::reports::VERSION;
-use drape::scene::{coarser_spacings, spacings};
+use drape::scene::SceneSpec;
 use drape::sweep::{Point, Study, Table};
 
 use super::run::{SweepEnd, run_points};
@@ -155,7 +155,8 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
 /// spacings of the grids, in m. Each grid keeps the coarser grids of the scene that are coarse
 /// enough for it.
 fn spacing_axes(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<String>)>, Failure> {
-    let spacings = spacings(document)?;
+    let spec = SceneSpec::from_document(document)?;
+    let spacings = spec.spacings();
     let scene_spacing = spacings[0].value;
     let mut axes: Vec<(String, Vec<String>)> = spacings
         .iter()
@@ -165,7 +166,7 @@ fn spacing_axes(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<S
         })
         .collect();
 
-    let coarser = coarser_spacings(document)?;
+    let coarser = spec.coarser_spacings();
     if !coarser.is_empty() {
         let lists = grids.iter().map(|grid| {
             let kept: Vec<String> = coarser

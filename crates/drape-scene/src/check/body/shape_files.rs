@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use drape_collide::{Mesh, PointCache, Triangulation};
 use drape_input::ForbiddenPath;
 
+use crate::check::body::outline;
 use crate::check::checker::{Checker, MESH_LIMIT};
-use crate::file::body::MeshBodyFile;
 use crate::scene::motion::{ShapeMotion, check_frame};
+use crate::spec::body::{MeshMotion, MeshSpec};
+use crate::spec::file_or::FileOr;
 
 /// Number of vertices that all frames of a sequence may have together: 400 MB of positions.
 const VERTICES_MAX: usize = 1 << 24;
@@ -62,25 +64,32 @@ struct Frames {
 /// Reads the mesh of a body and its frames. `place` brings a point of the files to its place in the
 /// world, in m.
 pub(crate) fn read_shapes(
-    file: &MeshBodyFile,
+    file: &MeshSpec,
     checker: &Checker<'_>,
     sampling: Sampling,
     place: impl Fn([f64; 3]) -> [f64; 3],
 ) -> Result<Shapes, ShapeError> {
     let scene = checker.document();
-    let path = checker.folder.join(&file.file);
-    if checker.given(&path).is_none() {
-        scene.permit(&path)?;
+    if let FileOr::File(name) = &file.file {
+        let path = checker.folder.join(name);
+        if checker.given(&path).is_none() {
+            scene.permit(&path)?;
+        }
     }
-    let of_mesh = checker.mesh(&path)?;
-    let frames = match (file.point_cache(), &file.frames) {
-        (Some(cache), None) => {
+    let of_mesh = outline(checker, file)?;
+    let is_sampled = matches!(file.motion, Some(MeshMotion::File(_) | MeshMotion::Frames(_)));
+    let frames = match (&file.motion, &file.frames) {
+        (Some(MeshMotion::Frames(samples)), None) => {
+            let paths = vec![PathBuf::from("the motion"); samples.len()];
+            Frames { stride: 1.0, paths, samples: samples.to_vec() }
+        }
+        (Some(MeshMotion::File(cache)), None) => {
             let path = scene.beside(cache)?;
             let cache = PointCache::read_within(&path, MESH_LIMIT.bytes())?;
             let paths = vec![path; cache.samples.len()];
             Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
         }
-        (None, Some(pattern)) => sequence(checker, pattern, &of_mesh)?,
+        (_, Some(pattern)) if !is_sampled => sequence(checker, pattern, &of_mesh)?,
         _ => {
             let message = "give either motion = \"….pc2\" or frames = \"…_*.obj\"".to_owned();
             return Err(ShapeError::Mismatch(message));
@@ -92,7 +101,7 @@ pub(crate) fn read_shapes(
             return Err(ShapeError::Mismatch(format!(
                 "{} has {found} vertices, and {} has {needed}",
                 path.display(),
-                file.file
+                file.file.file().unwrap_or("the mesh")
             )));
         }
     }

@@ -6,7 +6,7 @@ use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
 use crate::check::start::placing::{PlaceRemedy, Solids};
-use crate::file::body::MeshBodyFile;
+use crate::spec::body::MeshSpec;
 
 /// Largest distance of a garment from every body at the start, in m: a pattern that was made for
 /// another figure, or in another frame, is metres off.
@@ -18,7 +18,7 @@ const FIGURES: [f64; 2] = [0.1, 5.0];
 /// Checks the sizes of bodies: a figure from a file in another unit is a hundred times too large,
 /// or as much too small.
 fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
-    let file = checker.file;
+    let spec = checker.spec;
     for CheckedBody { body, .. } in bodies {
         let Shape::Mesh(mesh) = &body.shape else { continue };
         let vertices = mesh.vertices();
@@ -27,11 +27,11 @@ fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
             high - low
         };
         let size = size(0).max(size(1)).max(size(2));
-        let named = |(index, mesh): (usize, &MeshBodyFile)| {
+        let named = |(index, mesh): (usize, &MeshSpec)| {
             let name = mesh.common().name.map_or(format!("mesh {}", index + 1), str::to_owned);
             name == body.name
         };
-        let index = file.collider.mesh.iter().enumerate().position(named).unwrap_or(0);
+        let index = spec.collider.mesh.iter().enumerate().position(named).unwrap_or(0);
         // Its unit has been asked for.
         let is_asked = !checker.is_sound(&format!("collider.mesh[{index}].file"));
         if !is_asked && !(FIGURES[0]..=FIGURES[1]).contains(&size) {

@@ -8,9 +8,6 @@ use crate::check::checker::Checker;
 /// below, in m.
 const STEP: f64 = 0.02;
 
-/// Highest layer.
-const HIGHEST: u32 = 20;
-
 /// Returns `placement` of a panel moved out by one step for each `layer`. The radius of a panel
 /// that is bent to a cylinder grows. A flat panel is moved to its right side.
 pub(crate) fn worn_at(placement: Placement, layer: u32) -> Placement {
@@ -28,17 +25,12 @@ pub(crate) fn worn_at(placement: Placement, layer: u32) -> Placement {
     placement
 }
 
-/// Checks a layer, if one is given.
-pub(crate) fn layer(checker: &mut Checker<'_>, key: &str, layer: Option<i64>) -> Option<u32> {
-    let layer = layer?;
-    if !(0..=i64::from(HIGHEST)).contains(&layer) {
-        let help = "a whole number: 0 is next to the body, and higher is outside";
-        checker.fail(key, format!("{layer} is not between 0 and {HIGHEST}"), help);
-    } else if layer > 0 && !checker.file.keeps_surfaces_apart() {
+/// Checks that cloth meets cloth where `layer` is not next to the body.
+pub(crate) fn check_layer(checker: &mut Checker<'_>, key: &str, layer: u32) {
+    if layer > 0 && !checker.spec.keeps_surfaces_apart() {
         let help = "leave it out, or keep surfaces apart (contact.surfaces)";
         checker.fail(key, "cloth does not meet cloth in this scene", help);
     }
-    u32::try_from(layer).ok().filter(|layer| *layer <= HIGHEST)
 }
 
 #[cfg(test)]

@@ -7,21 +7,21 @@ use drape_pattern::{CutPattern, Pattern, Placement};
 use crate::check::checker::Checker;
 use crate::check::fabrics::material_index;
 use crate::check::garment::allowances::allowances;
-use crate::check::garment::layer::{layer, worn_at};
+use crate::check::garment::layer::{check_layer, worn_at};
 use crate::check::panel::PlacedPanel;
 use crate::check::panel::cut_lattice::{cut_lattice, node_numbers};
 use crate::check::panel::folds::{FoldLine, UnfoldedPanel, folded};
 use crate::check::panel::graded::graded;
 use crate::check::panel::noise::Noise;
-use crate::file::garment::{GarmentFile, GarmentPanelFile};
 use crate::grading::Grading;
 use crate::scene::panel::{Panel, PanelEdge};
+use crate::spec::garment::{GarmentPanelSpec, GarmentSpec};
 
 /// Panel of a cut pattern, and the garment that it is of.
 pub(crate) struct Piece<'a> {
     /// Key of the garment.
     pub(crate) key: &'a str,
-    pub(crate) entry: &'a GarmentFile,
+    pub(crate) entry: &'a GarmentSpec,
     pub(crate) pattern: &'a Pattern,
     pub(crate) cut: &'a CutPattern,
     /// Index of the panel.
@@ -62,7 +62,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Keys of the panel in the scene.
-    fn entry_of_panel(&self) -> Option<&'a GarmentPanelFile> {
+    fn entry_of_panel(&self) -> Option<&'a GarmentPanelSpec> {
         self.entry.panel.get(self.panel().name())
     }
 }
@@ -79,7 +79,8 @@ pub(crate) fn placed_panel(
     let cut = &cut.panels[index];
     let placement = placement(checker, piece);
     let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
-    let layer = layer(checker, &layer_key, panel_entry.and_then(|entry| entry.layer));
+    let layer = panel_entry.and_then(|entry| entry.layer);
+    check_layer(checker, &layer_key, layer.unwrap_or(0));
     let layer = layer.unwrap_or(layer_of_garment);
     let (fabric_key, fabric) = match panel_entry.and_then(|entry| entry.fabric.as_ref()) {
         Some(fabric) => (format!("{key}.panel.{}.fabric", toml_key(panel.name())), fabric),
@@ -88,7 +89,7 @@ pub(crate) fn placed_panel(
     // A panel may have a fabric of its own in the pattern, by the name that the scene gives it.
     let given = panel.fabric().filter(|_| panel_entry.is_none_or(|entry| entry.fabric.is_none()));
     let material = match given {
-        Some(name) if !checker.file.fabric.contains_key(name) => {
+        Some(name) if !checker.spec.fabric.contains_key(name) => {
             let message =
                 format!("panel \"{}\" of the pattern is of fabric \"{name}\"", panel.name());
             let help = format!(
@@ -171,10 +172,10 @@ fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<N
 /// of the pattern, and both are shifted with the garment.
 fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> {
     let &Piece { key, entry, .. } = piece;
-    let (unit, panel_entry) = (checker.unit, piece.entry_of_panel());
-    let center = panel_entry.and_then(|entry| entry.center).map(|center| center.map(|x| x * unit));
+    let panel_entry = piece.entry_of_panel();
+    let center = panel_entry.and_then(|entry| entry.center);
     let turn = panel_entry.and_then(|entry| entry.turn);
-    let turn = turn.map(|turn| turn.map(|angle| angle.value().to_radians()));
+    let turn = turn.map(|turn| turn.map(f64::to_radians));
     let mut placement = match (center, turn, piece.panel().placement()) {
         // Of a place in the pattern each of both stays that the scene does not give.
         (center, None, Some(given)) => {
@@ -199,14 +200,8 @@ fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> 
         }
     };
     if let Some(radius) = panel_entry.and_then(|entry| entry.wrap) {
-        placement.wrap = Some(radius * unit);
+        placement.wrap = Some(radius);
     }
-    let numbers =
-        placement.rotation.iter().flatten().chain(&placement.translation).chain(&placement.wrap);
-    let shift = entry.center.map(|x| x * unit);
-    if numbers.chain(&shift).any(|x| !x.is_finite()) {
-        checker.fail(&format!("{key}.center"), "is not finite", "in the file's unit");
-    }
-    (0..3).for_each(|axis| placement.translation[axis] += shift[axis]);
+    (0..3).for_each(|axis| placement.translation[axis] += entry.center[axis]);
     Some(placement)
 }

@@ -2,14 +2,11 @@
 
 use drape_cloth::{Cloth, Lattice, SeamBending};
 use drape_fabric::Fabric;
-use drape_input::Given;
 
 use crate::check::checker::Checker;
 use crate::scene::garment::Sewing;
 use crate::scene::seam::{Seam, SeamPairs};
-
-/// Time until the seams are to be closed when the scene does not say, in s.
-const SECONDS: f64 = 1.0;
+use crate::spec::garment::SewSpec;
 
 /// Settings of the sewing of a scene.
 #[derive(Debug, Clone, Copy)]
@@ -22,30 +19,27 @@ pub(crate) struct SewingSettings {
 
 /// Checks the settings of the sewing, if there are seams.
 pub(crate) fn sewing_settings(checker: &mut Checker<'_>, is_plain: bool) -> Option<SewingSettings> {
-    let file = checker.file;
-    let seconds = file.sew.seconds.map_or(SECONDS, Given::value);
-    checker.within("sew.seconds", seconds, 1e-3..=1e3, "in s; 1 is usual");
+    let spec = checker.spec;
+    let SewSpec { seconds, stiffness, .. } = spec.sew;
     if is_plain {
-        let is_set = file.sew.seconds.is_some() || file.sew.stiffness.is_some();
+        let usual = SewSpec::default();
+        let is_set = (seconds, stiffness) != (usual.seconds, usual.stiffness);
         // A garment with mistakes may have seams.
-        if is_set && file.garment.is_empty() {
+        if is_set && spec.garment.is_empty() {
             let help = "seams are in the pattern of a [[garment]]";
             checker.fail("sew", "nothing is sewn", help);
         }
         return None;
     }
     for (wrong, key, word) in [
-        (file.is_explicit(), "solver.integrator", "explicit"),
-        (file.is_breen(), "model", "breen-1994"),
+        (spec.is_explicit(), "solver.integrator", "explicit"),
+        (spec.is_breen(), "model", "breen-1994"),
     ] {
         if wrong {
             let message = format!("\"{word}\" cannot sew");
             checker.fail(key, message, "leave it out in a scene with seams");
         }
     }
-    let stiffness = file.sew.stiffness.unwrap_or(drape_cloth::Seam::STIFFNESS);
-    let help = "how many times as stiff as the fabric a seam is; 3 is usual";
-    checker.within("sew.stiffness", stiffness, 0.0..=1e3, help);
     Some(SewingSettings { seconds, stiffness })
 }
 

@@ -1,31 +1,24 @@
 //! Check of grading: panels whose particles are farther apart where the cloth is flat.
 
 use drape_cloth::{GradedPanel, Lattice};
-use drape_input::{Given, excerpt};
+use drape_input::excerpt;
 
 use crate::check::checker::Checker;
 use crate::grading::Grading;
 
-/// Largest angle by which cloth turns between particles if the scene gives none, in degrees.
-const ANGLE: f64 = 30.0;
-
 /// Reads the run that `[grading]` names.
 pub(crate) fn grading(checker: &mut Checker<'_>) -> Option<Grading> {
-    let entry = checker.file.grading.as_ref()?;
-    if checker.file.is_breen() {
+    let entry = checker.spec.grading.as_ref()?;
+    if checker.spec.is_breen() {
         let message = "particles of Breen's model are on one grid";
         checker.fail("grading", message, "leave [grading] out");
         return None;
     }
-    let angle = entry.angle.map_or(ANGLE, Given::value);
-    let sound = checker.within("grading.angle", angle, 0.1..=90.0, "in degrees");
     let folder = checker.locate("grading.run", &entry.run)?;
-    let read = Grading::read(&folder, angle.to_radians());
+    let read = Grading::read(&folder, entry.angle.to_radians());
     let help = "run the scene without [grading] first, at a larger spacing and with a folder of its own: \
                 drape run SCENE --set spacing='\"10 mm\"' -o FOLDER";
-    read.map_err(|error| checker.fail("grading.run", error.to_string(), help))
-        .ok()
-        .filter(|_| sound)
+    read.map_err(|error| checker.fail("grading.run", error.to_string(), help)).ok()
 }
 
 /// Returns a panel of a name with larger cells where its curvature allows them.

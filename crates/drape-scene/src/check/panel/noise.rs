@@ -1,9 +1,6 @@
 //! Noise: random heights at which cloth begins, so that it need not stay symmetric.
 
-use drape_input::{Given, figure};
-
-use crate::check::checker::Checker;
-use crate::file::panel::NoiseFile;
+use crate::spec::panel::NoiseSpec;
 
 /// Heights of a panel's particles: independent ones, or smooth over a length, whatever the spacing.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,35 +13,11 @@ pub(crate) struct Noise {
     random: Random,
 }
 
-/// Checks the noise of a key, if there is one.
-pub(crate) fn noise(
-    checker: &mut Checker<'_>,
-    key: &str,
-    file: Option<&NoiseFile>,
-) -> Option<Noise> {
-    let file = file?;
-    let amplitude = file.amplitude.number();
-    if !(amplitude >= 0.0 && amplitude.is_finite()) {
-        let help = "the greatest height, in the file's unit; another seed gives other heights";
-        checker.fail(
-            &format!("{key}.amplitude"),
-            format!("{} is no height", figure(amplitude)),
-            help,
-        );
-    }
-    let length = file.length.map(Given::number);
-    if let Some(length) = length.filter(|length| !(*length > 0.0 && length.is_finite())) {
-        let help = "the distance over which heights change, in the file's unit; or leave it out";
-        checker.fail(&format!("{key}.length"), format!("{} is no length", figure(length)), help);
-    }
-    Some(Noise::new(file, checker.unit))
-}
-
 impl Noise {
-    fn new(file: &NoiseFile, unit: f64) -> Self {
-        let NoiseFile { amplitude, length, seed } = *file;
-        let length = length.map(|length| length * unit);
-        Self { amplitude: amplitude * unit, length, seed, random: Random(seed) }
+    /// Returns the heights that `spec` describes.
+    pub(crate) fn new(spec: &NoiseSpec) -> Self {
+        let NoiseSpec { amplitude, length, seed } = *spec;
+        Self { amplitude, length, seed, random: Random(seed) }
     }
 
     /// Noise of a panel's copy of some number: other heights.
@@ -108,10 +81,8 @@ mod tests {
     use super::*;
 
     fn noise(length: Option<f64>, seed: u64) -> Noise {
-        Noise::new(
-            &NoiseFile { amplitude: Given::bare(0.2), length: length.map(Given::bare), seed },
-            1e-3,
-        )
+        let length = length.map(|length| 1e-3 * length);
+        Noise::new(&NoiseSpec { amplitude: 2e-4, length, seed })
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! Placement of a panel at the start.
 
 use drape_cloth::Lattice;
-use drape_input::{Given, figure};
+use drape_input::figure;
 
 use crate::check::checker::Checker;
 use crate::check::panel::noise::Noise;
-use crate::file::panel::{PanelFile, StackFile};
 use crate::scene::motion::rotate;
+use crate::spec::panel::{PanelSpec, RippleSpec, StackSpec};
 
 /// Largest coordinate of the middle of a panel, in m.
 const FAR: f64 = 1e4;
@@ -22,74 +22,35 @@ pub(crate) struct Placement {
     velocity: [f64; 3],
     /// Angular velocity about the world's axes, in rad/s.
     spin: [f64; 3],
-    ripple: Option<Ripple>,
+    ripple: Option<RippleSpec>,
     noise: Option<Noise>,
 }
 
-/// Sine wave across the width of a panel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Ripple {
-    /// Amplitude, in m.
-    amplitude: f64,
-    /// Wavelength, in m.
-    wavelength: f64,
-}
-
 impl Placement {
-    /// Checks the placement of a panel with a noise.
-    pub(crate) fn check(
-        checker: &mut Checker<'_>,
-        key: &str,
-        panel: &PanelFile,
-        noise: Option<Noise>,
-    ) -> Self {
-        let unit = checker.unit;
-        for (name, numbers, help) in [
-            ("velocity", panel.velocity.map(Given::value), "in the file's unit per second"),
-            ("spin", panel.spin.map(Given::value), "in degrees per second"),
-            ("turn", panel.turn.map(Given::value), "degrees about x, y and z"),
-        ] {
-            if numbers.iter().any(|x| !x.is_finite()) {
-                checker.fail(&format!("{key}.{name}"), "is not finite", help);
-            }
-        }
+    /// Checks the placement of `panel`, whose table has the key path `key`.
+    pub(crate) fn check(checker: &mut Checker<'_>, key: &str, panel: &PanelSpec) -> Self {
         let far = |x: &f64| !(x.abs() <= FAR);
-        if let Some(x) = panel.center.map(|x| x * unit).iter().find(|x| far(x)) {
+        if let Some(x) = panel.center.iter().find(|x| far(x)) {
             let message = format!("{} m is too far out", figure(*x));
             checker.fail(&format!("{key}.center"), message, "up to 10 km: is the unit right?");
         }
-        if let Some(ripple) = &panel.ripple {
-            let wavelength = ripple.wavelength.number();
-            if !(wavelength > 0.0 && wavelength.is_finite()) {
-                let message = format!("{} is no length", figure(wavelength));
-                let help = "the distance from crest to crest, in the file's unit";
-                checker.fail(&format!("{key}.ripple.wavelength"), message, help);
-            }
-            if !ripple.amplitude.number().is_finite() {
-                let help = "the greatest height, in the file's unit";
-                checker.fail(&format!("{key}.ripple.amplitude"), "is not finite", help);
-            }
-        }
         Self {
-            center: panel.center.map(|x| x * unit),
-            turn: panel.turn.map(Given::value),
-            velocity: panel.velocity.map(|v| v * unit),
-            spin: panel.spin.map(|spin| spin.value().to_radians()),
-            ripple: panel.ripple.as_ref().map(|ripple| Ripple {
-                amplitude: ripple.amplitude * unit,
-                wavelength: ripple.wavelength * unit,
-            }),
-            noise,
+            center: panel.center,
+            turn: panel.turn,
+            velocity: panel.velocity,
+            spin: panel.spin.map(f64::to_radians),
+            ripple: panel.ripple,
+            noise: panel.noise.as_ref().map(Noise::new),
         }
     }
 
-    /// Placement of a panel's copy of some number in a stack, with lengths in a unit, in m; its
-    /// noise has another seed.
-    pub(crate) fn copied(&self, copy: usize, stack: Option<&StackFile>, unit: f64) -> Self {
+    /// Returns the placement of the panel's copy with the number `copy` in `stack`. Its noise has
+    /// another seed.
+    pub(crate) fn copied(&self, copy: usize, stack: Option<&StackSpec>) -> Self {
         let Some(stack) = stack else { return self.clone() };
-        let nth = |axis: usize| copy as f64 * stack.step[axis] * unit;
+        let nth = |axis: usize| copy as f64 * stack.step[axis];
         let center = std::array::from_fn(|axis| self.center[axis] + nth(axis));
-        let angle = |axis: usize| copy as f64 * stack.turn[axis].value();
+        let angle = |axis: usize| copy as f64 * stack.turn[axis];
         let turn = std::array::from_fn(|axis| self.turn[axis] + angle(axis));
         Self {
             center,
@@ -109,7 +70,7 @@ impl Placement {
         let mut positions = Vec::with_capacity(3 * lattice.coordinates.len());
         for [x, y] in places {
             let mut height = 0.0;
-            if let Some(Ripple { amplitude, wavelength }) = self.ripple {
+            if let Some(RippleSpec { amplitude, wavelength }) = self.ripple {
                 height += amplitude * (std::f64::consts::TAU * (x - left) / wavelength).sin();
             }
             let place = [x - middle[0], y - middle[1]];

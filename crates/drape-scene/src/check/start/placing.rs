@@ -515,13 +515,13 @@ impl PlaceRemedy {
     /// Returns the remedy for the garment with the number `garment`. `shift` leads to the place
     /// that was found, in m.
     pub(crate) fn new(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 3]>) -> Self {
-        let (Some(shift), Some(entry)) = (shift, checker.file.garment.get(garment)) else {
+        let (Some(shift), Some(entry)) = (shift, checker.spec.garment.get(garment)) else {
             let help = "no place about the body was found: does the pattern fit it? turn or move its panels";
             return Self { help: help.into(), center: None };
         };
-        let [x, y, z] =
-            [0, 1, 2].map(|k| (entry.center[k] * checker.unit + shift[k]) / checker.unit);
-        let digits = if checker.unit == 1.0 { 3 } else { 0 };
+        let unit = checker.spec.length.metres();
+        let [x, y, z] = [0, 1, 2].map(|k| (entry.center[k] + shift[k]) / unit);
+        let digits = if unit == 1.0 { 3 } else { 0 };
         let center = format!("[{x:.digits$}, {y:.digits$}, {z:.digits$}]");
         let help =
             format!("write center = {center} in its [[garment]]; there it is about the body");

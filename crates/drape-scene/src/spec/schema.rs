@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::file::SceneFile;
+use crate::spec::SceneSpec;
 
 /// Returns the JSON Schema of scenes.
 #[must_use]
@@ -13,7 +13,7 @@ pub fn scene_schema() -> Value {
         "allOf": [steps_vary(), steps_in_time(), explicit_steps(), limited_steps(), edges()],
     });
     let Value::Object(conditions) = conditions else { return Value::Object(Map::new()) };
-    drape_input::schema_of::<SceneFile>("Scene of drape", about, conditions)
+    drape_input::schema_of::<SceneSpec>("Scene of drape", about, conditions)
 }
 
 /// Returns the condition of a scene whose key in a table has a value that a schema accepts.

@@ -1,0 +1,250 @@
+//! Spec as a text, and what a spec holds in memory beside the text.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+use drape_collide::Triangulation;
+use drape_fabric::Fabric;
+use drape_input::{Diagnostic, Diagnostics, Document, Faults, Setting};
+use drape_pattern::Pattern;
+use toml::Value;
+
+use crate::spec::body::MeshMotion;
+use crate::spec::file_or::FileOr;
+use crate::spec::{LengthUnit, SceneSpec};
+
+/// Heading of the texts that are written.
+const HEADING: &str = "# Scene of drape. Lengths are in m, y is up.\n\n";
+
+/// Error of writing a spec.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SaveError {
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", .path.display())]
+    File {
+        /// The file.
+        path: std::path::PathBuf,
+        /// Reason.
+        source: std::io::Error,
+    },
+    /// The spec holds what has no file; [`SceneSpec::save`] writes it.
+    #[error("the scene holds {what} in memory: save it into a folder")]
+    InMemory {
+        /// What is held, in words.
+        what: String,
+    },
+}
+
+/// Things that a spec holds itself, by the names that stand for them in a text.
+#[derive(Debug, Default)]
+pub(crate) struct Held {
+    fabrics: Vec<(String, Arc<Fabric>)>,
+    patterns: Vec<(String, Arc<Pattern>)>,
+    meshes: Vec<(String, Arc<Triangulation>)>,
+    motions: Vec<(String, Arc<Vec<Vec<[f64; 3]>>>)>,
+}
+
+impl Held {
+    /// Takes what `spec` holds out of it. In its place stand names that no file has.
+    fn take_from(spec: &mut SceneSpec) -> Self {
+        let mut held = Self::default();
+        for fabric in spec.fabric.values_mut() {
+            take(&mut fabric.file, &mut held.fabrics, "fabric");
+        }
+        for garment in &mut spec.garment {
+            take(&mut garment.pattern, &mut held.patterns, "pattern");
+        }
+        for mesh in &mut spec.collider.mesh {
+            take(&mut mesh.file, &mut held.meshes, "mesh");
+            if let Some(MeshMotion::Frames(frames)) = &mesh.motion {
+                let name = placeholder("motion", held.motions.len());
+                held.motions.push((name.clone(), Arc::clone(frames)));
+                mesh.motion = Some(MeshMotion::File(name));
+            }
+        }
+        held
+    }
+
+    /// Puts what was taken back into `spec`, where its names stand.
+    fn put_into(&self, spec: &mut SceneSpec) {
+        spec.fabric.values_mut().for_each(|fabric| put(&mut fabric.file, &self.fabrics));
+        spec.garment.iter_mut().for_each(|garment| put(&mut garment.pattern, &self.patterns));
+        for mesh in &mut spec.collider.mesh {
+            put(&mut mesh.file, &self.meshes);
+            let Some(MeshMotion::File(named)) = &mesh.motion else { continue };
+            if let Some((_, frames)) = self.motions.iter().find(|(name, _)| name == named) {
+                mesh.motion = Some(MeshMotion::Frames(Arc::clone(frames)));
+            }
+        }
+    }
+}
+
+/// Returns the name that stands for the thing with the number `number` of its `kind`.
+fn placeholder(kind: &str, number: usize) -> String {
+    format!("<{kind} {}>", number + 1)
+}
+
+/// Moves the thing that `place` holds, if it holds one, to `things`.
+fn take<T>(place: &mut FileOr<T>, things: &mut Vec<(String, Arc<T>)>, kind: &str) {
+    if let FileOr::Value(value) = place {
+        let name = placeholder(kind, things.len());
+        things.push((name.clone(), Arc::clone(value)));
+        *place = FileOr::File(name);
+    }
+}
+
+/// Puts the thing of `things` whose name stands in `place` there.
+fn put<T>(place: &mut FileOr<T>, things: &[(String, Arc<T>)]) {
+    let FileOr::File(named) = place else { return };
+    if let Some((_, value)) = things.iter().find(|(name, _)| name == named) {
+        *place = FileOr::Value(Arc::clone(value));
+    }
+}
+
+impl SceneSpec {
+    /// Reads the spec of the scene `document`, with the units of its numbers resolved.
+    ///
+    /// # Errors
+    /// All mistakes of grammar, spelling and type, with their places.
+    pub fn from_document(document: &Document) -> Result<Self, Diagnostics> {
+        document.decode()
+    }
+
+    /// Reads the spec of the scene `document` in spite of mistakes of spelling and type.
+    pub(crate) fn with_faults(document: &Document) -> Result<(Self, Faults), Diagnostics> {
+        document.decode_with_faults()
+    }
+
+    /// Returns the spec as TOML, with lengths in m.
+    ///
+    /// [`SceneSpec::from_document`] reads an equal spec from it, if `length` of this spec is the
+    /// metre.
+    ///
+    /// # Errors
+    /// [`SaveError::InMemory`] if the spec holds a fabric, a pattern, a mesh or a motion itself.
+    pub fn to_toml(&self) -> Result<String, SaveError> {
+        let mut spec = self.in_metres();
+        let held = Held::take_from(&mut spec);
+        let kinds = [
+            ("a fabric", held.fabrics.is_empty()),
+            ("a pattern", held.patterns.is_empty()),
+            ("a mesh", held.meshes.is_empty()),
+            ("a motion", held.motions.is_empty()),
+        ];
+        if let Some((what, _)) = kinds.iter().find(|(_, is_empty)| !is_empty) {
+            return Err(SaveError::InMemory { what: (*what).into() });
+        }
+        Ok(format!("{HEADING}{}", spec.text()))
+    }
+
+    /// Sets the value at `key` to `value`, which is TOML: `spec.set("time.end", "2.5")`.
+    ///
+    /// Bare lengths are in m.
+    ///
+    /// # Errors
+    /// The mistake of the key or of the value, with a remedy.
+    pub fn set(&mut self, key: &str, value: &str) -> Result<(), Diagnostics> {
+        let setting = Setting::new(key, value)
+            .map_err(|error| Diagnostic::new("", error.message).help(error.help))?
+            .with_origin("set");
+        let mut spec = self.in_metres();
+        let held = Held::take_from(&mut spec);
+        let document = Document::new("", spec.text()).with_settings(&[setting])?;
+        let mut spec = Self::from_document(&document)?;
+        held.put_into(&mut spec);
+        *self = spec;
+        Ok(())
+    }
+
+    /// Writes the spec to `scene.toml` in `folder`, and what it holds itself into files beside it.
+    /// [`Scene::read`](crate::Scene::read) reads an equal scene from there: the positions of meshes
+    /// and of their motions have the same bits.
+    ///
+    /// Files that the spec names are named relative to its old folder; they are not copied.
+    ///
+    /// # Errors
+    /// [`SaveError::File`] if a file cannot be written.
+    pub fn save(&self, folder: impl AsRef<Path>) -> Result<(), SaveError> {
+        let folder = folder.as_ref();
+        let mut spec = self.in_metres();
+        let write = |name: &str, text: &str| {
+            let path = folder.join(name);
+            std::fs::write(&path, text).map_err(|source| SaveError::File { path, source })
+        };
+        std::fs::create_dir_all(folder)
+            .map_err(|source| SaveError::File { path: folder.to_owned(), source })?;
+
+        for (number, fabric) in spec.fabric.values_mut().enumerate() {
+            if let FileOr::Value(value) = &fabric.file {
+                let name = format!("fabric-{}.toml", number + 1);
+                write(&name, &value.to_toml())?;
+                fabric.file = name.into();
+            }
+        }
+        for (number, garment) in spec.garment.iter_mut().enumerate() {
+            if let FileOr::Value(pattern) = &garment.pattern {
+                let name = format!("pattern-{}.toml", number + 1);
+                write(&name, &pattern.to_toml("Pattern of drape."))?;
+                garment.pattern = name.into();
+            }
+        }
+        for (number, mesh) in spec.collider.mesh.iter_mut().enumerate() {
+            let name = format!("body-{}.obj", number + 1);
+            let FileOr::Value(outline) = mesh.file.clone() else { continue };
+            write(&name, &wavefront(&outline.vertices, &outline.triangles))?;
+            mesh.file = name.into();
+            if let Some(MeshMotion::Frames(frames)) = &mesh.motion {
+                for (frame, vertices) in frames.iter().enumerate() {
+                    let name = format!("body-{}-frame-{frame:05}.obj", number + 1);
+                    write(&name, &wavefront(vertices, &outline.triangles))?;
+                }
+                mesh.frames = Some(format!("body-{}-frame-*.obj", number + 1));
+                mesh.motion = None;
+            }
+        }
+        write("scene.toml", &format!("{HEADING}{}", spec.text()))
+    }
+
+    /// Returns the spec with what it holds itself replaced by names that no file has.
+    pub(crate) fn without_held(&self) -> Self {
+        let mut spec = self.clone();
+        Held::take_from(&mut spec);
+        spec
+    }
+
+    /// Returns the spec as a file in m says it: meshes without a `scale` have the unit of this spec.
+    pub(crate) fn in_metres(&self) -> Self {
+        let mut spec = self.clone();
+        if spec.length != LengthUnit::M {
+            let unit = spec.length.metres();
+            let meshes = spec.collider.mesh.iter_mut();
+            meshes.for_each(|mesh| _ = mesh.scale.get_or_insert(unit));
+            spec.length = LengthUnit::M;
+        }
+        spec
+    }
+
+    /// Returns the spec, which holds nothing itself, as TOML.
+    pub(crate) fn text(&self) -> String {
+        // A table of TOML values is a text: there is nothing in it that TOML cannot say.
+        Value::try_from(self)
+            .ok()
+            .and_then(|value| toml::to_string(&value).ok())
+            .unwrap_or_default()
+    }
+}
+
+/// Returns a mesh as a text in the format of Wavefront, whose numbers are read to the same bits.
+fn wavefront(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> String {
+    let mut text = String::new();
+    for [x, y, z] in vertices {
+        _ = writeln!(text, "v {x:?} {y:?} {z:?}");
+    }
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| corner + 1);
+        _ = writeln!(text, "f {a} {b} {c}");
+    }
+    text
+}
