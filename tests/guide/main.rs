@@ -1,10 +1,8 @@
-//! The guide is true: its pages of reference are what the program says of its files and commands, and
-//! the defaults that it states are taken. `GUIDE=write cargo test --release --test guide` writes them anew.
+//! The guide is true: its pages of reference are what the program says of its files and commands.
+//! `GUIDE=write cargo test --release --test guide` writes them anew.
 
 mod commands_page;
-mod defaults;
 mod keys_page;
-mod ranges;
 mod schema;
 
 use std::path::{Path, PathBuf};

@@ -206,6 +206,9 @@ impl<'a> Schema<'a> {
         }
         // A reference may stand beside the limits.
         let limit = |key: &str| schema[key].as_f64().or(own[key].as_f64());
+        if let (Some(least), Some(most)) = (limit("leastMetres"), limit("mostMetres")) {
+            return format!("{} m to {} m", figure(least), figure(most));
+        }
         let least =
             limit("minimum").map(|x| ("≥", x)).or(limit("exclusiveMinimum").map(|x| (">", x)));
         let most =

@@ -61,6 +61,16 @@ impl Document {
         Self { path: path.into(), text, allowed: Vec::new(), settings: Vec::new(), content, lines }
     }
 
+    /// Creates a document of `table`, values that a program made, without a text. Mistakes in the
+    /// values have keys and no lines.
+    #[must_use]
+    pub fn from_table(path: impl Into<PathBuf>, table: &toml::Table) -> Self {
+        let mut document = Self::new(path, "");
+        let root = Node::of_table(table);
+        document.content = OnceLock::from(Content { root, mistakes: Vec::new() });
+        document
+    }
+
     /// Returns the document, which may also name the files and folders `allowed`.
     #[must_use]
     pub fn allowing(mut self, allowed: &[PathBuf]) -> Self {
@@ -358,7 +368,7 @@ impl Document {
         }
 
         let mut diagnostic = Diagnostic::new(&self.path, message);
-        if let Some(span) = span {
+        if let Some(span) = span.filter(|_| !self.text.is_empty()) {
             let lines = self.lines.get_or_init(|| Lines::new(&self.text));
             let line = lines.starts.partition_point(|&start| start <= span.start).max(1);
             let start = lines.starts[line - 1];

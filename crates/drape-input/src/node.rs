@@ -48,6 +48,30 @@ impl Node {
         Self { span: 0..0, text: None, value: Value::Table(entries(table)) }
     }
 
+    /// Returns the node of `table`, values without a text.
+    pub(crate) fn of_table(table: &toml::Table) -> Self {
+        let mut entries: Vec<Entry> = table
+            .iter()
+            .map(|(key, value)| Entry { key: key.clone(), span: 0..0, node: Self::of_value(value) })
+            .collect();
+        entries.sort_by(|a, b| a.key.cmp(&b.key));
+        Self { span: 0..0, text: None, value: Value::Table(entries) }
+    }
+
+    /// Returns the node of `value`, which has no text.
+    fn of_value(value: &toml::Value) -> Self {
+        let value = match value {
+            toml::Value::String(text) => Value::Text(text.clone()),
+            toml::Value::Integer(number) => Value::Integer(*number),
+            toml::Value::Float(number) => Value::Float(*number),
+            toml::Value::Boolean(flag) => Value::Flag(*flag),
+            toml::Value::Datetime(_) => Value::Date,
+            toml::Value::Array(list) => Value::List(list.iter().map(Self::of_value).collect()),
+            toml::Value::Table(table) => return Self::of_table(table),
+        };
+        Self { span: 0..0, text: None, value }
+    }
+
     /// Returns the node of `value`.
     fn new(value: &Spanned<DeValue<'_>>) -> Self {
         let span = value.span();

@@ -9,6 +9,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
+use crate::figure::figure;
 use crate::given::{Dimension, Given, TextOr};
 use crate::unit::Quantity;
 
@@ -182,9 +183,11 @@ impl Transform for WithoutNull {
     fn transform(&mut self, schema: &mut Schema) {
         transform_subschemas(self, schema);
         let Some(object) = schema.as_object_mut() else { return };
-        if object.get("default").is_some_and(Value::is_null) {
+        if object.get("default").is_some_and(|value| value.is_null() || value.is_object()) {
             object.remove("default");
         }
+        with_unit_of_default(object);
+        with_enum(object);
 
         // An optional value has the types `[T, null]`, which becomes `T`.
         if let Some(Value::Array(kinds)) = object.get_mut("type") {
@@ -207,6 +210,28 @@ impl Transform for WithoutNull {
                 }
             }
         }
+    }
+}
+
+/// Writes the default of a length, which is in m, with its unit: bare lengths are in the unit of the
+/// file.
+fn with_unit_of_default(schema: &mut Map<String, Value>) {
+    let is_length = schema.get("$ref").is_some_and(|name| name == "#/$defs/Length");
+    let Some(metres) = schema.get("default").and_then(Value::as_f64).filter(|_| is_length) else {
+        return;
+    };
+    let millimetres =
+        if metres == 0.0 { json!(0) } else { json!(format!("{} mm", figure(1e3 * metres))) };
+    schema.insert("default".into(), millimetres);
+}
+
+/// Writes words that each have a description as one list.
+fn with_enum(schema: &mut Map<String, Value>) {
+    let choices = schema.get("oneOf").and_then(Value::as_array).into_iter().flatten();
+    let words: Option<Vec<Value>> = choices.map(|choice| choice.get("const").cloned()).collect();
+    if let Some(words) = words.filter(|words| !words.is_empty()) {
+        schema.remove("oneOf");
+        schema.insert("enum".into(), Value::Array(words));
     }
 }
 

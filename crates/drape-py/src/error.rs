@@ -38,9 +38,10 @@ pub(crate) fn input(mistakes: &Diagnostics) -> PyErr {
                 one.subject.iter().flat_map(Subject::names).collect();
             let edits: PyResult<Vec<_>> = one.edits.iter().map(edit).collect();
             let (message, help) = (&one.message, &one.help);
+            let key = one.key.as_ref().map(ToString::to_string);
             module
                 .getattr("Mistake")?
-                .call1((file, one.line, one.column, message, help, subject, edits?))
+                .call1((file, one.line, one.column, message, help, subject, edits?, key))
         };
         let list: PyResult<Vec<_>> = mistakes.0.iter().map(mistake).collect();
         module.getattr("InputError")?.call1((mistakes.to_string(), list?))

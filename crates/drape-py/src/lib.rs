@@ -7,7 +7,7 @@
 //! * `error`: mistakes and failures as exceptions;
 //! * `detached`: work on other threads, without the lock of the interpreter, which Ctrl-C ends;
 //! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of other programs;
-//! * `scene`: scenes and their runs; `stepping`: a simulation step by step; `recording`: runs that
+//! * `spec`: specs of scenes made of Python objects; `scene`: scenes and their runs; `stepping`: a simulation step by step; `recording`: runs that
 //!   were stored; `instruments`: drapemeters and the validation; `array`: NumPy arrays of numbers.
 
 mod array;
@@ -18,6 +18,7 @@ mod fit;
 mod instruments;
 mod recording;
 mod scene;
+mod spec;
 mod stepping;
 
 /// Extension module.
@@ -33,6 +34,8 @@ mod _drape {
     use crate::recording::{Recording, view_html};
     #[pymodule_export]
     use crate::scene::{Scene, resume};
+    #[pymodule_export]
+    use crate::spec::{Mesh, MeshFrames};
     #[pymodule_export]
     use crate::stepping::Simulation;
 }

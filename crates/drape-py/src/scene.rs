@@ -6,20 +6,22 @@ use std::sync::Mutex;
 use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
 use drape::input::Document;
 use drape::run::file::FileKind;
-use drape::run::{FolderRun, Goal, Limits, ResumableRun, RunOptions, RunRequest, Watcher, end_at};
-use pyo3::exceptions::PyValueError;
+use drape::run::{
+    FolderRun, Goal, Limits, PlacedSpec, ResumableRun, RunOptions, RunRequest, Watcher, end_at,
+};
+use drape::scene::SceneSpec;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::array::rows;
 use crate::detached::{Detached, Outbox};
 use crate::error::{Kind, failure, input, of_dynamics, of_run, of_scene, warn};
+use crate::spec::{self, Held};
 
 /// Scene that was read and checked.
 #[pyclass(frozen, module = "drape._drape")]
 pub(crate) struct Scene {
-    document: Document,
-    /// Documents that it names and that have no file.
-    others: Vec<Document>,
+    origin: Origin,
     /// File that it was read from; a text has none.
     file: Option<PathBuf>,
     name: String,
@@ -28,6 +30,25 @@ pub(crate) struct Scene {
     notes: Vec<String>,
     /// The scene as it was checked, until a run takes it.
     checked: Mutex<Option<drape::scene::Scene>>,
+}
+
+/// What a scene is made of.
+enum Origin {
+    /// Text, with the documents that it names and that have no file.
+    Text { document: Document, others: Vec<Document> },
+    /// Spec that was made of keys.
+    Spec(Box<PlacedSpec>),
+}
+
+impl Origin {
+    /// Checks the scene.
+    fn check(&self) -> PyResult<drape::scene::Scene> {
+        match self {
+            Self::Text { document, others } => drape::run::scene_of_documents(document, others),
+            Self::Spec(placed) => drape::run::scene_of_spec(placed),
+        }
+        .map_err(of_scene)
+    }
 }
 
 /// Settings of a run.
@@ -155,8 +176,8 @@ impl RunSettings {
 }
 
 impl Scene {
-    fn new(document: Document, others: Vec<Document>, file: Option<PathBuf>) -> PyResult<Self> {
-        let scene = drape::run::scene_of_documents(&document, &others).map_err(of_scene)?;
+    fn new(origin: Origin, file: Option<PathBuf>) -> PyResult<Self> {
+        let scene = origin.check()?;
         let panels = scene.panels.iter().map(|panel| {
             let range = panel.particles();
             (panel.name.clone(), range.start, range.end)
@@ -168,8 +189,7 @@ impl Scene {
             panels: panels.collect(),
             notes: notes.cloned().collect(),
             checked: Mutex::new(Some(scene)),
-            document,
-            others,
+            origin,
             file,
         })
     }
@@ -179,9 +199,7 @@ impl Scene {
         let checked = self.checked.lock().ok().and_then(|mut checked| checked.take());
         let mut scene = match checked {
             Some(scene) => scene,
-            None => {
-                drape::run::scene_of_documents(&self.document, &self.others).map_err(of_scene)?
-            }
+            None => self.origin.check()?,
         };
         if let Some(end) = until {
             // A scene that is refused is checked still.
@@ -197,26 +215,38 @@ impl Scene {
     fn read(path: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
         FileKind::expect(&path, &[FileKind::Scene]).map_err(|mistakes| input(&mistakes))?;
         let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
-        Self::new(document.allowing(&allow), Vec::new(), Some(path))
+        let document = document.allowing(&allow);
+        Self::new(Origin::Text { document, others: Vec::new() }, Some(path))
     }
 
-    /// Makes a scene of documents, by their paths in a folder: its own text is the first, and it
-    /// names the others.
+    /// Makes a scene of a `text`, whose files are seen from `folder`.
     #[staticmethod]
     fn from_toml(
         py: Python<'_>,
-        documents: Vec<(PathBuf, String)>,
+        text: String,
         folder: PathBuf,
         allow: Vec<PathBuf>,
     ) -> PyResult<Self> {
-        let documents = documents.into_iter();
-        let mut others: Vec<Document> =
-            documents.map(|(path, text)| Document::new(folder.join(path), text)).collect();
-        if others.is_empty() {
-            return Err(PyValueError::new_err("a scene has a text"));
-        }
-        let document = others.remove(0).allowing(&allow);
-        py.detach(|| Self::new(document, others, None))
+        let document = Document::new(folder.join("<text>"), text).allowing(&allow);
+        py.detach(|| Self::new(Origin::Text { document, others: Vec::new() }, None))
+    }
+
+    /// Makes a scene of the keys in `table`, whose files are seen from `folder`. Names of `held` in
+    /// the table stand for the things that `held` has.
+    #[staticmethod]
+    fn from_keys(
+        py: Python<'_>,
+        table: &Bound<'_, PyDict>,
+        held: Held,
+        folder: PathBuf,
+        allow: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        let document = spec::document(Path::new(""), table)?;
+        let decoded = SceneSpec::with_faults(&document);
+        let (mut spec, faults) = decoded.map_err(|mistakes| input(&mistakes))?;
+        spec::hold(py, &mut spec, &held)?;
+        let placed = PlacedSpec { spec, faults, folder, allowed: allow };
+        py.detach(|| Self::new(Origin::Spec(Box::new(placed)), None))
     }
 
     #[getter]
@@ -237,8 +267,13 @@ impl Scene {
         self.notes.clone()
     }
 
-    fn to_toml(&self) -> &str {
-        self.document.text()
+    fn to_toml(&self) -> PyResult<String> {
+        match &self.origin {
+            Origin::Text { document, .. } => Ok(document.text().to_owned()),
+            Origin::Spec(placed) => placed.spec.to_toml().map_err(|error| {
+                failure(Kind::Usage, format!("{error}, with SceneBuilder.save(path)"))
+            }),
+        }
     }
 
     /// Runs the scene; returns its summary as JSON.

@@ -14,6 +14,6 @@ pub use folder::{
     describe_needs, end_at,
 };
 pub use scene_fabric::{
-    NamedCurve, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of, scene_of_documents,
-    scene_or_refused,
+    NamedCurve, PlacedSpec, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of,
+    scene_of_documents, scene_of_spec, scene_or_refused,
 };

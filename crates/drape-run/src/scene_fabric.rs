@@ -3,13 +3,13 @@
 
 mod mistake;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use drape_fabric::Fabric;
 use drape_fit::{FitSettings, LoopModel, identify_with};
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, Faults};
 use drape_kes::Sheet;
-use drape_scene::{FabricRequest, Model, Refused, Scene, is_fabric};
+use drape_scene::{FabricRequest, Model, Refused, Scene, SceneSpec, Sources, is_fabric};
 
 use crate::file::FileKind;
 
@@ -48,6 +48,29 @@ pub fn scene_of_documents(
 ) -> Result<Scene, drape_scene::Error> {
     FileKind::expect_document(document, &[FileKind::Scene])?;
     Scene::from_documents_with(document, others, &scene_fabric)
+}
+
+/// Spec of a scene that a program made, and where the files are that it names.
+#[derive(Debug, Clone)]
+pub struct PlacedSpec {
+    /// The spec.
+    pub spec: SceneSpec,
+    /// Mistakes of the keys that the spec was made of.
+    pub faults: Faults,
+    /// Folder from which names of files are seen.
+    pub folder: PathBuf,
+    /// Files and folders outside of `folder` that the spec may name.
+    pub allowed: Vec<PathBuf>,
+}
+
+/// Returns the scene of `placed`, as [`scene_of`] does for a text.
+///
+/// # Errors
+/// Errors of [`read_scene`].
+pub fn scene_of_spec(placed: &PlacedSpec) -> Result<Scene, drape_scene::Error> {
+    let PlacedSpec { spec, faults, folder, allowed } = placed;
+    let sources = Sources { allowed, fabrics: &scene_fabric, ..Sources::new(folder) };
+    spec.build_or_refused(&sources, faults.clone()).map_err(|refused| refused.error)
 }
 
 /// Returns the scene of a `document`, as [`scene_of`] does. A refusal contains the mistakes, and

@@ -58,15 +58,20 @@ impl SceneSpec {
     /// # Errors
     /// The errors of [`build`](Self::build), and the mistakes of files.
     pub fn build_with(&self, sources: &Sources<'_>) -> Result<Scene, Error> {
-        self.build_or_refused(sources).map_err(|refused| refused.error)
+        self.build_or_refused(sources, Faults::default()).map_err(|refused| refused.error)
     }
 
     /// Makes a scene as [`build_with`](Self::build_with) does. What is refused has the scene beside
-    /// its mistakes where it could be made, to be shown.
+    /// its mistakes where it could be made, to be shown. The mistakes contain `faults`, the mistakes
+    /// of the document that the spec was read from.
     ///
     /// # Errors
     /// The errors of [`build_with`](Self::build_with).
-    pub fn build_or_refused(&self, sources: &Sources<'_>) -> Result<Scene, Box<Refused>> {
+    pub fn build_or_refused(
+        &self,
+        sources: &Sources<'_>,
+        faults: Faults,
+    ) -> Result<Scene, Box<Refused>> {
         /// Name that stands for the file that a spec does not have.
         const NO_FILE: &str = "<scene>";
 
@@ -75,7 +80,7 @@ impl SceneSpec {
         let implied = Document::new(&path, text).allowing(sources.allowed);
         let documents =
             Documents { scene: &implied, others: sources.documents, fabrics: sources.fabrics };
-        self.scene(&documents, Faults::default()).map_err(|refused| refused.without_file(&path))
+        self.scene(&documents, faults).map_err(|refused| refused.without_file(&path))
     }
 
     /// Returns the scene of the spec, which the document of `documents` says, with its coarser

@@ -81,7 +81,7 @@ pub struct SceneSpec {
     /// Unit of all lengths of the file that stand without one, and of meshes without a `scale`.
     #[serde(default)]
     pub length: LengthUnit,
-    /// Distance between particles; 10 mm if missing.
+    /// Distance between particles.
     #[schemars(transform = drape_input::between(1e-6, 1e2))]
     #[serde_as(as = "Length")]
     #[serde(default = "spacing")]

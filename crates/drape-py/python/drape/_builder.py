@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ _KINDS = ("sphere", "box", "cylinder", "plane", "mesh")
 
 
 class SceneBuilder:
-    """Scene that is built key by key, into the TOML that a file of it would have.
+    """Scene that is built key by key. No text is written before `save`.
 
     Keywords are keys of the reference of scenes, whatever they are, and their values are numbers,
     texts, lists, dictionaries and NumPy arrays; a key with the value None is left out. Nothing is
@@ -45,7 +45,7 @@ class SceneBuilder:
         self._folder = path_of("SceneBuilder(folder=)", folder)
         self._allow = [Path(path) for path in allow]
         self._table: dict[str, Any] = plain(keys, "")
-        self._documents: dict[str, str] = {}
+        self._held: dict[str, Any] = {}
 
     def set(self, **keys: Any) -> SceneBuilder:
         """Sets keys of the scene itself, in place of those that it has."""
@@ -57,7 +57,7 @@ class SceneBuilder:
         if isinstance(source, Fit):
             source = source.fabric
         if isinstance(source, Fabric):
-            file = self._document("fabrics", name, ".toml", source.to_toml())
+            file = self._hold("fabrics", name, ".toml", source._inner)
         elif isinstance(source, str | os.PathLike):
             file = Path(source).as_posix()
         else:
@@ -75,8 +75,8 @@ class SceneBuilder:
     ) -> SceneBuilder:
         """Adds a garment: the file of a pattern, or the keys of one, and the fabric of its panels."""
         if isinstance(pattern, Mapping):
-            text = dumps(pattern)
-            file = self._document("patterns", str(keys.get("name", "pattern")), ".toml", text)
+            held = plain(pattern, "")
+            file = self._hold("patterns", str(keys.get("name", "pattern")), ".toml", held)
         else:
             file = Path(pattern).as_posix()
         return self._add("garment", {"pattern": file, "fabric": fabric} | keys)
@@ -134,17 +134,17 @@ class SceneBuilder:
         if corners.ndim != 2 or corners.shape[1] != 3 or not np.issubdtype(corners.dtype, np.integer):
             shape = f"of shape {corners.shape} and type {corners.dtype}"
             raise UsageError(f"{name!r} has faces {shape}; give (m, 3) numbers of vertices, from 0")
-        own: dict[str, Any] = {}
-        own["file"] = self._document("bodies", name, ".obj", _obj(places, corners))
+        mesh = _drape.Mesh(_rows(places, np.float64), _rows(corners, np.int64))
+        own: dict[str, Any] = {"file": self._hold("bodies", name, ".obj", mesh)}
         if frames is not None:
             moving = np.asarray(frames, dtype=np.float64)
             if moving.ndim != 3 or moving.shape[1:] != places.shape:
                 wanted = f"(f, {len(places)}, 3)"
                 raise UsageError(f"{name!r} has frames of shape {moving.shape}; give {wanted}, in m")
             stem = own["file"].removesuffix(".obj")
-            for number, frame in enumerate(moving):
-                self._documents[f"{stem}_{number}.obj"] = _obj(frame, corners)
             own["frames"] = f"{stem}_*.obj"
+            held = _drape.MeshFrames(_rows(moving, np.float64), len(places))
+            self._held[own["frames"]] = (mesh, held)
         if self._table.get("length", "m") != "m":
             own["scale"] = 1
         return self.body(name, "mesh", **(own | keys))
@@ -154,11 +154,12 @@ class SceneBuilder:
         return dumps(self._table)
 
     def scene(self) -> Scene:
-        """Checks the scene. Raises `InputError` with all mistakes, at the lines of `to_toml()`."""
-        documents = [(Path("<text>"), self.to_toml())]
-        documents += [(Path(file), text) for file, text in self._documents.items()]
-        inner = _drape.Scene.from_toml(documents, self._folder, self._allow)
-        return Scene(inner)
+        """Checks the scene. Raises `InputError` with all mistakes, each with its key."""
+        held = {
+            file: value[1] if isinstance(value, tuple) else value
+            for file, value in self._held.items()
+        }
+        return Scene(_drape.Scene.from_keys(self._table, held, self._folder, self._allow))
 
     def save(self, path: StrPath, *, replace: bool = False) -> None:
         """Writes the scene for the command, and its fabrics, patterns and bodies beside it.
@@ -168,7 +169,8 @@ class SceneBuilder:
         """
         path = Path(path)
         texts = {path: self.to_toml()}
-        texts |= {path.parent / file: text for file, text in self._documents.items()}
+        for file, value in self._held.items():
+            texts |= {path.parent / name: text for name, text in _texts(file, value)}
         there = [str(file) for file in texts if file.exists()]
         if there and not replace:
             raise UsageError(f"{', '.join(there)} exists; save elsewhere, or with replace=True")
@@ -181,19 +183,32 @@ class SceneBuilder:
         entries.append(plain(keys, f"{kind}[{len(entries)}]"))
         return self
 
-    def _document(self, folder: str, name: str, ending: str, text: str) -> str:
+    def _hold(self, folder: str, name: str, ending: str, value: object) -> str:
         stem = re.sub(r"[^\w-]+", "-", name) or "unnamed"
         file, number = f"{folder}/{stem}{ending}", 2
-        while file in self._documents:
+        while file in self._held:
             file, number = f"{folder}/{stem}-{number}{ending}", number + 1
-        self._documents[file] = text
+        self._held[file] = value
         return file
 
     def __repr__(self) -> str:
         return f"<drape.SceneBuilder {self._table.get('name', 'unnamed')!r}>"
 
 
-def _obj(vertices: npt.NDArray[np.float64], faces: npt.NDArray[Any]) -> str:
-    lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()]
-    lines += [f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces.tolist()]
-    return "".join(lines)
+def _rows(array: npt.NDArray[Any], dtype: type[Any]) -> npt.NDArray[Any]:
+    """Returns an array whose rows lie one after the other in memory; the same one if they do."""
+    return np.ascontiguousarray(array, dtype=dtype)
+
+
+def _texts(file: str, value: Any) -> Iterator[tuple[str, str]]:
+    """Returns the names and the texts of the files of a value that a scene holds."""
+    if isinstance(value, tuple):
+        mesh, frames = value
+        for number in range(len(frames)):
+            yield file.replace("*", str(number)), mesh.frame_to_obj(frames, number)
+    elif isinstance(value, _drape.Mesh):
+        yield file, value.to_obj()
+    elif isinstance(value, Mapping):
+        yield file, dumps(value)
+    else:
+        yield file, value.to_toml()

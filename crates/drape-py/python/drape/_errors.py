@@ -35,6 +35,8 @@ class Mistake:
     """Names of what it speaks of by their kinds: `{"panel": "front", "edge": "hem"}`."""
     edits: list[Edit] = field(default_factory=list)
     """Changes that make the remedy, all of them together; none where it is no such change."""
+    key: str | None = None
+    """Key path of the wrong value, as `--set` takes it: `panel[2].center`."""
 
 
 class Error(Exception):

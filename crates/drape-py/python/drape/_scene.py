@@ -93,8 +93,7 @@ class Scene:
         """Makes a scene of a text; its relative paths are seen from a folder. Raises `InputError`."""
         if not isinstance(text, str):
             raise refuse("Scene.from_toml", "a text", text, "drape.Scene.read(path) reads a file")
-        documents = [(Path("<text>"), text)]
-        return Scene(_drape.Scene.from_toml(documents, Path(folder), [Path(p) for p in allow]))
+        return Scene(_drape.Scene.from_toml(text, Path(folder), [Path(p) for p in allow]))
 
     @property
     def name(self) -> str:

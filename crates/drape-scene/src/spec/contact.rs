@@ -11,7 +11,7 @@ use serde_with::serde_as;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactSpec {
-    /// Activation distance, at which surfaces begin to repel each other; 1 mm if missing.
+    /// Activation distance, at which surfaces begin to repel each other.
     #[schemars(transform = drape_input::between(1e-5, 0.1))]
     #[serde_as(as = "Length")]
     pub offset: f64,
@@ -28,7 +28,7 @@ pub struct ContactSpec {
     /// not particles out of bodies only; `true`, but `false` with explicit steps and in the model
     /// `breen-1994`, if missing.
     pub surfaces: Option<bool>,
-    /// Displacement by which surfaces that stick give way before they slide; 5 µm if missing.
+    /// Displacement by which surfaces that stick give way before they slide.
     #[schemars(transform = drape_input::between(1e-9, 1e-2))]
     #[serde_as(as = "Length")]
     pub stick: f64,

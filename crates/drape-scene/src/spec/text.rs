@@ -112,8 +112,12 @@ impl SceneSpec {
         document.decode()
     }
 
-    /// Reads the spec of the scene `document` in spite of mistakes of spelling and type.
-    pub(crate) fn with_faults(document: &Document) -> Result<(Self, Faults), Diagnostics> {
+    /// Reads the spec of the scene `document` in spite of mistakes of spelling and type, which
+    /// [`build_or_refused`](Self::build_or_refused) reports together with all others.
+    ///
+    /// # Errors
+    /// Mistakes of grammar, and mistakes that leave no spec.
+    pub fn with_faults(document: &Document) -> Result<(Self, Faults), Diagnostics> {
         document.decode_with_faults()
     }
 
@@ -215,7 +219,8 @@ impl SceneSpec {
     }
 
     /// Returns the spec as a file in m says it: meshes without a `scale` have the unit of this spec.
-    pub(crate) fn in_metres(&self) -> Self {
+    #[must_use]
+    pub fn in_metres(&self) -> Self {
         let mut spec = self.clone();
         if spec.length != LengthUnit::M {
             let unit = spec.length.metres();

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use drape::dynamics::{PhaseName, Progress, Simulation, Status, Step};
 use drape::input::{Diagnostic, Diagnostics, Document, Edit, Setting};
-use drape::scene::{Error, Scene, spacings};
+use drape::scene::{Error, Scene, SceneSpec};
 use indicatif::ProgressBar;
 
 use crate::console::progress::bar;
@@ -114,7 +114,7 @@ fn with_centers(document: Document, centers: &[Edit]) -> Result<Document, Diagno
 
 /// Returns the `document` of a scene at the spacing of a trial, if the scene is finer.
 fn coarse(document: &Document) -> Result<Document, Diagnostics> {
-    let spacings = spacings(document)?;
+    let spacings = SceneSpec::from_document(document)?.spacings();
     let finest = spacings.iter().map(|spacing| spacing.value).fold(f64::INFINITY, f64::min);
     let factor = (SPACING / finest).max(1.0);
     let settings: Vec<Setting> = spacings.iter().map(|spacing| spacing.scaled(factor)).collect();
