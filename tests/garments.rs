@@ -325,7 +325,7 @@ fn mistakes_in_a_garment_are_reported_with_their_place_and_a_remedy() {
     let pin = "[settle]\n[[pin]]\npanel = \"left\"\nedge = \"hem\"\nuntil = \"sown\"\n";
     refused("[settle]\n", pin, &["no \"sown\"", "sewn"]);
     refused("[settle]\n", "[settle]\n[sew]\nseconds = -1\n", &["sew.seconds"]);
-    refused("[settle]\n", "[solver]\nintegrator = \"explicit\"\n", &["cannot sew"]);
+    refused("[settle]\n", "[solver]\nlinear = \"cholesky\"\n", &["is no part of a scene"]);
     refused("[settle]\n", "[motion]\nseconds = 1\n", &["not asked to come to rest"]);
 }
 

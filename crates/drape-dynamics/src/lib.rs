@@ -27,5 +27,5 @@ pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;
 pub use simulation::saved::SavedSimulation;
 pub use simulation::{Simulation, Step};
-pub use stepping::Scheme;
+pub use stepping::{ReferenceScheme, Scheme};
 pub use world::{Energy, PinLoad};

@@ -37,7 +37,9 @@ use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
 use crate::stepping::statistics::Statistics;
-use crate::stepping::{AcceptedStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
+use crate::stepping::{
+    AcceptedStep, PhaseSteps, ReferenceScheme, RestDetector, Scheme, StepMotion, Stepping,
+};
 use crate::world::{Energy, PinLoad, World};
 
 /// Unit of imbalances, in m/s².
@@ -180,6 +182,20 @@ impl Simulation {
     /// When the solver cannot be set up.
     pub fn new(scene: Scene) -> Result<Self, Error> {
         let scheme = Scheme::new(&scene.solver);
+        Self::with_scheme(scene, scheme)
+    }
+
+    /// Prepares the simulation of `scene` with the scheme `reference`, which checks the schemes that
+    /// a scene can ask for.
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] when the scheme cannot simulate the scene: only `Cholesky` keeps surfaces
+    /// apart, and explicit steps neither sew nor come to rest.
+    pub fn with_reference_scheme(scene: Scene, reference: ReferenceScheme) -> Result<Self, Error> {
+        if let Some(objection) = reference.objection(&scene) {
+            return Err(Error::Unsuited { reason: objection.to_owned() });
+        }
+        let scheme = Scheme::reference(reference, &scene.solver);
         Self::with_scheme(scene, scheme)
     }
 

@@ -37,7 +37,7 @@ use self::step_control::StepControl;
 
 pub(crate) use self::phase_steps::PhaseSteps;
 pub(crate) use self::rest::{RestDetector, StepMotion};
-pub use self::scheme::Scheme;
+pub use self::scheme::{ReferenceScheme, Scheme};
 
 /// Integration of a world in time.
 #[derive(Debug)]

@@ -29,6 +29,7 @@ use serde::de::DeserializeOwned;
 
 use crate::diagnostic::Diagnostic;
 use crate::node::Node;
+use crate::node::key_path::KeyPath;
 
 pub(crate) use self::state::{Change, Fault};
 
@@ -68,6 +69,19 @@ impl Faults {
             .map_while(|covered| covered.strip_prefix(key));
         let is_around = longer.any(|rest| rest.is_empty() || rest.starts_with(['.', '[']));
         is_inside || is_around
+    }
+
+    /// Replaces the message of the mistake at `key`, if there is one, by the message, the remedy and
+    /// the edits of `answer`.
+    pub fn explain(&mut self, key: &str, answer: &Diagnostic) {
+        let path = KeyPath::from(key);
+        for mistake in &mut self.mistakes {
+            if mistake.key.as_ref() == Some(&path) {
+                mistake.message.clone_from(&answer.message);
+                mistake.help.clone_from(&answer.help);
+                mistake.edits.clone_from(&answer.edits);
+            }
+        }
     }
 
     /// Returns the mistakes as a list of [`Diagnostic`]s.

@@ -352,6 +352,12 @@ impl Document {
         located
     }
 
+    /// Returns the value at the key path `key`, if it is a text.
+    #[must_use]
+    pub fn text_at(&self, key: &str) -> Option<String> {
+        self.find(key).filter(|located| located.is_value)?.node.as_text()
+    }
+
     /// Returns the text of the value at the key path `key`, or `None` if the text has no such value.
     #[must_use]
     pub fn written(&self, key: &str) -> Option<&str> {

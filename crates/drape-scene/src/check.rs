@@ -84,7 +84,7 @@ pub(crate) fn check(
     let relaxation = time::relaxation(checker, spacing.min(1.0));
     time::refinement(checker);
     let motion_seconds = time::motion_seconds(checker);
-    let solver = solver::solver(checker);
+    let solver = solver::solver(spec);
     let environment = environment(checker);
     let bodies = body::bodies(checker);
     check_distance(checker, &placed[plain..], &bodies);

@@ -33,7 +33,7 @@ pub use scene::panel::{Panel, PanelEdge};
 pub use scene::pin::{HeldParticle, HoldUntil, Pin};
 pub use scene::relaxation::Relaxation;
 pub use scene::seam::{Seam, SeamConstraint, SeamPairs, SeamWeight};
-pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
+pub use scene::solver::{Integrator, Method, SolverSettings};
 pub use scene::{
     Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, SourcePart, Start, View,
 };

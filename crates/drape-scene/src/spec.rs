@@ -29,7 +29,6 @@ use serde::{Deserialize, Serialize};
 use serde_with::serde_as;
 
 use crate::scene::model::Model;
-use crate::scene::solver::Integrator;
 
 use self::body::ColliderSpec;
 use self::contact::ContactSpec;
@@ -213,16 +212,10 @@ pub struct FabricSpec {
 }
 
 impl SceneSpec {
-    /// Whether surfaces are kept apart: if the scene does not say, wherever steps can be limited.
-    /// Explicit steps cannot, and the particles of Breen's model repel each other at a spacing.
+    /// Returns whether surfaces are kept apart: if the scene does not say, unless it has Breen's
+    /// model, whose particles repel each other at a spacing.
     pub(crate) fn keeps_surfaces_apart(&self) -> bool {
-        let cannot = self.is_explicit() || self.is_breen();
-        self.contact.surfaces.unwrap_or(!cannot)
-    }
-
-    /// Returns whether the integrator is explicit.
-    pub(crate) fn is_explicit(&self) -> bool {
-        self.solver.integrator == Integrator::Explicit
+        self.contact.surfaces.unwrap_or(!self.is_breen())
     }
 
     /// Returns whether the scene has Breen's model.

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use drape_input::Document;
-use drape_scene::{Error, Integrator, LinearSolver, Method, Scene, View};
+use drape_scene::{Error, Integrator, Method, Scene, View};
 
 const FABRIC: &str = r#"name = "plain"
 density = 0.12
@@ -65,7 +65,7 @@ fn what_is_not_said_has_its_default() {
     assert!(scene.solver.energy_balance);
     let solver = scene.solver;
     assert_eq!((solver.integrator, solver.method), (Integrator::Bdf2, Method::Broyden));
-    assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::ConjugateGradient, 1e-4));
+    assert_eq!(solver.tolerance, 1e-4);
     assert_eq!(scene.output.folder, None);
     assert!(!scene.held_particles().iter().any(|held| *held));
     // The middle of the panel is at the origin.
@@ -78,7 +78,6 @@ fn surfaces_are_kept_apart_wherever_that_can_be() {
     let kept = |more: &str| read(&format!("{more}\n{LEAST}")).unwrap().contact.surfaces;
     assert!(kept(""));
     assert!(!kept("contact.surfaces = false"));
-    assert!(!kept("solver.integrator = \"explicit\""));
     assert!(!kept("model = \"breen-1994\""));
     assert!(kept("model = \"breen-1994\"\ncontact.surfaces = true"));
 }
@@ -140,7 +139,6 @@ ramp = 0.5
 [solver]
 integrator = "backward-euler"
 method = "newton"
-linear = "cholesky"
 tolerance = 1e-6
 [output]
 folder = "here"
@@ -170,7 +168,7 @@ energy = false
     assert_eq!((clock.error, clock.ramp, clock.ticks_per_frame), (Some(1e-4), 0.5, 80));
     let solver = scene.solver;
     assert_eq!((solver.integrator, solver.method), (Integrator::BackwardEuler, Method::Newton));
-    assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::Cholesky, 1e-6));
+    assert_eq!(solver.tolerance, 1e-6);
     assert!(!solver.energy_balance);
     let view = View { azimuth: Some(10.0), elevation: Some(20.0) };
     assert_eq!((scene.output.folder, scene.output.view), (Some("here".into()), view));
@@ -263,8 +261,6 @@ fn rest_is_defined_by_its_table() {
     let settle = read(&text).unwrap().schedule.relaxation.unwrap();
     assert_eq!((settle.speed, settle.residual, settle.stride), (0.01, 1e-2, 0.001));
     assert!(settle.inertia);
-    let scene = read(&with("", "[solver]\nintegrator = \"explicit\"")).unwrap();
-    assert_eq!(scene.solver.integrator, Integrator::Explicit);
 }
 
 #[test]
@@ -353,26 +349,15 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
 }
 
 #[test]
-fn explicit_steps_neither_settle_nor_vary() {
-    let text = with("", "[settle]\n[solver]\nintegrator = \"explicit\"");
-    assert!(read(&text).expect_err("refused").to_string().contains("one length"));
-}
-
-#[test]
-fn a_fabric_has_the_colour_that_the_scene_states() {
-    let with = |line: &str| LEAST.replacen('\n', &format!("\n{line}\n"), 1);
-    for key in ["colour", "color"] {
-        let scene = read(&with(&format!("fabric.plain.{key} = \"#b03A2e\"")));
-        assert_eq!(scene.expect("a scene").materials[0].colour, Some([0xb0, 0x3a, 0x2e]), "{key}");
-    }
-    assert_eq!(read(LEAST).expect("a scene").materials[0].colour, None);
-    for bad in ["red", "#b03", "b03a2e", "#+03a2e", "#b03a2e80", "#éa2e", ""] {
-        let mistakes = read(&with(&format!("fabric.plain.colour = \"{bad}\""))).expect_err(bad);
-        let text = mistakes.to_string();
-        assert!(text.contains("fabric.plain.colour") && text.contains("is no colour"), "{text}");
-        // The remedy that the message names is taken.
-        let (_, remedy) = text.split_once("such as ").expect("a remedy");
-        let remedy = remedy.lines().next().expect("a line");
-        assert!(read(&with(&format!("fabric.plain.{remedy}"))).is_ok(), "{remedy}");
+fn schemes_for_comparison_are_no_part_of_a_scene() {
+    for wrong in
+        ["integrator = \"explicit\"", "method = \"textbook-mass\"", "linear = \"cholesky\""]
+    {
+        let error =
+            read(&with("", &format!("[solver]\n{wrong}"))).expect_err("refused").to_string();
+        assert!(
+            error.contains("with_reference_scheme") && error.contains("leave it out"),
+            "{error}"
+        );
     }
 }

@@ -4,7 +4,7 @@ use drape_implicit::{
     Error, Explicit, InitialMatrix, Integrator, IntegratorState, LinearSolver, Method, Report,
     Settings, StepFilter, Stepper, System,
 };
-use drape_scene::SolverSettings;
+use drape_scene::{Scene, SolverSettings};
 
 /// Sampling of the energy balance: the dissipation of the integrator is computed in one of this
 /// number of sub-steps. Computed in all sub-steps, a run took 2.6 times as long where surfaces
@@ -16,6 +16,38 @@ const ENERGY_SAMPLING: u64 = 32;
 /// residuals instead, a curtain of 40 000 particles took 14.1 s rather than 10.8 s, a T-shirt 62 s
 /// rather than 52 s, and a skirt 70 s rather than 58 s.
 pub(crate) const ENERGY_FORCING: f64 = 0.01;
+
+/// Scheme that checks the others, for tests and comparisons. No scene asks for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReferenceScheme {
+    /// Semi-implicit Euler, each step in as many parts as stability requires.
+    Explicit,
+    /// Broyden's method begun with the masses, as textbooks have it.
+    TextbookMass,
+    /// Broyden's method begun with the diagonal of the system matrix.
+    TextbookDiagonal,
+    /// The scheme of the scene, with a sparse Cholesky factorisation in place of conjugate
+    /// gradients.
+    Cholesky,
+}
+
+impl ReferenceScheme {
+    /// Returns why the scheme cannot simulate `scene`, or `None` if it can.
+    pub(crate) fn objection(self, scene: &Scene) -> Option<&'static str> {
+        let varies = scene.schedule.relaxation.is_some() || scene.schedule.clock.error.is_some();
+        match self {
+            Self::Cholesky => None,
+            _ if scene.contact.surfaces => Some(
+                "its steps cannot be limited so that surfaces stay apart: set contact.surfaces = false",
+            ),
+            Self::Explicit if varies => {
+                Some("explicit steps are of one length: leave out [settle] and time.error")
+            }
+            Self::Explicit if scene.sewing.is_some() => Some("explicit steps cannot sew"),
+            _ => None,
+        }
+    }
+}
 
 /// Scheme by which a scene is integrated in time.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,31 +66,39 @@ impl Scheme {
         let integrator = match solver.integrator {
             drape_scene::Integrator::Bdf2 => Integrator::Bdf2,
             drape_scene::Integrator::BackwardEuler => Integrator::BackwardEuler,
-            drape_scene::Integrator::Explicit => return Self::Explicit,
         };
         let method = match solver.method {
             drape_scene::Method::Broyden => Method::Broyden,
             drape_scene::Method::Newton => Method::Newton,
-            drape_scene::Method::TextbookMass => Method::Textbook { initial: InitialMatrix::Mass },
-            drape_scene::Method::TextbookDiagonal => {
-                Method::Textbook { initial: InitialMatrix::Diagonal }
-            }
-        };
-        let linear_solver = match solver.linear_solver {
-            drape_scene::LinearSolver::ConjugateGradient => LinearSolver::ConjugateGradient,
-            drape_scene::LinearSolver::Cholesky => LinearSolver::Cholesky,
         };
 
         Self::Implicit(Settings {
             integrator,
             method,
-            linear_solver,
             tolerance: solver.tolerance,
             error_fraction: solver.error_fraction,
             energy_forcing: if solver.error_fraction > 0.0 { ENERGY_FORCING } else { 0.0 },
             energy_balance: solver.energy_balance,
             energy_sampling: ENERGY_SAMPLING,
             ..Settings::default()
+        })
+    }
+
+    /// Returns the scheme `reference`, with the other settings `solver` of a scene.
+    pub(crate) fn reference(reference: ReferenceScheme, solver: &SolverSettings) -> Self {
+        let Self::Implicit(settings) = Self::new(solver) else { return Self::Explicit };
+        let textbook = |initial| Method::Textbook { initial };
+        Self::Implicit(match reference {
+            ReferenceScheme::Explicit => return Self::Explicit,
+            ReferenceScheme::TextbookMass => {
+                Settings { method: textbook(InitialMatrix::Mass), ..settings }
+            }
+            ReferenceScheme::TextbookDiagonal => {
+                Settings { method: textbook(InitialMatrix::Diagonal), ..settings }
+            }
+            ReferenceScheme::Cholesky => {
+                Settings { linear_solver: LinearSolver::Cholesky, ..settings }
+            }
         })
     }
 

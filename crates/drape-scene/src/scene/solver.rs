@@ -10,8 +10,6 @@ pub struct SolverSettings {
     pub integrator: Integrator,
     /// Iteration that solves the equations of an implicit step.
     pub method: Method,
-    /// Solver of the linear systems of that iteration.
-    pub linear_solver: LinearSolver,
     /// Root-mean-square error of the acceleration that a step may leave, over g.
     pub tolerance: f64,
     /// Error that the solver may leave in a step, as a fraction of the step's own.
@@ -29,8 +27,6 @@ pub enum Integrator {
     Bdf2,
     /// Backward Euler, of first order.
     BackwardEuler,
-    /// Many small explicit steps in each: they check the implicit steps, and are too slow for more.
-    Explicit,
 }
 
 /// Iteration that solves the equations of an implicit step.
@@ -42,19 +38,4 @@ pub enum Method {
     Broyden,
     /// Newton's method.
     Newton,
-    /// Broyden's method begun with the masses.
-    TextbookMass,
-    /// Broyden's method begun with the diagonal of the system matrix.
-    TextbookDiagonal,
-}
-
-/// Solver of the linear systems.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LinearSolver {
-    /// Preconditioned conjugate gradients.
-    #[default]
-    ConjugateGradient,
-    /// Sparse Cholesky factorisation.
-    Cholesky,
 }

@@ -25,8 +25,7 @@ pub struct ContactSpec {
     #[serde_as(as = "Speed")]
     pub slip_speed: f64,
     /// Whether surfaces are kept apart, so that cloth never passes through itself or bodies, and
-    /// not particles out of bodies only; `true`, but `false` with explicit steps and in the model
-    /// `breen-1994`, if missing.
+    /// not particles out of bodies only; `true`, but `false` in the model `breen-1994`, if missing.
     pub surfaces: Option<bool>,
     /// Displacement by which surfaces that stick give way before they slide.
     #[schemars(transform = drape_input::between(1e-9, 1e-2))]

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::serde_as;
 
-use crate::scene::solver::{Integrator, LinearSolver, Method};
+use crate::scene::solver::{Integrator, Method};
 
 /// Steps and the end of the run.
 #[serde_as]
@@ -128,14 +128,10 @@ pub struct MotionPhaseSpec {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SolverSpec {
-    /// Formula of the steps: `bdf2`, `backward-euler`, or `explicit`, semi-implicit Euler in as
-    /// many parts as stability requires.
+    /// Formula of the steps.
     pub integrator: Integrator,
-    /// Method for the equations of a step: `broyden` and `newton`; `textbook-mass` and
-    /// `textbook-diagonal` are there for comparison.
+    /// Method for the equations of a step.
     pub method: Method,
-    /// Solver of linear systems.
-    pub linear: LinearSolver,
     /// Root mean square error of the acceleration at which a step is solved, as a fraction of g.
     #[schemars(extend("default" = 1e-4))]
     #[schemars(transform = drape_input::within(1e-10, 0.1))]

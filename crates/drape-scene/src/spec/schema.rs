@@ -10,7 +10,7 @@ pub fn scene_schema() -> Value {
     let about = "Scene of drape: cloth, bodies, contact, time. Lengths are in the unit of the file, y is up.";
     let conditions = json!({
         "dependentRequired": { "motion": ["settle"] },
-        "allOf": [steps_vary(), steps_in_time(), explicit_steps(), limited_steps(), edges()],
+        "allOf": [steps_vary(), steps_in_time(), edges()],
     });
     let Value::Object(conditions) = conditions else { return Value::Object(Map::new()) };
     drape_input::schema_of::<SceneSpec>("Scene of drape", about, conditions)
@@ -39,32 +39,6 @@ fn steps_in_time() -> Value {
     json!({
         "if": { "allOf": [{ "required": ["settle"] }, has("time", "error", json!(true))] },
         "then": { "anyOf": [{ "required": ["motion"] }, inertia] },
-    })
-}
-
-/// Explicit steps are of one length.
-fn explicit_steps() -> Value {
-    json!({
-        "if": has("solver", "integrator", json!({ "const": "explicit" })),
-        "then": { "not": { "anyOf": [{ "required": ["settle"] }, has("time", "error", json!(true))] } },
-    })
-}
-
-/// Explicit and textbook steps cannot be limited so that surfaces stay apart.
-fn limited_steps() -> Value {
-    let explicit = has("solver", "integrator", json!({ "const": "explicit" }));
-    let textbook = json!({ "enum": ["textbook-mass", "textbook-diagonal"] });
-    let particles =
-        json!({ "required": ["model"], "properties": { "model": { "const": "breen-1994" } } });
-    json!({
-        "if": { "anyOf": [explicit, has("solver", "method", textbook)] },
-        "then": { "anyOf": [
-            has("contact", "surfaces", json!({ "const": false })),
-            {
-                "anyOf": [explicit, particles],
-                "not": has("contact", "surfaces", json!(true)),
-            },
-        ] },
     })
 }
 

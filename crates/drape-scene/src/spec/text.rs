@@ -17,6 +17,18 @@ use crate::spec::{LengthUnit, SceneSpec};
 /// Heading of the texts that are written.
 const HEADING: &str = "# Scene of drape. Lengths are in m, y is up.\n\n";
 
+/// Keys and words by which a text could once ask for a scheme that is there to check the others. No
+/// words stand for all.
+const REFERENCE_SCHEMES: [(&str, &[&str]); 3] = [
+    ("solver.integrator", &["explicit"]),
+    ("solver.method", &["textbook-mass", "textbook-diagonal"]),
+    ("solver.linear", &[]),
+];
+
+/// Answer to these keys.
+const IS_REFERENCE: &str = "a scheme for comparison is no part of a scene; \
+                            `Simulation::with_reference_scheme` reaches it from Rust";
+
 /// Error of writing a spec.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -109,7 +121,9 @@ impl SceneSpec {
     /// # Errors
     /// All mistakes of grammar, spelling and type, with their places.
     pub fn from_document(document: &Document) -> Result<Self, Diagnostics> {
-        document.decode()
+        let (spec, faults) = Self::with_faults(document)?;
+        Diagnostics::check(faults.into_mistakes())?;
+        Ok(spec)
     }
 
     /// Reads the spec of the scene `document` in spite of mistakes of spelling and type, which
@@ -118,7 +132,15 @@ impl SceneSpec {
     /// # Errors
     /// Mistakes of grammar, and mistakes that leave no spec.
     pub fn with_faults(document: &Document) -> Result<(Self, Faults), Diagnostics> {
-        document.decode_with_faults()
+        let (spec, mut faults) = document.decode_with_faults()?;
+        for (key, words) in REFERENCE_SCHEMES {
+            let word = document.text_at(key);
+            if word.is_some_and(|word| words.is_empty() || words.contains(&word.as_str())) {
+                let answer = document.at(key, IS_REFERENCE).help("leave it out");
+                faults.explain(key, &answer.with_edits(document.edit(key, None)));
+            }
+        }
+        Ok((spec, faults))
     }
 
     /// Returns the spec as TOML, with lengths in m.

@@ -31,14 +31,9 @@ pub(crate) fn sewing_settings(checker: &mut Checker<'_>, is_plain: bool) -> Opti
         }
         return None;
     }
-    for (wrong, key, word) in [
-        (spec.is_explicit(), "solver.integrator", "explicit"),
-        (spec.is_breen(), "model", "breen-1994"),
-    ] {
-        if wrong {
-            let message = format!("\"{word}\" cannot sew");
-            checker.fail(key, message, "leave it out in a scene with seams");
-        }
+    if spec.is_breen() {
+        let help = "leave it out in a scene with seams";
+        checker.fail("model", "\"breen-1994\" cannot sew", help);
     }
     Some(SewingSettings { seconds, stiffness })
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use drape_dynamics::Simulation;
+use drape_dynamics::{ReferenceScheme, Simulation};
 use drape_fabric::{BendingLaw, Fabric};
 use drape_kes::Direction;
 use drape_scene::Scene;
@@ -92,7 +92,7 @@ impl Arc {
              [[pin]]\npanel = \"specimen\"\nedge = \"left\"\nrows = {rows}\n\
              [[pin]]\npanel = \"specimen\"\nedge = \"right\"\nrows = {rows}\nrelease = {:e}\n\
              [pin.motion]\ntimes = {times:?}\ncenter = [{:e}, 0, 0]\nshift = [{}]\nturn = [{}]\n\
-             [time]\nstep = {STEP}\nend = {:e}\n[solver]\nlinear = \"cholesky\"\n\
+             [time]\nstep = {STEP}\nend = {:e}\n[solver]\n\
              tolerance = 1e-5\n[output]\nenergy = false\n",
             self.length + (2.0 * rows - 3.0) * spacing,
             CELLS_ACROSS * spacing,
@@ -124,7 +124,7 @@ impl Arc {
         path.extend(back.map(|part| self.curvature * part));
         let scene = self.scene(fabric, direction, &path)?;
         let arm = lever_arm(&scene, self.length - 0.5 * self.spacing());
-        let mut simulation = Simulation::new(scene)?;
+        let mut simulation = Simulation::with_reference_scheme(scene, ReferenceScheme::Cholesky)?;
 
         // Between the last step with a moment and the first step without, the moment is linear.
         let (mut curvature_before, mut moment_before) = (f64::NAN, f64::NAN);
@@ -168,7 +168,7 @@ impl Arc {
             row.unwrap_or_default()
         });
 
-        let mut simulation = Simulation::new(scene)?;
+        let mut simulation = Simulation::with_reference_scheme(scene, ReferenceScheme::Cholesky)?;
         finish(&mut simulation)?;
         let positions = simulation.frame().positions;
         let [from, to] = ends.map(|row| &positions[3 * row..3 * row + 3]);
