@@ -8,6 +8,7 @@ use drape::input::Document;
 use drape::run::file::FileKind;
 use drape::run::{
     FolderRun, Goal, Limits, PlacedSpec, ResumableRun, RunOptions, RunRequest, Watcher, end_at,
+    scene_document,
 };
 use drape::scene::SceneSpec;
 use pyo3::prelude::*;
@@ -292,12 +293,19 @@ impl Scene {
                 Ok(simulation.run(&mut Unkept { reporter, goal })?)
             });
         };
-        let file = self.file.as_deref().unwrap_or(Path::new("-"));
+        let file = match (&self.file, &self.origin) {
+            (Some(file), _) => file.clone(),
+            (None, Origin::Spec(_)) => PlacedSpec::stored_path(folder),
+            (None, Origin::Text { .. }) => PathBuf::from("-"),
+        };
         let request = RunRequest {
             state_hash: settings.state_hash,
-            ..RunRequest::new(file, settings.until, settings.checkpoint_every)
+            ..RunRequest::new(&file, settings.until, settings.checkpoint_every)
         };
         let run = FolderRun::begin(scene, folder, &request, &run_options).map_err(of_run)?;
+        if let Origin::Spec(placed) = &self.origin {
+            placed.store(folder).map_err(of_run)?;
+        }
         settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))
     }
 }
@@ -319,7 +327,10 @@ pub(crate) fn resume(
             return Err(failure(Kind::Usage, message));
         }
         None => {
-            Scene::read(resumed.request.scene.clone(), Vec::new())?.take(resumed.request.until)?
+            let path = &resumed.request.scene;
+            let document = scene_document(path, &folder).map_err(|mistakes| input(&mistakes))?;
+            let origin = Origin::Text { document, others: Vec::new() };
+            Scene::new(origin, Some(path.clone()))?.take(resumed.request.until)?
         }
     };
     let (run, notes) = resumed.go_on(scene, &settings.run_options(&detached)?).map_err(of_run)?;

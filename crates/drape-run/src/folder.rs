@@ -16,6 +16,7 @@ mod request;
 mod resumable_run;
 mod space;
 mod status;
+mod stored_spec;
 
 pub use error::Error;
 pub use folder_run::{EndedRun, FolderRun, end_at};
@@ -25,3 +26,4 @@ pub use options::{RunOptions, Watcher};
 pub use request::RunRequest;
 pub use resumable_run::ResumableRun;
 pub use space::describe_needs;
+pub use stored_spec::scene_document;

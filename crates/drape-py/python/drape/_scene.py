@@ -167,7 +167,7 @@ def resume(
     have had; or with one that has ended, for `extend` seconds beyond its end. `run` is its folder.
 
     A run goes on where it was begun: the command cannot go on with a run of this package, nor this
-    package with one of the command. `scene` is needed for one that was a text. Raises as
+    package with one of the command. `scene` is needed for a run of `Scene.from_toml`. Raises as
     `Scene.run`, and `InputError` for a scene that has changed.
     """
     if isinstance(run, Run):

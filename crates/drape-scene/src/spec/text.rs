@@ -233,6 +233,28 @@ impl SceneSpec {
         write("scene.toml", &format!("{HEADING}{}", spec.text()))
     }
 
+    /// Returns the spec with the names of its files, which are seen from `folder`, as paths from the
+    /// root of the file system.
+    #[must_use]
+    pub fn with_whole_paths(&self, folder: &Path) -> Self {
+        let mut spec = self.clone();
+        for fabric in spec.fabric.values_mut() {
+            make_whole(&mut fabric.file, folder);
+        }
+        for garment in &mut spec.garment {
+            make_whole(&mut garment.pattern, folder);
+        }
+        for mesh in &mut spec.collider.mesh {
+            make_whole(&mut mesh.file, folder);
+            if let Some(MeshMotion::File(name)) = &mut mesh.motion {
+                *name = whole_path(name, folder);
+            }
+            mesh.frames.iter_mut().for_each(|name| *name = whole_path(name, folder));
+        }
+        spec.grading.iter_mut().for_each(|grading| grading.run = whole_path(&grading.run, folder));
+        spec
+    }
+
     /// Returns the spec with what it holds itself replaced by names that no file has.
     pub(crate) fn without_held(&self) -> Self {
         let mut spec = self.clone();
@@ -261,6 +283,21 @@ impl SceneSpec {
             .and_then(|value| toml::to_string(&value).ok())
             .unwrap_or_default()
     }
+}
+
+/// Replaces the name of a file in `place`, which is seen from `folder`, by its whole path.
+fn make_whole<T>(place: &mut FileOr<T>, folder: &Path) {
+    if let FileOr::File(name) = place {
+        *name = whole_path(name, folder);
+    }
+}
+
+/// Returns the path of the file `name`, which is seen from `folder`, from the root of the file
+/// system.
+fn whole_path(name: &str, folder: &Path) -> String {
+    let path = folder.join(name);
+    let whole = std::path::absolute(&path).unwrap_or(path);
+    whole.to_string_lossy().replace('\\', "/")
 }
 
 /// Returns a mesh as a text in the format of Wavefront, whose numbers are read to the same bits.
