@@ -66,6 +66,9 @@ impl LengthUnit {
 }
 
 /// Scene of drape: cloth, bodies, contact, time.
+///
+/// A spec is edited and built as often as one likes: [`build`](SceneSpec::build) leaves it as it is.
+/// Panels, fabrics and pins refer to each other by name.
 #[serde_as]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

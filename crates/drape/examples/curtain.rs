@@ -1,14 +1,18 @@
 //! From a measured fabric to hanging cloth: fits the cupro, hangs a small curtain of it by two
-//! corners that are nearer to each other than the curtain is wide, and prints how it drapes:
+//! corners that are nearer to each other than the curtain is wide, and prints how it drapes. The
+//! scene is built without a file:
 //! `cargo run --release --example curtain`.
 
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
+use std::sync::Arc;
+
 use drape::dynamics::Simulation;
 use drape::fit::identify;
-use drape::input::Document;
 use drape::kes::Sheet;
-use drape::scene::Scene;
+use drape::scene::{
+    FabricSpec, FileOr, MotionSpec, NoiseSpec, PanelSpec, PinSpec, SceneSpec, SettleSpec, TimeSpec,
+};
 
 /// Width of the curtain, and the part of it that is left between the corners, in m.
 const WIDTH: f64 = 0.3;
@@ -17,30 +21,32 @@ const SPAN: f64 = 0.2;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sheet = Sheet::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fabrics/cupro-weave"))?;
     let fit = identify(&sheet)?;
-    let fabric = Document::new("cupro.toml", fit.fabric.to_toml());
-    let scene = format!(
-        r#"
-        name = "curtain"
-        spacing = 0.02
-        fabric.cupro.file = "cupro.toml"
-        time = {{ step = 0.01, end = 20.0 }}
-        settle.speed = 0.005
-        [[panel]]
-        name = "curtain"
-        fabric = "cupro"
-        rectangle = [{WIDTH}, {WIDTH}]
-        noise = {{ amplitude = 1e-3, length = 0.05, seed = 1 }}
-        [[pin]]
-        panel = "curtain"
-        points = [[0, {WIDTH}]]
-        [[pin]]
-        panel = "curtain"
-        points = [[{WIDTH}, {WIDTH}]]
-        motion = {{ times = [0, 1], shift = [[0, 0, 0], [{}, 0, 0]] }}
-        "#,
-        SPAN - WIDTH
-    );
-    let scene = Scene::from_documents(&Document::new("curtain.toml", scene), &[fabric])?;
+
+    let mut spec = SceneSpec {
+        spacing: 0.02,
+        time: TimeSpec { step: 0.01, end: 20.0, ..TimeSpec::default() },
+        settle: Some(SettleSpec { speed: 0.005, ..SettleSpec::default() }),
+        ..SceneSpec::default()
+    };
+    let file = FileOr::Value(Arc::new(fit.fabric.clone()));
+    spec.fabric.insert("cupro".into(), FabricSpec { file, ..FabricSpec::default() });
+    spec.panel.push(PanelSpec {
+        name: "curtain".into(),
+        fabric: "cupro".into(),
+        rectangle: Some([WIDTH, WIDTH]),
+        noise: Some(NoiseSpec { amplitude: 1e-3, length: Some(0.05), seed: 1 }),
+        ..PanelSpec::default()
+    });
+    let corner =
+        |x| PinSpec { panel: "curtain".into(), points: vec![[x, WIDTH]], ..PinSpec::default() };
+    let nearer = MotionSpec {
+        times: vec![0.0, 1.0],
+        shift: vec![[0.0; 3], [SPAN - WIDTH, 0.0, 0.0]],
+        ..MotionSpec::default()
+    };
+    spec.pin = vec![corner(0.0), PinSpec { motion: Some(nearer), ..corner(WIDTH) }];
+
+    let scene = spec.build()?;
     let mut simulation = Simulation::new(scene)?;
     while !simulation.step()?.finished {}
 

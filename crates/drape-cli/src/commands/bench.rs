@@ -2,11 +2,13 @@
 //! swing.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use clap::Args;
 use drape::dynamics::{Simulation, Summary};
+use drape::fabric::Fabric;
 use drape::input::Document;
-use drape::scene::Scene;
+use drape::scene::{FabricSpec, OutputSpec, PanelSpec, PinSpec, RippleSpec, SceneSpec, TimeSpec};
 use serde_json::json;
 
 use crate::console::progress;
@@ -52,14 +54,23 @@ friction = [{ plateau = 0.5, length = 0.004 }]
 /// Motion of the square metre, which is held at two corners.
 struct Motion {
     name: &'static str,
-    /// Keys of the `[[panel]]` that start the motion.
-    start: &'static str,
+    /// Returns the panel as it is at the start of the motion.
+    start: fn() -> PanelSpec,
 }
 
-const MOTIONS: [Motion; 2] = [
-    Motion { name: "curtain", start: "ripple = { amplitude = 0.005, wavelength = 0.25 }" },
-    Motion { name: "swing", start: "turn = [-90, 0, 0]" },
-];
+const MOTIONS: [Motion; 2] =
+    [Motion { name: "curtain", start: rippled }, Motion { name: "swing", start: level }];
+
+/// Returns a panel with ripples.
+fn rippled() -> PanelSpec {
+    let ripple = Some(RippleSpec { amplitude: 0.005, wavelength: 0.25 });
+    PanelSpec { ripple, ..PanelSpec::default() }
+}
+
+/// Returns a panel that lies level.
+fn level() -> PanelSpec {
+    PanelSpec { turn: [-90.0, 0.0, 0.0], ..PanelSpec::default() }
+}
 
 /// Simulation of one motion at one size.
 struct Run {
@@ -121,23 +132,35 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
 /// Simulates a cloth of `size` × `size` particles that `start` sets in motion. `done` is called
 /// after each step with the fraction of the time that is simulated.
 fn run(
-    start: &str,
+    start: fn() -> PanelSpec,
     size: usize,
     &BenchArguments { step, until, air, .. }: &BenchArguments,
     done: &dyn Fn(f64),
 ) -> Result<Summary, Failure> {
-    let air = if air { "" } else { "air.density = 0.0" };
-    let spacing = 1.0 / (size as f64 - 1.0);
-    let text = format!(
-        "name = \"bench\"\nspacing = {spacing}\n{air}\n\
-         contact.surfaces = false\nfabric.bench.file = \"bench.toml\"\n\
-         [[panel]]\nname = \"sheet\"\nfabric = \"bench\"\nrectangle = [1.0, 1.0]\n{start}\n\
-         [[pin]]\npanel = \"sheet\"\npoints = [[0, 1], [1, 1]]\n\
-         [time]\nstep = {step:?}\nend = {until:?}\n[output]\nevery = {until:?}\nenergy = false\n"
-    );
+    let mut spec = SceneSpec {
+        name: Some("bench".into()),
+        spacing: 1.0 / (size as f64 - 1.0),
+        time: TimeSpec { step, end: until, ..TimeSpec::default() },
+        output: OutputSpec { every: Some(until), energy: false, ..OutputSpec::default() },
+        ..SceneSpec::default()
+    };
+    if !air {
+        spec.air.density = 0.0;
+    }
+    spec.contact.surfaces = Some(false);
+    let file = Arc::new(Fabric::from_document(&Document::new("bench.toml", FABRIC))?).into();
+    spec.fabric.insert("bench".into(), FabricSpec { file, ..FabricSpec::default() });
+    let start = start();
+    spec.panel.push(PanelSpec {
+        name: "sheet".into(),
+        fabric: "bench".into(),
+        rectangle: Some([1.0, 1.0]),
+        ..start
+    });
+    let points = vec![[0.0, 1.0], [1.0, 1.0]];
+    spec.pin.push(PinSpec { panel: "sheet".into(), points, ..PinSpec::default() });
 
-    let fabric = Document::new("bench.toml", FABRIC);
-    let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric])?;
+    let scene = spec.build()?;
     let mut simulation = Simulation::new(scene)?;
     loop {
         let step = simulation.step().map_err(|error| Failure::Solver(error.to_string()))?;

@@ -18,7 +18,17 @@ pub(crate) use cylinder::cylinder;
 pub(crate) use end_load::end_loaded_cantilever;
 pub(crate) use hanging::{catenary, self_stretch};
 
-/// Tables of a scene whose strip goes to rest without inertia. The tolerances are a hundredth of
-/// the usual tolerances of a scene.
-const REST: &str = "[time]\nstep = 0.002\nend = 10000\n[settle]\nresidual = 1e-5\nspeed = 1e-5\n\
-                    [solver]\ntolerance = 1e-7\n[output]\nenergy = false\n";
+use drape_scene::{SceneSpec, TimeSpec};
+
+use crate::setup::{alone, settle, tolerance};
+
+/// Returns the rest of a scene whose strip goes to rest without inertia. The tolerances are a
+/// hundredth of the usual tolerances of a scene.
+fn rest() -> SceneSpec {
+    SceneSpec {
+        time: TimeSpec { step: 0.002, end: 1e4, ..TimeSpec::default() },
+        settle: settle(1e-5, 1e-5),
+        solver: tolerance(1e-7),
+        ..alone()
+    }
+}

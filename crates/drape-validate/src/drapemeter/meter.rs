@@ -7,13 +7,16 @@ use std::f64::consts::PI;
 
 use drape_dynamics::{Simulation, Snapshot};
 use drape_fabric::Fabric;
+use drape_scene::{
+    CylinderSpec, MotionSpec, NoiseSpec, PanelSpec, PinSpec, PlaneSpec, SceneSpec, TimeSpec,
+};
 use rayon::prelude::*;
 
 use super::protocol::{Protocol, Strokes, shaken};
 use super::study::{Drape, HARMONICS, Sampling, Study};
 use crate::error::ValidationError;
 use crate::outline::{Harmonics, Shadow, Surface, maxima};
-use crate::setup::{GRAVITY, finish, simulation};
+use crate::setup::{GRAVITY, alone, finish, simulation, tolerance, with_panel};
 
 /// Time for which the specimen hangs before its shadow is read, in s.
 const REST: f64 = 2.5;
@@ -178,30 +181,56 @@ impl Drapemeter {
         let sink = self.sink();
         let grid = grid(seed).map(|part| part * spacing);
         let down = sink / sink_speed;
-        let Strokes { keys, end } = shaken(*shake, down);
+        let Strokes { motion, end } = shaken(*shake, down);
 
         // Cloth in the middle of the disc is held, so it is left out.
         let hole = 2.0 * (disc - HELD_ROWS * spacing);
-        let hole = if hole > 0.0 { format!("hole = {hole:e}\n") } else { String::new() };
-        let text = format!(
-            "name = \"drapemeter\"\nspacing = {spacing:e}\nfabric.specimen.file = \"fabric.toml\"\n\
-             [[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\ndisc = {:e}\n{hole}grid = {grid:?}\n\
-             turn = [-90, {turn:?}, 0]\nnoise = {{ amplitude = {unevenness:e}, length = {UNEVEN_LENGTH:e}, seed = {seed} }}\n\
-             [[pin]]\npanel = \"specimen\"\npoints = [[0, 0]]\nradius = {:e}\nmotion = {keys}\n\
-             [[collider.cylinder]]\nname = \"disc\"\nradius = {disc:e}\nheight = {PEDESTAL:e}\n\
-             edge_radius = 0.0005\ncenter = [0, {:e}, 0]\nmotion = {keys}\n\
-             [[collider.plane]]\nname = \"platform\"\ncenter = [0, {:e}, 0]\n\
-             [collider.plane.motion]\ntimes = [0, {down:e}]\nshift = [[0, 0, 0], [0, {:e}, 0]]\n\
-             [contact]\nsurfaces = false\noffset = {GAP:e}\n[solver]\ntolerance = {TOLERANCE:e}\n[time]\nstep = {step:e}\nend = {:e}\n\
-             [output]\nenergy = false\n",
-            2.0 * specimen,
-            disc + CLAMP_REACH * spacing,
-            -0.5 * PEDESTAL - GAP,
-            -GAP,
-            -sink,
-            end + REST,
-        );
-        simulation(text, fabric.to_toml())
+        let panel = PanelSpec {
+            name: "specimen".into(),
+            fabric: "specimen".into(),
+            disc: Some(2.0 * specimen),
+            hole: (hole > 0.0).then_some(hole),
+            grid: Some(grid),
+            turn: [-90.0, *turn, 0.0],
+            noise: Some(NoiseSpec { amplitude: *unevenness, length: Some(UNEVEN_LENGTH), seed }),
+            ..PanelSpec::default()
+        };
+        let mut spec = SceneSpec {
+            name: Some("drapemeter".into()),
+            spacing,
+            time: TimeSpec { step: *step, end: end + REST, ..TimeSpec::default() },
+            solver: tolerance(TOLERANCE),
+            ..alone()
+        };
+        spec.contact.offset = GAP;
+        spec.pin.push(PinSpec {
+            panel: "specimen".into(),
+            points: vec![[0.0; 2]],
+            radius: Some(disc + CLAMP_REACH * spacing),
+            motion: Some(motion.clone()),
+            ..PinSpec::default()
+        });
+        spec.collider.cylinder.push(CylinderSpec {
+            name: Some("disc".into()),
+            radius: *disc,
+            height: PEDESTAL,
+            edge_radius: 0.0005,
+            center: [0.0, -0.5 * PEDESTAL - GAP, 0.0],
+            motion: Some(motion),
+            ..CylinderSpec::default()
+        });
+        let sinking = MotionSpec {
+            times: vec![0.0, down],
+            shift: vec![[0.0; 3], [0.0, -sink, 0.0]],
+            ..MotionSpec::default()
+        };
+        spec.collider.plane.push(PlaneSpec {
+            name: Some("platform".into()),
+            center: [0.0, -GAP, 0.0],
+            motion: Some(sinking),
+            ..PlaneSpec::default()
+        });
+        simulation(&with_panel(spec, panel, fabric))
     }
 
     /// Reads the shadow of the draped specimen in `simulation` from straight above.

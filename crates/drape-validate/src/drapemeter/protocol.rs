@@ -3,6 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use drape_scene::MotionSpec;
+
 /// Protocol of a drape test, and of its simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Protocol {
@@ -53,8 +55,8 @@ impl Shake {
 
 /// Trajectory of a shaken disc.
 pub(super) struct Strokes {
-    /// Keys of the trajectory, as TOML.
-    pub(super) keys: String,
+    /// The trajectory.
+    pub(super) motion: MotionSpec,
     /// Time at which the disc rests again, in s.
     pub(super) end: f64,
 }
@@ -74,5 +76,5 @@ pub(super) fn shaken(shake: Option<Shake>, start: f64) -> Strokes {
             (start + part / shake.frequency, [0.0, height, 0.0])
         })
         .unzip();
-    Strokes { keys: format!("{{ times = {times:?}, shift = {shift:?} }}"), end }
+    Strokes { motion: MotionSpec { times, shift, ..MotionSpec::default() }, end }
 }

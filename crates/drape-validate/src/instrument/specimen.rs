@@ -8,10 +8,11 @@ use std::f64::consts::SQRT_2;
 use drape_dynamics::{PinLoad, Simulation};
 use drape_fabric::Fabric;
 use drape_kes::Direction;
+use drape_scene::{MotionSpec, PanelSpec, PinSpec, SceneSpec, TimeSpec};
 
 use super::placement::{ClampPlacement, lever_arm, pivot_moment};
 use crate::error::ValidationError;
-use crate::setup::{ALONE, scene};
+use crate::setup::{alone, with_panel};
 
 /// Width of a specimen: 20 cm.
 pub(crate) const WIDTH: f64 = 0.2;
@@ -93,12 +94,12 @@ impl Specimen {
         Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
     }
 
-    /// Returns the keys of the panel that cut it on the bias from a grid with rows at both ends. If
-    /// the number of rows is odd, a particle lies in the middle of the panel.
-    fn bias_keys(&self) -> String {
+    /// Returns `panel` cut on the bias from a grid with rows at both ends. If the number of rows is
+    /// odd, a particle lies in the middle of the panel.
+    fn cut_on_the_bias(&self, panel: PanelSpec) -> PanelSpec {
         let has_odd_cells = (self.length / self.row).round() % 2.0 == 1.0;
         let grid = if has_odd_cells { 0.5 * self.spacing } else { 0.0 };
-        format!("grain = {}\ngrid = [{grid:e}, 0]\n", self.grain)
+        PanelSpec { grain: self.grain, grid: Some([grid, 0.0]), ..panel }
     }
 
     /// Moves the clamp through `placements`, one in each step, and returns the load of the clamp
@@ -114,40 +115,53 @@ impl Specimen {
         const STEP: f64 = 0.1;
 
         // The panel lies along x whatever its direction: a specimen of the warp is turned.
-        let Self { grain, spacing, length, middle, pivot, rows: [still, moving], .. } = self;
-        let grain = if *grain == 0.0 { String::new() } else { self.bias_keys() };
+        let &Self { grain, spacing, length, middle, pivot, rows: [still, moving], .. } = self;
         let (size, turn, edges) = match direction {
-            Direction::Weft => ([*length, WIDTH], [-90, 0, 0], ["left", "right"]),
-            Direction::Warp => ([WIDTH, *length], [-90, -90, 0], ["bottom", "top"]),
+            Direction::Weft => ([length, WIDTH], [-90.0, 0.0, 0.0], ["left", "right"]),
+            Direction::Warp => ([WIDTH, length], [-90.0, -90.0, 0.0], ["bottom", "top"]),
         };
+        let panel = PanelSpec {
+            name: "specimen".into(),
+            fabric: "specimen".into(),
+            rectangle: Some(size),
+            center: [middle, 0.0, 0.0],
+            turn,
+            ..PanelSpec::default()
+        };
+        let panel = if grain == 0.0 { panel } else { self.cut_on_the_bias(panel) };
 
         // The motion of the clamp has a key at the start and one at the end of each step.
-        let times: Vec<f64> = (0..=placements.len()).map(|k| k as f64 * STEP).collect();
         let start = ClampPlacement::default();
-        let (shifts, turns): (Vec<String>, Vec<String>) = std::iter::once(&start)
-            .chain(placements)
-            .map(|placement| {
-                let turn = placement.turn.to_degrees();
-                (format!("{:?}", placement.shift), format!("[0, 0, {turn:e}]"))
-            })
-            .unzip();
-        let text = format!(
-            "{ALONE}name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
-             fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
-             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grain}\
-             [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\
-             [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {moving}\n\
-             [pin.motion]\ntimes = {times:?}\ncenter = [{pivot:e}, 0, 0]\n\
-             shift = [{}]\nturn = [{}]\n\
-             [time]\nstep = {STEP}\nend = {:e}\n[output]\nenergy = false\n",
-            edges[0],
-            edges[1],
-            shifts.join(", "),
-            turns.join(", "),
-            STEP * placements.len() as f64
-        );
-        let scene = scene(text, fabric.to_toml())?;
-        let arm = lever_arm(&scene, *pivot);
+        let all = || std::iter::once(&start).chain(placements);
+        let motion = MotionSpec {
+            times: (0..=placements.len()).map(|k| k as f64 * STEP).collect(),
+            shift: all().map(|placement| placement.shift).collect(),
+            turn: all().map(|placement| [0.0, 0.0, placement.turn.to_degrees()]).collect(),
+            center: Some([pivot, 0.0, 0.0]),
+        };
+        let mut spec = SceneSpec {
+            name: Some("specimen".into()),
+            spacing,
+            gravity: [0.0; 3],
+            time: TimeSpec {
+                step: STEP,
+                end: STEP * placements.len() as f64,
+                ..TimeSpec::default()
+            },
+            ..alone()
+        };
+        spec.air.density = 0.0;
+        let clamp = |edge: &str, rows: usize| PinSpec {
+            panel: "specimen".into(),
+            edge: Some(edge.into()),
+            rows,
+            ..PinSpec::default()
+        };
+        let moving = PinSpec { motion: Some(motion), ..clamp(edges[1], moving) };
+        spec.pin = vec![clamp(edges[0], still), moving];
+
+        let scene = with_panel(spec, panel, fabric).build()?;
+        let arm = lever_arm(&scene, pivot);
 
         let mut simulation = Simulation::new(scene)?;
         let mut loads = Vec::with_capacity(placements.len());

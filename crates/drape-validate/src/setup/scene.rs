@@ -1,35 +1,53 @@
-//! Scenes in memory, and functions that run them.
+//! Specs of scenes, and functions that run them.
 //!
-//! `scene` reads a scene and its fabric from text; [`finish`] steps a simulation until it ends.
+//! [`alone`] and [`with_panel`] begin a spec; [`finish`] steps a simulation until it ends.
+
+use std::sync::Arc;
 
 use drape_dynamics::{Simulation, Step};
-use drape_input::Document;
-use drape_scene::Scene;
+use drape_fabric::Fabric;
+use drape_scene::{
+    ContactSpec, FabricSpec, FileOr, OutputSpec, PanelSpec, SceneSpec, SettleSpec, SolverSpec,
+};
 
 use crate::error::ValidationError;
 
-/// Line before the tables of a scene in which one piece of cloth touches nothing. The references of
-/// such scenes know no thickness of the cloth. The proof that the cloth does not touch itself would
-/// take three times as long as the simulation.
-pub(crate) const ALONE: &str = "contact.surfaces = false\n";
-
-/// Returns the scene that the text `scene` states. The scene refers to the text `fabric` as
-/// `fabric.toml`.
-///
-/// # Errors
-/// The scene or the fabric cannot be read.
-pub(crate) fn scene(scene: String, fabric: String) -> Result<Scene, ValidationError> {
-    let fabric = Document::new("fabric.toml", fabric);
-    Ok(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric])?)
+/// Returns the spec of a scene in which one piece of cloth touches nothing and no energies are
+/// recorded. The references of such scenes know no thickness of the cloth. The proof that the cloth
+/// does not touch itself would take three times as long as the simulation.
+pub(crate) fn alone() -> SceneSpec {
+    SceneSpec {
+        contact: ContactSpec { surfaces: Some(false), ..ContactSpec::default() },
+        output: OutputSpec { energy: false, ..OutputSpec::default() },
+        ..SceneSpec::default()
+    }
 }
 
-/// Returns a simulation of the scene that `text` states. The scene refers to the text `fabric` as
-/// `fabric.toml`.
+/// Returns `spec` with `panel`, whose fabric is `fabric`.
+pub(crate) fn with_panel(mut spec: SceneSpec, panel: PanelSpec, fabric: &Fabric) -> SceneSpec {
+    let file = FileOr::Value(Arc::new(fabric.clone()));
+    spec.fabric.insert(panel.fabric.clone(), FabricSpec { file, ..FabricSpec::default() });
+    spec.panel.push(panel);
+    spec
+}
+
+/// Returns the settings of a run to rest that ends at the speed `speed`, in m/s, and the imbalance
+/// `residual`, over g.
+pub(crate) fn settle(speed: f64, residual: f64) -> Option<SettleSpec> {
+    Some(SettleSpec { speed, residual, ..SettleSpec::default() })
+}
+
+/// Returns the settings of a solver with `tolerance`.
+pub(crate) fn tolerance(tolerance: f64) -> SolverSpec {
+    SolverSpec { tolerance: Some(tolerance), ..SolverSpec::default() }
+}
+
+/// Returns a simulation of the scene that `spec` describes.
 ///
 /// # Errors
-/// The scene or the fabric cannot be read, or the scene cannot be prepared.
-pub(crate) fn simulation(text: String, fabric: String) -> Result<Simulation, ValidationError> {
-    Ok(Simulation::new(scene(text, fabric)?)?)
+/// The scene has mistakes, or cannot be prepared.
+pub(crate) fn simulation(spec: &SceneSpec) -> Result<Simulation, ValidationError> {
+    Ok(Simulation::new(spec.build()?)?)
 }
 
 /// Steps `simulation` to its end.

@@ -5,9 +5,11 @@
 //! `$B$`.
 
 use drape_dynamics::Simulation;
-use drape_scene::Scene;
+use drape_fabric::Fabric;
+use drape_scene::{PanelSpec, PinSpec, Scene, SceneSpec};
 
-use super::scene::{ALONE, scene};
+use super::fabrics::fabric;
+use super::scene::with_panel;
 use crate::error::ValidationError;
 
 /// Acceleration of gravity in all scenes of the suite, in m/s².
@@ -109,8 +111,11 @@ impl Strip {
         if self.hold == Hold::Clamp { 1.5 * self.spacing() } else { 0.0 }
     }
 
-    /// Returns the text of the fabric of the strip, with equal laws along warp and weft.
-    fn fabric(&self) -> String {
+    /// Returns the fabric of the strip, with equal laws along warp and weft.
+    ///
+    /// # Errors
+    /// The numbers of the strip make no fabric.
+    fn fabric(&self) -> Result<Fabric, ValidationError> {
         let Self { density, rigidity, stiffness, friction: Friction { plateau, length }, .. } =
             self;
         let friction = if *plateau > 0.0 {
@@ -124,57 +129,58 @@ impl Strip {
             "traction = {{ primed = {{ stiffness = {stiffness:e}, toe_ratio = 1.0, toe_strain = 0.01, \
              toe_strain_after = 0.01 }} }}\nbending = {{ {friction}rigidity = {rigidity:e} }}\n"
         );
-        format!(
+        fabric(&format!(
             "name = \"strip\"\ndensity = {density:e}\nthickness = 0.0001\nshear = {{ stiffness = 50 }}\n\
              [warp]\n{direction}[weft]\n{direction}"
-        )
+        ))
     }
 
     /// Returns a simulation of the strip without air. The strip is held at the origin, and turned
     /// from x about z by `angle`, in degrees.
     ///
-    /// `rest` is the rest of the scene as TOML: time, further pins, the solver.
+    /// `rest` is the rest of the scene: times, further pins, the solver.
     ///
     /// # Errors
-    /// The scene cannot be read or prepared.
-    pub fn simulation(&self, angle: f64, rest: &str) -> Result<Simulation, ValidationError> {
+    /// The scene has mistakes, or cannot be prepared.
+    pub fn simulation(&self, angle: f64, rest: SceneSpec) -> Result<Simulation, ValidationError> {
         Ok(Simulation::new(self.scene(angle, rest)?)?)
     }
 
     /// Returns the scene of [`Strip::simulation`], with the same `angle` and `rest`.
     ///
     /// # Errors
-    /// The scene cannot be read.
-    pub fn scene(&self, angle: f64, rest: &str) -> Result<Scene, ValidationError> {
+    /// The scene has mistakes.
+    pub fn scene(&self, angle: f64, rest: SceneSpec) -> Result<Scene, ValidationError> {
         let (clamped, width, spacing) = (self.clamped_length(), self.width, self.spacing());
-        let spin = 360.0 * self.spin;
         let held_rows = match self.hold {
             Hold::Clamp => 3,
             Hold::Hinge => 1,
             Hold::Free => 0,
-        };
-        let pin = if held_rows > 0 {
-            format!("[[pin]]\npanel = \"strip\"\nedge = \"left\"\nrows = {held_rows}\n")
-        } else {
-            String::new()
         };
 
         // A panel turns about its middle.
         let panel = self.length + clamped;
         let middle = 0.5 * panel - clamped;
         let (sin, cos) = angle.to_radians().sin_cos();
-        let (x, y) = (middle * cos, middle * sin);
-
-        // Keys without a table stand before the tables: `gravity` is the only one in `rest`.
-        let text = format!(
-            "{ALONE}name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
-             fabric.strip.file = \"fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
-             rectangle = [{panel:e}, {width:e}]\ncenter = [{x:e}, {y:e}, 0]\nturn = [-90, 0, {angle:e}]\n\
-             spin = [0, 0, {spin:e}]\n{pin}{}",
-            rest.lines().filter(|line| line.starts_with("gravity")).collect::<String>() + "\n",
-            rest.lines().filter(|line| !line.starts_with("gravity")).collect::<Vec<_>>().join("\n")
-        );
-        scene(text, self.fabric())
+        let mut spec = SceneSpec { name: Some("strip".into()), spacing, ..rest };
+        spec.air.density = 0.0;
+        spec.contact.surfaces = Some(false);
+        let panel = PanelSpec {
+            name: "strip".into(),
+            fabric: "strip".into(),
+            rectangle: Some([panel, width]),
+            center: [middle * cos, middle * sin, 0.0],
+            turn: [-90.0, 0.0, angle],
+            spin: [0.0, 0.0, 360.0 * self.spin],
+            ..PanelSpec::default()
+        };
+        let mut spec = with_panel(spec, panel, &self.fabric()?);
+        if held_rows > 0 {
+            let edge = Some("left".into());
+            let panel = "strip".into();
+            spec.pin.insert(0, PinSpec { panel, edge, rows: held_rows, ..PinSpec::default() });
+        }
+        Ok(spec.build()?)
     }
 
     /// Returns the points of the middle line of the strip in `simulation`, from the held end to the

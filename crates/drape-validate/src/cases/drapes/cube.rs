@@ -2,10 +2,11 @@
 
 use drape_dynamics::{Simulation, Snapshot};
 use drape_fabric::Fabric;
+use drape_scene::{BoxSpec, NoiseSpec, PanelSpec, SceneSpec, SettleSpec, TimeSpec};
 
 use crate::error::ValidationError;
 use crate::outline::{Harmonics, evenly, length, maxima, section};
-use crate::setup::{finish_with, simulation};
+use crate::setup::{finish_with, simulation, with_panel};
 
 /// Half of the cube's side, in m.
 const HALF: f64 = 0.25;
@@ -23,11 +24,11 @@ impl Model {
     /// Both models, in the order of the pictures.
     pub(crate) const ALL: [Self; 2] = [Self::Kes, Self::Breen];
 
-    /// Returns the name of the model in a [`drape_scene::Scene`].
-    fn key(self) -> &'static str {
+    /// Returns the model as a scene has it.
+    fn of_scene(self) -> drape_scene::Model {
         match self {
-            Self::Kes => "kes",
-            Self::Breen => "breen-1994",
+            Self::Kes => drape_scene::Model::Kes,
+            Self::Breen => drape_scene::Model::Breen1994,
         }
     }
 
@@ -72,15 +73,33 @@ impl CubeDrape {
         spacing: f64,
         seed: u64,
     ) -> Result<Self, ValidationError> {
-        let text = format!(
-            "name = \"cube\"\nmodel = \"{}\"\nspacing = {spacing}\nfabric.cloth.file = \"fabric.toml\"\n\
-             [[panel]]\nname = \"cloth\"\nfabric = \"cloth\"\nrectangle = [1, 1]\ncenter = [0, 0.505, 0]\n\
-             turn = [-90, 0, 0]\nnoise = {{ amplitude = 1e-4, seed = {seed} }}\n\
-             [[collider.box]]\nname = \"cube\"\nsize = [0.5, 0.5, 0.5]\ncenter = [0, {HALF}, 0]\nfriction = 0.3\n\
-             [contact]\nsurfaces = false\noffset = 0.002\n[time]\nstep = 0.005\nend = 100\n[settle]\n",
-            model.key()
-        );
-        let mut simulation = simulation(text, fabric.to_toml())?;
+        let mut spec = SceneSpec {
+            name: Some("cube".into()),
+            model: model.of_scene(),
+            spacing,
+            time: TimeSpec { step: 0.005, end: 100.0, ..TimeSpec::default() },
+            settle: Some(SettleSpec::default()),
+            ..SceneSpec::default()
+        };
+        let panel = PanelSpec {
+            name: "cloth".into(),
+            fabric: "cloth".into(),
+            rectangle: Some([1.0, 1.0]),
+            center: [0.0, 0.505, 0.0],
+            turn: [-90.0, 0.0, 0.0],
+            noise: Some(NoiseSpec { amplitude: 1e-4, length: None, seed }),
+            ..PanelSpec::default()
+        };
+        spec.collider.boxes.push(BoxSpec {
+            name: Some("cube".into()),
+            size: [0.5; 3],
+            center: [0.0, HALF, 0.0],
+            friction: Some(0.3),
+            ..BoxSpec::default()
+        });
+        spec.contact.surfaces = Some(false);
+        spec.contact.offset = 0.002;
+        let mut simulation = simulation(&with_panel(spec, panel, fabric))?;
         let mut energy = Vec::new();
         finish_with(&mut simulation, |simulation, step| {
             let stored = simulation.energy().unwrap_or_default();

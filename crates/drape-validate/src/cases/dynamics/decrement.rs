@@ -41,9 +41,10 @@ fn swings(friction: bool) -> Result<Vec<[f64; 2]>, ValidationError> {
     let frequency = STRIP.frequency(strip.density);
     let period = TAU / frequency;
     let bend = STRIP.mode(0.0).curvature;
-    let time = time_and_solver(period / STEPS, (SWINGS as f64 + 0.5) * period);
-    let rest = format!("gravity = [0, 0, 0]\n{time}");
-    let mut scene = strip.scene(0.0, &rest.replace("energy = false", "energy = true"))?;
+    let mut rest = time_and_solver(period / STEPS, (SWINGS as f64 + 0.5) * period);
+    rest.gravity = [0.0; 3];
+    rest.output.energy = true;
+    let mut scene = strip.scene(0.0, rest)?;
 
     // The strip starts flat with the velocities of the first mode: no yarn is strained, and no
     // element has slid.

@@ -13,8 +13,8 @@ pub(crate) fn free_fall() -> Result<Findings, ValidationError> {
     let strip = Strip { hold: Hold::Free, cells: 20, ..Strip::default() };
     let end = 0.5;
     let rest = time_and_solver(0.001, end);
-    let fallen = record(&strip, 0.0, &rest, |line| -line[0].position[1])?;
-    let bent = record(&strip, 0.0, &rest, |line| {
+    let fallen = record(&strip, 0.0, rest.clone(), |line| -line[0].position[1])?;
+    let bent = record(&strip, 0.0, rest, |line| {
         let heights = line.iter().map(|point| point.position[1]);
         heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min)
     })?;
@@ -34,9 +34,10 @@ pub(crate) fn rotation() -> Result<Findings, ValidationError> {
     let turns = 1.0;
     let strip = Strip { hold: Hold::Free, cells: 20, spin: turns, ..Strip::default() };
     let end = 2.25;
-    let rest = format!("gravity = [0, 0, 0]\n{}", time_and_solver(0.002, end));
-    let rest = rest.replace("energy = false", "energy = true");
-    let mut simulation = strip.simulation(0.0, &rest)?;
+    let mut rest = time_and_solver(0.002, end);
+    rest.gravity = [0.0; 3];
+    rest.output.energy = true;
+    let mut simulation = strip.simulation(0.0, rest)?;
     while !simulation.step()?.finished {}
 
     let line = strip.line(&simulation);

@@ -46,7 +46,7 @@ pub(crate) fn hanging_chain() -> Result<Findings, ValidationError> {
 
     for (number, exact) in reference::CHAIN_MODES.iter().enumerate() {
         let rest = time_and_solver(0.002, 4.0 * TAU / (exact * unit));
-        let history = record(&strip, -89.5, &rest, |line| {
+        let history = record(&strip, -89.5, rest, |line| {
             weighted_deflection(line, |s| {
                 bessel(2.0 * exact * (1.0 - s / strip.length).max(0.0).sqrt())
             })
@@ -93,9 +93,9 @@ pub(crate) fn hanging_strip() -> Result<Findings, ValidationError> {
         // The strip starts straight down and gravity is a little slanted. So the strip swings about
         // a slanted rest.
         let slant: f64 = 0.005;
-        let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n", slant * GRAVITY)
-            + &time_and_solver(period_exact / 400.0, 4.0 * period_exact);
-        let history = record(&strip, -90.0, &rest, |line| line[line.len() - 1].position[0])?;
+        let mut rest = time_and_solver(period_exact / 400.0, 4.0 * period_exact);
+        rest.gravity = [slant * GRAVITY, -GRAVITY, 0.0];
+        let history = record(&strip, -90.0, rest, |line| line[line.len() - 1].position[0])?;
         let middle = history.iter().map(|[_, x]| x).sum::<f64>() / history.len() as f64;
         let centred: Vec<[f64; 2]> = history.iter().map(|[t, x]| [*t, x - middle]).collect();
         let measured = TAU / period(&centred) / unit;

@@ -2,8 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use drape_scene::{SceneSpec, TimeSpec};
+
 use crate::error::ValidationError;
-use crate::setup::{LinePoint, Strip};
+use crate::setup::{LinePoint, Strip, alone, tolerance};
 
 /// Simulates `strip`, turned by `angle` (in degrees), to its end. Returns the time, in s, and
 /// `figure` of the middle line of the strip, after every step.
@@ -12,7 +14,7 @@ use crate::setup::{LinePoint, Strip};
 pub(super) fn record(
     strip: &Strip,
     angle: f64,
-    rest: &str,
+    rest: SceneSpec,
     figure: impl Fn(&[LinePoint]) -> f64,
 ) -> Result<Vec<[f64; 2]>, ValidationError> {
     let mut simulation = strip.simulation(angle, rest)?;
@@ -50,9 +52,8 @@ pub(super) fn cosine() -> Vec<[f64; 2]> {
 /// Tolerance of a step: largest error of the accelerations over g, a ratio.
 pub(super) const TOLERANCE: f64 = 1e-6;
 
-/// Returns the tables of time and solver of a scene with steps of `step` until `end`, both in s.
-pub(super) fn time_and_solver(step: f64, end: f64) -> String {
-    format!(
-        "[time]\nstep = {step}\nend = {end}\n[solver]\ntolerance = {TOLERANCE:e}\n[output]\nenergy = false\n"
-    )
+/// Returns the rest of a scene with steps of `step` until `end`, both in s.
+pub(super) fn time_and_solver(step: f64, end: f64) -> SceneSpec {
+    let time = TimeSpec { step, end, ..TimeSpec::default() };
+    SceneSpec { time, solver: tolerance(TOLERANCE), ..alone() }
 }

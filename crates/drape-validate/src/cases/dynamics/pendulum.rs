@@ -32,7 +32,7 @@ pub(crate) fn pendulum() -> Result<Findings, ValidationError> {
         let exact = small_period * reference::pendulum_period(amplitude.to_radians());
         let rest = time_and_solver(exact / 400.0, 4.0 * exact);
         let history =
-            record(&strip, amplitude - 90.0, &rest, |line| line[line.len() - 1].position[0])?;
+            record(&strip, amplitude - 90.0, rest, |line| line[line.len() - 1].position[0])?;
         let what = format!("period of a pendulum of {amplitude}°, s");
         checks.push(Check::within(what, period(&history), exact, 0.01));
 

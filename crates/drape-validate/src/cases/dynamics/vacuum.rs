@@ -8,11 +8,12 @@
 
 use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
+use drape_scene::{MotionSpec, PanelSpec, PinSpec, SceneSpec, TimeSpec};
 
 use crate::error::ValidationError;
 use crate::findings::{Axis, Check, Findings, Graph, Layout, Source, Still};
 use crate::setup::fabrics::{TAGAWA, fabric};
-use crate::setup::{ALONE, GRAVITY, simulation};
+use crate::setup::{GRAVITY, alone, simulation, with_panel};
 
 /// Length of the strip beyond the clamp, in m.
 const LENGTH: f64 = 0.2;
@@ -79,16 +80,31 @@ fn strip(fabric: &Fabric, experiment: &Experiment<'_>) -> Result<Simulation, Val
     let (sin, cos) = angle.to_radians().sin_cos();
     let times: Vec<f64> = keys.iter().map(|key| key.time).collect();
     let turns: Vec<[f64; 3]> = keys.iter().map(|key| [key.turn, 0.0, 0.0]).collect();
-    let text = format!(
-        "{ALONE}name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
-         fabric.strip.file = \"fabric.toml\"\n[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
-         rectangle = [{WIDTH}, {height:e}]\ncenter = [0, {:e}, {:e}]\nturn = [{angle:e}, 0, 0]\n\
-         [[pin]]\npanel = \"strip\"\nedge = \"top\"\nrows = 3\n[pin.motion]\ncenter = [0, 0, 0]\n\
-         times = {times:?}\nturn = {turns:?}\n[time]\nstep = {step}\nend = {end}\n",
-        -below * cos,
-        -below * sin
-    );
-    simulation(text, fabric.to_toml())
+    let motion = MotionSpec { times, turn: turns, center: Some([0.0; 3]), ..MotionSpec::default() };
+    let mut spec = SceneSpec {
+        name: Some("strip".into()),
+        spacing,
+        time: TimeSpec { step, end, ..TimeSpec::default() },
+        ..alone()
+    };
+    spec.air.density = 0.0;
+    spec.output.energy = true;
+    let panel = PanelSpec {
+        name: "strip".into(),
+        fabric: "strip".into(),
+        rectangle: Some([WIDTH, height]),
+        center: [0.0, -below * cos, -below * sin],
+        turn: [angle, 0.0, 0.0],
+        ..PanelSpec::default()
+    };
+    spec.pin.push(PinSpec {
+        panel: "strip".into(),
+        edge: Some("top".into()),
+        rows: 3,
+        motion: Some(motion),
+        ..PinSpec::default()
+    });
+    simulation(&with_panel(spec, panel, fabric))
 }
 
 /// Swing of the strip below a clamp that has turned upright.

@@ -3,15 +3,20 @@
 //!
 //! Both specimens are compared with the moment of the laws, and with each other.
 
+use std::sync::Arc;
+
 use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
 use drape_input::Document;
-use drape_scene::Scene;
+use drape_pattern::Pattern;
+use drape_scene::{
+    FabricSpec, FileOr, GarmentSpec, MotionSpec, PanelSpec, PinSpec, Scene, SceneSpec, TimeSpec,
+};
 
 use crate::error::ValidationError;
 use crate::findings::{Check, Findings};
 use crate::instrument::on_the_bias_along;
-use crate::setup::ALONE;
+use crate::setup::alone;
 use crate::setup::fabrics::{COTTON, CUPRO, fabric};
 
 /// Width of a specimen, in m.
@@ -39,28 +44,29 @@ enum Mesh {
     Rim,
 }
 
-/// Returns the points of the panel that a clamp holds, as a list in TOML. The clamp begins at the
-/// distance `start`, in m, from the left end of the panel.
-fn clamped_points(start: f64) -> String {
+/// Returns the points of the panel that a clamp holds, in m. The clamp begins at the distance
+/// `start`, in m, from the left end of the panel.
+fn clamped_points(start: f64) -> Vec<[f64; 2]> {
     /// Distance of the points, in m.
     const GRIP: f64 = 1e-3;
+
+    /// Parts of a metre to which the points are rounded.
+    const PARTS: f64 = 1e4;
 
     let [along, across] = [CLAMPED, WIDTH].map(|length| (length / GRIP).round() as usize);
     let points = (0..=along).flat_map(|along| {
         (0..=across).map(move |across| [start + along as f64 * GRIP, across as f64 * GRIP])
     });
-    points.map(|[x, y]| format!("[{x:.4}, {y:.4}], ")).collect()
+    points.map(|point| point.map(|x| (x * PARTS).round() / PARTS)).collect()
 }
 
-/// Returns the shift of the moving clamp that bends the specimen to `curvature`, in 1/m, as TOML.
-fn clamp_shift(curvature: f64) -> String {
-    match curvature * GAUGE {
-        0.0 => "[0, 0, 0]".to_owned(),
-        turn => {
-            let [along, up] = [turn.sin() / curvature - GAUGE, (1.0 - turn.cos()) / curvature];
-            format!("[{along:e}, {up:e}, 0]")
-        }
+/// Returns the shift of the moving clamp that bends the specimen to `curvature`, in 1/m.
+fn clamp_shift(curvature: f64) -> [f64; 3] {
+    let turn = curvature * GAUGE;
+    if turn == 0.0 {
+        return [0.0; 3];
     }
+    [turn.sin() / curvature - GAUGE, (1.0 - turn.cos()) / curvature, 0.0]
 }
 
 /// Returns the scene of a specimen of `fabric` with `mesh`, which is bent step by step.
@@ -77,41 +83,58 @@ fn specimen(mesh: Mesh, fabric: &Fabric) -> Result<Scene, ValidationError> {
     // The moving clamp follows an arc of constant length.
     let length = GAUGE + 2.0 * CLAMPED;
     let curvatures: Vec<f64> = (0..=STEPS).map(|k| LARGEST * k as f64 / STEPS as f64).collect();
-    let shifts: String = curvatures.iter().map(|&k| clamp_shift(k) + ", ").collect();
-    let turns: String =
-        curvatures.iter().map(|k| format!("[0, 0, {:e}], ", (k * GAUGE).to_degrees())).collect();
-    let times: Vec<f64> = (0..=STEPS).map(|k| k as f64 * STEP).collect();
+    let motion = MotionSpec {
+        times: (0..=STEPS).map(|k| k as f64 * STEP).collect(),
+        shift: curvatures.iter().map(|&k| clamp_shift(k)).collect(),
+        turn: curvatures.iter().map(|k| [0.0, 0.0, (k * GAUGE).to_degrees()]).collect(),
+        center: Some([GAUGE, 0.0, 0.0]),
+    };
+
+    let mut spec = SceneSpec {
+        name: Some("specimen".into()),
+        spacing: SPACING,
+        gravity: [0.0; 3],
+        time: TimeSpec { step: STEP, end: STEP * STEPS as f64, ..TimeSpec::default() },
+        ..alone()
+    };
+    spec.air.density = 0.0;
+    let clamp = |start: f64| PinSpec {
+        panel: "specimen".into(),
+        radius: Some(REACH),
+        points: clamped_points(start),
+        ..PinSpec::default()
+    };
+    spec.pin = vec![clamp(0.0), PinSpec { motion: Some(motion), ..clamp(CLAMPED + GAUGE) }];
 
     // A panel of a scene is a grid. A panel of a pattern has a rim.
-    let panel = match mesh {
-        Mesh::Grid => format!(
-            "[[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\nrectangle = [{length}, {WIDTH}]\ngrain = 45\n\
-             center = [{}, 0, 0]\nturn = [-90, 0, 0]\n",
-            0.5 * GAUGE
-        ),
-        Mesh::Rim => "[[garment]]\npattern = \"specimen.toml\"\nfabric = \"specimen\"\n".into(),
-    };
-    let pattern = format!(
-        "length = \"m\"\n[panel.specimen]\ngrain = 45\nrectangle = [{length}, {WIDTH}]\n\
-         origin = [{}, 0, {}]\nturn = [-90, 0, 0]\n",
-        -CLAMPED,
-        0.5 * WIDTH
-    );
-    let scene = format!(
-        "name = \"specimen\"\nspacing = {SPACING:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n{ALONE}\
-         fabric.specimen.file = \"fabric.toml\"\n{panel}\
-         [[pin]]\npanel = \"specimen\"\nradius = {REACH:e}\npoints = [{}]\n\
-         [[pin]]\npanel = \"specimen\"\nradius = {REACH:e}\npoints = [{}]\n\
-         [pin.motion]\ntimes = {times:?}\ncenter = [{GAUGE:e}, 0, 0]\nshift = [{shifts}]\nturn = [{turns}]\n\
-         [time]\nstep = {STEP}\nend = {:e}\n[output]\nenergy = false\n",
-        clamped_points(0.0),
-        clamped_points(CLAMPED + GAUGE),
-        STEP * STEPS as f64
-    );
-
-    let fabric = Document::new("fabric.toml", fabric.to_toml());
-    let pattern = Document::new("specimen.toml", pattern);
-    Ok(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric, pattern])?)
+    let file = FileOr::Value(Arc::new(fabric.clone()));
+    spec.fabric.insert("specimen".into(), FabricSpec { file, ..FabricSpec::default() });
+    match mesh {
+        Mesh::Grid => spec.panel.push(PanelSpec {
+            name: "specimen".into(),
+            fabric: "specimen".into(),
+            rectangle: Some([length, WIDTH]),
+            grain: 45.0,
+            center: [0.5 * GAUGE, 0.0, 0.0],
+            turn: [-90.0, 0.0, 0.0],
+            ..PanelSpec::default()
+        }),
+        Mesh::Rim => {
+            let pattern = format!(
+                "length = \"m\"\n[panel.specimen]\ngrain = 45\nrectangle = [{length}, {WIDTH}]\n\
+                 origin = [{}, 0, {}]\nturn = [-90, 0, 0]\n",
+                -CLAMPED,
+                0.5 * WIDTH
+            );
+            let pattern = Pattern::parse(&Document::new("specimen.toml", pattern))?;
+            spec.garment.push(GarmentSpec {
+                pattern: FileOr::Value(Arc::new(pattern)),
+                fabric: "specimen".into(),
+                ..GarmentSpec::default()
+            });
+        }
+    }
+    Ok(spec.build()?)
 }
 
 /// Bends a specimen of `fabric` with `mesh`. Returns the curvatures in the middle half of its

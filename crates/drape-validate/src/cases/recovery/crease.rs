@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use drape_dynamics::{ReferenceScheme, Simulation};
 use drape_fabric::{BendingLaw, Fabric};
 use drape_kes::Direction;
-use drape_scene::Scene;
+use drape_scene::{MotionSpec, PanelSpec, PinSpec, Scene, SceneSpec, TimeSpec};
 
 use super::super::figure_name;
 use crate::bisection::bisect;
@@ -21,7 +21,7 @@ use crate::instrument::{
     LARGEST_CURVATURE, Rows, bending_placement, laws, lever_arm, pivot_moment,
 };
 use crate::setup::fabrics::{COTTON, CUPRO, fabric};
-use crate::setup::{ALONE, finish, scene};
+use crate::setup::{alone, finish, tolerance, with_panel};
 
 type Checks = Result<Vec<Check>, ValidationError>;
 
@@ -71,39 +71,50 @@ impl Arc {
 
         let spacing = self.spacing();
         let rows = (self.leg / spacing).round().max(3.0);
-        let grain = if direction == Direction::Warp { 90 } else { 0 };
+        let grain = if direction == Direction::Warp { 90.0 } else { 0.0 };
 
         // The clamp takes one placement in each step.
-        let (shifts, turns): (Vec<String>, Vec<String>) = path
+        let (shift, turn): (Vec<[f64; 3]>, Vec<[f64; 3]>) = path
             .iter()
             .map(|&curvature| {
                 let rows = Rows { distance: spacing, cells: self.cells };
                 let placement = bending_placement(rows, curvature);
-                let turn = placement.turn.to_degrees();
-                (format!("{:?}", placement.shift), format!("[0, 0, {turn:e}]"))
+                (placement.shift, [0.0, 0.0, placement.turn.to_degrees()])
             })
             .unzip();
-        let times: Vec<f64> = (0..path.len()).map(|k| k as f64 * STEP).collect();
-        let text = format!(
-            "{ALONE}spacing = {spacing:e}\ngravity = [0, 0, 0]\nair.density = 0\n\
-             fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
-             fabric = \"specimen\"\nrectangle = [{:e}, {:e}]\ngrain = {grain}\n\
-             center = [{:e}, 0, 0]\nturn = [-90, 0, 0]\n\
-             [[pin]]\npanel = \"specimen\"\nedge = \"left\"\nrows = {rows}\n\
-             [[pin]]\npanel = \"specimen\"\nedge = \"right\"\nrows = {rows}\nrelease = {:e}\n\
-             [pin.motion]\ntimes = {times:?}\ncenter = [{:e}, 0, 0]\nshift = [{}]\nturn = [{}]\n\
-             [time]\nstep = {STEP}\nend = {:e}\n[solver]\n\
-             tolerance = 1e-5\n[output]\nenergy = false\n",
-            self.length + (2.0 * rows - 3.0) * spacing,
-            CELLS_ACROSS * spacing,
-            0.5 * self.length,
-            (path.len() as f64 - 0.5) * STEP,
-            self.length - 0.5 * spacing,
-            shifts.join(", "),
-            turns.join(", "),
-            (path.len() - 1 + FREE_STEPS) as f64 * STEP,
-        );
-        scene(text, fabric.to_toml())
+        let times = (0..path.len()).map(|k| k as f64 * STEP).collect();
+        let center = Some([self.length - 0.5 * spacing, 0.0, 0.0]);
+        let end = (path.len() - 1 + FREE_STEPS) as f64 * STEP;
+        let mut spec = SceneSpec {
+            spacing,
+            gravity: [0.0; 3],
+            time: TimeSpec { step: STEP, end, ..TimeSpec::default() },
+            solver: tolerance(1e-5),
+            ..alone()
+        };
+        spec.air.density = 0.0;
+        let panel = PanelSpec {
+            name: "specimen".into(),
+            fabric: "specimen".into(),
+            rectangle: Some([self.length + (2.0 * rows - 3.0) * spacing, CELLS_ACROSS * spacing]),
+            grain,
+            center: [0.5 * self.length, 0.0, 0.0],
+            turn: [-90.0, 0.0, 0.0],
+            ..PanelSpec::default()
+        };
+        let clamp = |edge: &str| PinSpec {
+            panel: "specimen".into(),
+            edge: Some(edge.into()),
+            rows: rows as usize,
+            ..PinSpec::default()
+        };
+        let moving = PinSpec {
+            release: Some((path.len() as f64 - 0.5) * STEP),
+            motion: Some(MotionSpec { times, shift, turn, center }),
+            ..clamp("right")
+        };
+        spec.pin = vec![clamp("left"), moving];
+        Ok(with_panel(spec, panel, fabric).build()?)
     }
 
     /// Returns the curvatures, in 1/m, of the steps in which the clamp bends and holds the arc.

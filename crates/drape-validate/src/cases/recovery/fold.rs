@@ -5,11 +5,13 @@
 //! the strip comes to this angle whatever its rigidities.
 
 use drape_dynamics::Simulation;
+use drape_scene::{FoldSpec, PanelSpec, PinSpec, SceneSpec, SettleSpec, TimeSpec};
 use nalgebra::Vector3;
 
 use crate::error::ValidationError;
 use crate::findings::{Axis, Check, Findings, Graph, Layout, Source};
-use crate::setup::{ALONE, finish, scene};
+use crate::setup::fabrics::fabric;
+use crate::setup::{alone, finish, with_panel};
 
 /// Width and height of the strip, in m.
 const SIZE: [f64; 2] = [0.06, 0.16];
@@ -47,18 +49,29 @@ fn folded(angle: f64, slant: f64) -> Result<FoldedStrip, ValidationError> {
     let (sin, cos) = slant.to_radians().sin_cos();
     let [from, to] =
         [-0.1, 0.1].map(|distance| [0.5 * width + distance * cos, HEIGHT + distance * sin]);
-    let text = format!(
-        "{ALONE}spacing = {SPACING}\ngravity = [0, 0, 0]\nair.density = 0\n\
-         fabric.strip.file = \"fabric.toml\"\n[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
-         rectangle = [{width}, {height}]\ncenter = [{}, {}, 0]\n\
-         [[panel.fold]]\nfrom = {from:?}\nto = {to:?}\nangle = {angle}\n\
-         [[pin]]\npanel = \"strip\"\npoints = [[{}, 0]]\nradius = 0.015\n\
-         [time]\nstep = 0.005\nend = 1000\n[settle]\nresidual = 1e-6\n[output]\nenergy = false\n",
-        0.5 * width,
-        0.5 * height,
-        0.5 * width
-    );
-    let scene = scene(text, FABRIC.into())?;
+    let mut spec = SceneSpec {
+        spacing: SPACING,
+        gravity: [0.0; 3],
+        time: TimeSpec { step: 0.005, end: 1000.0, ..TimeSpec::default() },
+        settle: Some(SettleSpec { residual: 1e-6, ..SettleSpec::default() }),
+        ..alone()
+    };
+    spec.air.density = 0.0;
+    let panel = PanelSpec {
+        name: "strip".into(),
+        fabric: "strip".into(),
+        rectangle: Some([width, height]),
+        center: [0.5 * width, 0.5 * height, 0.0],
+        fold: vec![FoldSpec { from, to, angle }],
+        ..PanelSpec::default()
+    };
+    spec.pin.push(PinSpec {
+        panel: "strip".into(),
+        points: vec![[0.5 * width, 0.0]],
+        radius: Some(0.015),
+        ..PinSpec::default()
+    });
+    let scene = with_panel(spec, panel, &fabric(FABRIC)?).build()?;
     let coordinates = scene.panels[0].lattice.panel_coordinates();
     let mut simulation = Simulation::new(scene)?;
     finish(&mut simulation)?;

@@ -7,12 +7,14 @@
 //! that the sides are. Fewer than three cells are no strip.
 
 use drape_dynamics::Simulation;
+use drape_scene::{PanelSpec, PinSpec, SceneSpec, TimeSpec};
 use nalgebra::{SMatrix, SVector};
 
 use crate::error::ValidationError;
 use crate::findings::{Check, Findings};
 use crate::reference::bias_stiffness;
-use crate::setup::{ALONE, finish, scene};
+use crate::setup::fabrics::fabric;
+use crate::setup::{alone, finish, settle, tolerance, with_panel};
 
 /// Width of a strip, in m, and its length, in widths.
 const WIDTH: f64 = 0.05;
@@ -57,22 +59,31 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
              toe_strain_after = 0.01 }}\nbending.rigidity = 1e-5\n"
         )
     });
-    let fabric = format!(
+    let fabric = fabric(&format!(
         "name = \"strip\"\ndensity = {DENSITY}\nthickness = 0.0001\nshear.stiffness = {SHEAR}\n\
          [warp]\n{}[weft]\n{}",
         yarns[0], yarns[1]
-    );
-    let text = format!(
-        "{ALONE}spacing = {:e}\nair.density = 0\ngravity = [0, -{GRAVITY}, 0]\n\
-         fabric.strip.file = \"fabric.toml\"\n[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
-         rectangle = [{WIDTH}, {}]\ngrain = {angle}\n[[pin]]\npanel = \"strip\"\nedge = \"top\"\n\
-         [time]\nstep = 0.002\nend = 10000\n[settle]\nresidual = 1e-6\nspeed = 1e-5\n\
-         [solver]\ntolerance = 1e-7\n[output]\nenergy = false\n",
-        WIDTH / cells as f64,
-        LENGTH * WIDTH
-    );
+    ))?;
+    let mut spec = SceneSpec {
+        spacing: WIDTH / cells as f64,
+        gravity: [0.0, -GRAVITY, 0.0],
+        time: TimeSpec { step: 0.002, end: 1e4, ..TimeSpec::default() },
+        settle: settle(1e-5, 1e-6),
+        solver: tolerance(1e-7),
+        ..alone()
+    };
+    spec.air.density = 0.0;
+    let panel = PanelSpec {
+        name: "strip".into(),
+        fabric: "strip".into(),
+        rectangle: Some([WIDTH, LENGTH * WIDTH]),
+        grain: angle,
+        ..PanelSpec::default()
+    };
+    let (panel_name, edge) = ("strip".into(), Some("top".into()));
+    spec.pin.push(PinSpec { panel: panel_name, edge, ..PinSpec::default() });
 
-    let scene = scene(text, fabric)?;
+    let scene = with_panel(spec, panel, &fabric).build()?;
     let places = scene.panels[0].lattice.panel_coordinates();
     let starts: Vec<f64> = scene.start.positions.chunks_exact(3).map(|place| place[1]).collect();
     let mut simulation = Simulation::new(scene)?;

@@ -3,7 +3,7 @@
 //! The ratio of the tip's drop and reach is compared with the heavy elastica \[Bic34\]. Its error
 //! falls with the second order of the spacing.
 
-use super::REST;
+use super::rest;
 use crate::error::ValidationError;
 use crate::findings::{Axis, Check, Findings, Graph, Layout, Source};
 use crate::reference;
@@ -16,7 +16,7 @@ const SHAPE: [Axis; 2] = [Axis::ratio("reach over length"), Axis::ratio("height 
 /// the tip: distance across and height, over the length.
 fn cantilever(weight: f64, cells: u32) -> Result<Vec<[f64; 2]>, ValidationError> {
     let strip = Strip { cells: cells as usize, ..Strip::default() }.with_weight(weight);
-    let mut simulation = strip.simulation(0.0, REST)?;
+    let mut simulation = strip.simulation(0.0, rest())?;
     finish(&mut simulation)?;
     let line = strip.line(&simulation);
     let free = line.iter().filter(|point| point.distance > 0.0).map(|point| point.position);

@@ -4,20 +4,25 @@
 //! deflection `$\delta \propto \lambda/(\lambda_c - \lambda)$`; two weights give `$\lambda_c$`
 //! \[Sou32\].
 
-use super::REST;
+use drape_scene::SceneSpec;
+
+use super::rest;
 use crate::error::ValidationError;
 use crate::findings::{Check, Findings};
 use crate::reference;
-use crate::setup::{GRAVITY, Strip, finish};
+use crate::setup::{GRAVITY, Strip, finish, settle, tolerance};
 
 /// Returns the lean of an upright strip with the ratio `weight`: deflection of the tip over length.
 fn lean(weight: f64) -> Result<f64, ValidationError> {
     let strip = Strip::default().with_weight(weight);
     // A slant of gravity by a part in a thousand pushes sideways in proportion to the weight.
-    let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n{REST}", 1e-3 * GRAVITY);
-    let rest = rest.replace("residual = 1e-5\nspeed = 1e-5", "residual = 1e-6\nspeed = 1e-6");
-    let rest = rest.replace("tolerance = 1e-7", "tolerance = 1e-6");
-    let mut simulation = strip.simulation(90.0, &rest)?;
+    let rest = SceneSpec {
+        gravity: [1e-3 * GRAVITY, -GRAVITY, 0.0],
+        settle: settle(1e-6, 1e-6),
+        solver: tolerance(1e-6),
+        ..rest()
+    };
+    let mut simulation = strip.simulation(90.0, rest)?;
     finish(&mut simulation)?;
     Ok(strip.tip(&simulation)[0].abs() / strip.length)
 }

@@ -5,10 +5,12 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use drape_scene::{PanelSpec, SceneSpec, TimeSpec};
+
 use crate::error::ValidationError;
 use crate::findings::{Check, Findings};
 use crate::setup::fabrics::{CUPRO, fabric};
-use crate::setup::{ALONE, scene};
+use crate::setup::{alone, with_panel};
 
 /// Radius of a cylinder, and the side of the square sheet on it, in m.
 const RADIUS: f64 = 0.05;
@@ -23,12 +25,16 @@ fn energy(
     shape: impl Fn([f64; 2]) -> [f64; 3],
 ) -> Result<f64, ValidationError> {
     let fabric = fabric(CUPRO)?.without_friction();
-    let text = format!(
-        "{ALONE}spacing = {spacing:e}\nfabric.sheet.file = \"fabric.toml\"\n[[panel]]\nname = \"sheet\"\n\
-         fabric = \"sheet\"\nrectangle = [{SIDE}, {SIDE}]\ngrain = {grain}\n\
-         [time]\nstep = 0.01\nend = 1\n"
-    );
-    let scene = scene(text, fabric.to_toml())?;
+    let panel = PanelSpec {
+        name: "sheet".into(),
+        fabric: "sheet".into(),
+        rectangle: Some([SIDE, SIDE]),
+        grain,
+        ..PanelSpec::default()
+    };
+    let time = TimeSpec { step: 0.01, end: 1.0, ..TimeSpec::default() };
+    let spec = SceneSpec { spacing, time, ..alone() };
+    let scene = with_panel(spec, panel, &fabric).build()?;
     let places = scene.panels[0].lattice.panel_coordinates();
     let state = scene.cloth.state(places.into_iter().flat_map(shape).collect());
     let state = state.expect("a scene's panels place every particle");

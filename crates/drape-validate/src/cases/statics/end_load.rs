@@ -1,6 +1,8 @@
 //! Case `end-load`: a clamped strip bends under a load at its tip \[BD45\].
 
-use super::REST;
+use drape_scene::{MotionSpec, PinSpec};
+
+use super::rest;
 use crate::error::ValidationError;
 use crate::findings::{Axis, Check, Findings, Graph, Source};
 use crate::reference;
@@ -11,13 +13,19 @@ use crate::setup::{Strip, finish};
 fn pin_force(drop: f64, reach: f64) -> Result<[f64; 2], ValidationError> {
     let strip = Strip::default();
     let shift = [(reach - 1.0) * strip.length, -drop * strip.length, 0.0];
-    let rest = format!(
-        "gravity = [0, 0, 0]\n[[pin]]\npanel = \"strip\"\nedge = \"right\"\n[pin.motion]\n\
-         times = [0, 1]\nshift = [[0, 0, 0], {shift:?}]\n{REST}"
-    );
+    let motion =
+        MotionSpec { times: vec![0.0, 1.0], shift: vec![[0.0; 3], shift], ..MotionSpec::default() };
+    let mut rest = rest();
+    rest.gravity = [0.0; 3];
+    rest.pin.push(PinSpec {
+        panel: "strip".into(),
+        edge: Some("right".into()),
+        motion: Some(motion),
+        ..PinSpec::default()
+    });
     // Rest is tested only after the pin has arrived.
-    let rest = rest.replace("step = 0.002", "step = 0.002\nramp = 1.0");
-    let mut simulation = strip.simulation(0.0, &rest)?;
+    rest.time.ramp = 1.0;
+    let mut simulation = strip.simulation(0.0, rest)?;
     finish(&mut simulation)?;
     let [x, y, _] = simulation.pin_loads()[1].force;
     Ok([x, y].map(|force| force / strip.width * strip.length.powi(2) / strip.rigidity))

@@ -1,7 +1,9 @@
 //! Cases `catenary` and `self-stretch`: a limp strip between two hinges, and one that hangs
 //! straight down.
 
-use super::REST;
+use drape_scene::{MotionSpec, PinSpec};
+
+use super::rest;
 use crate::error::ValidationError;
 use crate::findings::{Axis, Check, Findings, Graph, Layout, Source};
 use crate::reference;
@@ -22,12 +24,20 @@ pub(crate) fn catenary() -> Result<Findings, ValidationError> {
     let mut graph = Graph::new("limp strips between two hinges", axes).laid_out(Layout::ToScale);
     for slack in [1.1, 1.5] {
         let span = strip.length / slack;
-        let rest = format!(
-            "[[pin]]\npanel = \"strip\"\nedge = \"right\"\n[pin.motion]\ntimes = [0, 1]\n\
-             shift = [[0, 0, 0], [{:e}, 0, 0]]\n{REST}",
-            span - strip.length
-        );
-        let mut simulation = strip.simulation(0.0, &rest)?;
+        let nearer = [span - strip.length, 0.0, 0.0];
+        let motion = MotionSpec {
+            times: vec![0.0, 1.0],
+            shift: vec![[0.0; 3], nearer],
+            ..MotionSpec::default()
+        };
+        let mut rest = rest();
+        rest.pin.push(PinSpec {
+            panel: "strip".into(),
+            edge: Some("right".into()),
+            motion: Some(motion),
+            ..PinSpec::default()
+        });
+        let mut simulation = strip.simulation(0.0, rest)?;
         finish(&mut simulation)?;
 
         let line = strip.line(&simulation);
@@ -46,7 +56,7 @@ pub(crate) fn catenary() -> Result<Findings, ValidationError> {
 pub(crate) fn self_stretch() -> Result<Findings, ValidationError> {
     let hold = Hold::Hinge;
     let strip = Strip { length: 1.0, width: 0.1, stiffness: 500.0, hold, ..Strip::default() };
-    let mut simulation = strip.simulation(-90.0, REST)?;
+    let mut simulation = strip.simulation(-90.0, rest())?;
     finish(&mut simulation)?;
     let found = -strip.tip(&simulation)[1] - strip.length;
     let exact = 0.5 * strip.density * GRAVITY * strip.length.powi(2) / strip.stiffness;
