@@ -9,6 +9,7 @@ mod scene;
 mod spacings;
 mod surfaces;
 mod tangle;
+mod wearing;
 
 // From specs to values
 mod check;
@@ -55,3 +56,5 @@ pub use spec::text::SaveError;
 pub use spec::{AirSpec, FabricSpec, LengthUnit, SceneSpec};
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};
+pub use wearing::GarmentPlacement;
+pub use wearing::solids::GarmentPlace;

@@ -4,11 +4,9 @@
 mod apart;
 mod bodies;
 mod ease_notes;
-pub(crate) mod girth;
 mod layers;
 mod place_key;
-pub(crate) mod placing;
-mod rings;
+pub(crate) mod places;
 mod stitches;
 mod tangle;
 
@@ -21,14 +19,15 @@ use crate::figure::ease::Figures;
 use crate::scene::Scene;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
+use crate::wearing::girth::{Girths, girth_note};
+use crate::wearing::solids::Solids;
 
 use self::apart::{leave_bodies, part_panels};
 use self::bodies::{body_notes, contact_limits};
 use self::ease_notes::ease_notes;
-use self::girth::{Girths, girth_note};
 use self::layers::check_layers;
 use self::place_key::place_key;
-use self::placing::{PlaceReport, Solids, check_places};
+use self::places::{PlaceReport, check_places};
 use self::stitches::{stitches_through_bodies, stitches_through_panels};
 use self::tangle::{Tangled, check_tangle};
 

@@ -5,8 +5,9 @@ use drape_collide::Shape;
 use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
-use crate::check::start::placing::{PlaceRemedy, Solids};
+use crate::check::start::places::PlaceRemedy;
 use crate::spec::body::MeshSpec;
+use crate::wearing::solids::Solids;
 
 /// Largest distance of a garment from every body at the start, in m: a pattern that was made for
 /// another figure, or in another frame, is metres off.

@@ -13,7 +13,10 @@ use crate::scene::contact::DistanceGrowth;
 use crate::scene::garment::Garment;
 use crate::surfaces::StartSurfaces;
 
-use super::placing::{CLEAR, Solids, is_held, moved};
+use crate::wearing::is_held;
+use crate::wearing::placing::CLEAR;
+use crate::wearing::solids::{Solids, moved};
+
 use super::tangle::overlaps;
 
 /// Largest distance by which a panel is moved out of a body, in m.

@@ -5,8 +5,8 @@ use crate::figure::ease::{Figures, merged, named};
 use crate::figure::landmark::{FoundBy, Landmark};
 use crate::figure::trunk::Trunk;
 
-use super::girth::Girths;
-use super::rings::Ring;
+use crate::wearing::girth::Girths;
+use crate::wearing::rings::Ring;
 
 /// Largest difference of two girths that count as equal, in m.
 const EQUAL: f64 = 5e-4;

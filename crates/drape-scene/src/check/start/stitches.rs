@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::scene::panel::Panel;
 use crate::scene::seam::Seam;
 
-use super::placing::Solids;
+use crate::wearing::solids::Solids;
 
 /// Least depth in a body at which a stitch counts as leading through it, in m. Cloth slides round
 /// less.

@@ -326,7 +326,7 @@ mod tests {
 
     use super::*;
 
-    const FABRIC: &str = include_str!("../../../tests/plain.toml");
+    const FABRIC: &str = include_str!("../../tests/plain.toml");
 
     #[test]
     fn a_panel_within_30_degrees_of_the_vertical_stands_upright() {

@@ -1,47 +1,22 @@
-//! Placing of garments: checks whether a garment starts round a body, and finds the shift that
-//! would bring the garment there.
+//! Placing of garments: the shift that brings a garment about a body.
 //!
-//! A garment is about a body if its horizontal outline goes round a part of the body. A garment
-//! that hangs from the waist, as the number of its openings shows, is brought to the lowest place
-//! where it is wide enough and the body below is too wide for it. Any other garment is brought to
-//! the place where its particles are nearest to the bodies on average without being inside a body.
+//! A garment that hangs from the waist, as the number of its openings shows, is brought to the lowest
+//! place where it is wide enough and the body below is too wide for it. Any other garment is brought
+//! to the place where its particles are nearest to the bodies on average without being inside a body.
 //! Particles at the top count for more, since a garment hangs from its top.
 
 use std::cmp::Ordering;
 
-use drape_collide::{Body, Shape, Triangulation};
-
-use crate::check::checker::Checker;
 use crate::scene::Scene;
 use crate::scene::garment::Garment;
 use crate::surfaces::StartSurfaces;
-use drape_collide::section::{SectionPlane, convex_hull, encloses};
 
 use super::girth::{Fit, Girths};
-
-/// Number of heights at which the outline of a garment is compared with the bodies.
-const HEIGHTS: usize = 24;
-
-/// Least fraction of the heights at which a garment that is worn goes round a body. The shipped
-/// garments go round it at 9 of 10.
-const AROUND_MIN: f64 = 0.25;
-
-/// Least height of a garment over its width if it goes round a body. Lower garments lie flat and
-/// fall on the body.
-const FLAT: f64 = 0.1;
-
-/// A garment below this fraction of a figure's height is about its feet.
-const FEET: f64 = 0.3;
-
-/// A garment taller than this fraction of a figure's height is neither a shoe nor a sock.
-const TALL: f64 = 0.25;
-
-/// Largest fraction of a garment's particles inside a body at which its place still counts as
-/// right.
-const INSIDE_MAX: f64 = 0.002;
+use super::solids::{Solids, extent, moved};
 
 /// Number of particles by which all tried places are compared.
 const SAMPLES_COARSE: usize = 100;
+
 /// Number of particles by which places near the best one are compared.
 const SAMPLES: usize = 250;
 
@@ -57,11 +32,13 @@ const DEPTH_WEIGHT: f64 = 50.0;
 
 /// Fraction of a garment's height that counts as its top.
 const TOP: f64 = 0.1;
+
 /// Weight of a distance at the top of a garment.
 const TOP_WEIGHT: f64 = 10.0;
 
 /// Step of the heights that are tried, in m.
 const STEP: f64 = 0.04;
+
 /// Step at which the search near the best place ends, in m.
 const STEP_LAST: f64 = 0.004;
 
@@ -73,12 +50,14 @@ const SLIDE: f64 = 0.12;
 
 /// Least distance of a garment from every body at an advised place, in m.
 pub(crate) const CLEAR: f64 = 0.002;
+
 /// Particles farther from the bodies than this are skipped in the local search, in m.
 const NEAR: f64 = 0.12;
 
 /// Number of the best places of all heights from which a local search begins if none is clear of
 /// the bodies.
 const CLOSE: usize = 4;
+
 /// Number of the best places of one height from which a local search begins.
 const CLOSE_AT_HEIGHT: usize = 2;
 
@@ -88,92 +67,7 @@ const NUDGES: [f64; 5] = [0.005, 0.01, 0.015, 0.02, 0.03];
 /// Factor on the cost of a place where the garment has to stretch.
 const STRETCHED: f64 = 1.5;
 
-/// Bodies that a garment can be worn on: all but floors.
-pub(crate) struct Solids<'a> {
-    bodies: Vec<&'a Body>,
-    pub(crate) outlines: Vec<Triangulation>,
-    low: [f64; 3],
-    high: [f64; 3],
-}
-
-/// Place of a garment relative to the bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum GarmentPlace {
-    /// The garment goes round a body.
-    About,
-    /// The garment goes round the feet of a figure.
-    Feet,
-    /// A `fraction` of the particles is inside a body.
-    Inside { fraction: f64 },
-    /// The garment goes round a body at no more than a `fraction` of its heights.
-    Beside { fraction: f64 },
-}
-
-impl<'a> Solids<'a> {
-    /// Returns the solid ones among `bodies`, or `None` if all `bodies` are floors.
-    pub(crate) fn new(bodies: impl Iterator<Item = &'a Body>) -> Option<Self> {
-        let solid = bodies.filter(|body| !matches!(body.shape, Shape::Plane));
-        let outlined = solid.filter_map(|body| Some((body, body.triangulate().ok()?)));
-        let (bodies, outlines): (Vec<_>, Vec<Triangulation>) = outlined.unzip();
-        let [low, high] = extent(outlines.iter().flat_map(|outline| &outline.vertices));
-        (!bodies.is_empty()).then_some(Self { bodies, outlines, low, high })
-    }
-
-    /// Returns the signed distance of `point` from the nearest body, in m.
-    pub(crate) fn distance(&self, point: [f64; 3]) -> f64 {
-        let distances = self.bodies.iter().filter_map(|body| body.signed_distance(point).ok());
-        distances.map(|near| near.distance).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Returns the fraction of [`HEIGHTS`] at which the horizontal outline of `points` goes round a
-    /// part of a body.
-    fn fraction_around(&self, points: &[[f64; 3]]) -> f64 {
-        let [low, high] = extent(points.iter());
-        let band = (high[1] - low[1]) / HEIGHTS as f64;
-        let around = (0..HEIGHTS).filter(|k| {
-            let height = low[1] + (*k as f64 + 0.5) * band;
-            let plane = SectionPlane::horizontal(height);
-            let near = points.iter().filter(|point| (point[1] - height).abs() <= band);
-            let outline = convex_hull(near.map(|&point| plane.flat(point)).collect());
-            self.outlines.iter().any(|body| {
-                let corners = |t: &[u32; 3]| t.map(|corner| body.vertices[corner as usize]);
-                let mut cuts = body.triangles.iter().flat_map(|t| plane.cuts(corners(t)));
-                cuts.any(|point| encloses(&outline, point))
-            })
-        });
-        around.count() as f64 / HEIGHTS as f64
-    }
-
-    /// Returns the fraction of `points` that are inside a body.
-    fn fraction_inside(&self, points: &[[f64; 3]]) -> f64 {
-        let inside = points.iter().filter(|&&point| self.distance(point) < 0.0).count();
-        inside as f64 / points.len().max(1) as f64
-    }
-
-    /// Returns the place of a garment whose particles are at `points`.
-    fn place(&self, points: &[[f64; 3]]) -> GarmentPlace {
-        let [low, high] = extent(points.iter());
-        let width = (high[0] - low[0]).max(high[2] - low[2]);
-        let [figure, garment] = [self.high[1] - self.low[1], high[1] - low[1]];
-        if garment < FLAT * width {
-            return GarmentPlace::About;
-        }
-        let around = self.fraction_around(points);
-        let inside = self.fraction_inside(points);
-        let is_figure = figure > (self.high[0] - self.low[0]).max(self.high[2] - self.low[2]);
-        let is_at_feet = garment > TALL * figure && high[1] < self.low[1] + FEET * figure;
-
-        if around < AROUND_MIN {
-            GarmentPlace::Beside { fraction: around }
-        } else if inside > INSIDE_MAX {
-            GarmentPlace::Inside { fraction: inside }
-        } else if is_figure && is_at_feet {
-            GarmentPlace::Feet
-        } else {
-            GarmentPlace::About
-        }
-    }
-
+impl Solids<'_> {
     /// Returns the shift, in m, that brings a garment with particles at `points` about a body, or
     /// `None` if no place was found. A garment that `girths` shows to be worn at the waist comes to
     /// the place where it holds there. Any other garment comes to the nearest place at which it
@@ -287,12 +181,6 @@ impl<'a> Solids<'a> {
         points.iter().all(|point| self.distance(moved(point, shift)) > CLEAR)
     }
 
-    /// Returns whether `points` moved by `shift`, in m, go round a body.
-    fn is_around(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
-        let moved: Vec<[f64; 3]> = points.iter().map(|point| moved(point, shift)).collect();
-        self.fraction_around(&moved) >= AROUND_MIN
-    }
-
     /// Returns the cost of a garment with particles at `points` that is moved by `shift`: its
     /// weighted mean distance from the bodies, in m.
     fn cost(&self, points: &[[f64; 3]], shift: [f64; 3]) -> f64 {
@@ -371,73 +259,10 @@ impl Candidate {
     }
 }
 
-/// Results of the check of the places of all garments.
-#[derive(Default)]
-pub(crate) struct PlaceReport {
-    /// Notes on garments about the feet of a figure.
-    pub(crate) notes: Vec<String>,
-    /// Whether a garment is at a wrong place for which another place is advised.
-    pub(crate) advised: bool,
-}
-
-/// Checks the places of the garments of `scene`. Garments that pins hold need no body. A garment at
-/// a wrong place is a mistake with the advised place as its remedy.
-pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> PlaceReport {
-    let mut report = PlaceReport::default();
-    let Some(solids) = Solids::new(scene.bodies.iter().map(|moving| &moving.body)) else {
-        return report;
-    };
-    for (number, garment) in scene.garments.iter().enumerate() {
-        if is_held(scene, garment) {
-            continue;
-        }
-        let points = points(scene, garment);
-        let place = solids.place(&points);
-        if place == GarmentPlace::About
-            || (matches!(place, GarmentPlace::Inside { .. }) && grows(scene))
-        {
-            continue;
-        }
-
-        let fault = describe(&garment.name, place, &points, &solids);
-        let girths = Girths::new(scene, &solids.outlines, garment);
-        let shift =
-            solids.shift(&points, Some(&girths)).map(|shift| free_shift(scene, garment, shift));
-        let remedy = PlaceRemedy::new(checker, number, shift);
-
-        match place {
-            GarmentPlace::Feet => report.notes.push(format!("{fault}; {}", remedy.help)),
-            _ => {
-                let key = format!("garment[{number}].pattern");
-                let mistake = checker.fail(&key, fault, &remedy.help);
-                remedy.attach(checker, mistake, number);
-                report.advised |= shift.is_some();
-            }
-        }
-    }
-    report
-}
-
-/// Returns whether the bodies of `scene` grow at the start.
-fn grows(scene: &Scene) -> bool {
-    scene.contact.inflation.is_some()
-}
-
-/// Returns whether pins hold particles of `garment`.
-pub(super) fn is_held(scene: &Scene, garment: &Garment) -> bool {
-    let mut pinned = scene.pins.iter().flat_map(|pin| &pin.particles);
-    pinned.any(|particle| garment.particles.contains(particle))
-}
-
-/// Returns the positions of the particles of `garment` at the start, in m.
-fn points(scene: &Scene, garment: &Garment) -> Vec<[f64; 3]> {
-    scene.start.positions.as_chunks::<3>().0[garment.particles.clone()].to_vec()
-}
-
 /// Returns the shift of `garment` nearest to `shift`, in m, at which the garment crosses nothing,
 /// or `shift` if there is none. A place that is clear at all particles can still be crossed, since
 /// fingers fit between the particles of a coarse panel.
-fn free_shift(scene: &Scene, garment: &Garment, shift: [f64; 3]) -> [f64; 3] {
+pub(crate) fn free_shift(scene: &Scene, garment: &Garment, shift: [f64; 3]) -> [f64; 3] {
     let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(scene).ok()).flatten();
     let Some(StartSurfaces { mut contact, .. }) = surfaces else { return shift };
 
@@ -462,94 +287,7 @@ fn free_shift(scene: &Scene, garment: &Garment, shift: [f64; 3]) -> [f64; 3] {
     free.unwrap_or(shift)
 }
 
-/// Describes where `garment`, with its particles at `points`, starts relative to `solids`.
-fn describe(
-    garment: &str,
-    place: GarmentPlace,
-    points: &[[f64; 3]],
-    solids: &Solids<'_>,
-) -> String {
-    let [low, high] = extent(points.iter());
-    let [bottom, top] = [solids.low[1], solids.high[1]];
-    let heights = format!(
-        "between {:.2} and {:.2} m, and the body is between {bottom:.2} and {top:.2} m",
-        low[1], high[1]
-    );
-
-    match place {
-        GarmentPlace::Feet | GarmentPlace::About => {
-            format!("\"{garment}\" starts about the feet of the body: it is {heights}")
-        }
-        GarmentPlace::Inside { fraction } => {
-            let percent = match 100.0 * fraction {
-                percent if percent < 1.0 => "Less than 1".to_owned(),
-                percent => format!("{percent:.0}"),
-            };
-            format!("{percent} % of \"{garment}\" starts inside the body: it is {heights}")
-        }
-        GarmentPlace::Beside { fraction } => {
-            let side = if high[1] < bottom + FEET * (top - bottom) {
-                "at the feet of"
-            } else if low[1] > top {
-                "above"
-            } else {
-                "beside"
-            };
-            format!(
-                "\"{garment}\" starts {side} the body, not about it: it goes round it at {:.0} % of its heights; it is \
-                 {heights}",
-                100.0 * fraction
-            )
-        }
-    }
-}
-
-/// Remedy for a wrong place of a garment, in words and as the TOML value of its `center`, if a
-/// place was found.
-pub(crate) struct PlaceRemedy {
-    pub(crate) help: String,
-    center: Option<String>,
-}
-
-impl PlaceRemedy {
-    /// Returns the remedy for the garment with the number `garment`. `shift` leads to the place
-    /// that was found, in m.
-    pub(crate) fn new(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 3]>) -> Self {
-        let (Some(shift), Some(entry)) = (shift, checker.spec.garment.get(garment)) else {
-            let help = "no place about the body was found: does the pattern fit it? turn or move its panels";
-            return Self { help: help.into(), center: None };
-        };
-        let unit = checker.spec.length.metres();
-        let [x, y, z] = [0, 1, 2].map(|k| (entry.center[k] + shift[k]) / unit);
-        let digits = if unit == 1.0 { 3 } else { 0 };
-        let center = format!("[{x:.digits$}, {y:.digits$}, {z:.digits$}]");
-        let help =
-            format!("write center = {center} in its [[garment]]; there it is about the body");
-        Self { help, center: Some(center) }
-    }
-
-    /// Attaches the new `center` of the garment with the number `garment` to the mistake with the
-    /// index `mistake`.
-    pub(crate) fn attach(&self, checker: &mut Checker<'_>, mistake: usize, garment: usize) {
-        if let Some(center) = &self.center {
-            checker.remedy(mistake, &format!("garment[{garment}].center"), Some(center));
-        }
-    }
-}
-
-/// Returns `point` moved by `shift`.
-pub(super) fn moved(point: &[f64; 3], shift: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| point[k] + shift[k])
-}
-
 /// Returns about `count` of `points`, evenly spaced in the list.
 fn samples(points: &[[f64; 3]], count: usize) -> Vec<[f64; 3]> {
     points.iter().step_by((points.len() / count).max(1)).copied().collect()
-}
-
-/// Returns the low and the high corner of the bounding box of `points`.
-fn extent<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
-    points.fold([[f64::MAX; 3], [f64::MIN; 3]], |[low, high], point| {
-        [[0, 1, 2].map(|k| low[k].min(point[k])), [0, 1, 2].map(|k| high[k].max(point[k]))]
-    })
 }
