@@ -1,6 +1,6 @@
 //! Rules of the architecture: the map in `crates/README.md` is true, the modules of a crate do not
-//! use each other in a circle, folders and files stay small, every module has a description, and the
-//! glossary and the bibliography are true.
+//! use each other in a circle, folders and files stay small, every module has a description, and
+//! the glossary and the bibliography are true.
 
 #[path = "architecture/arguments.rs"]
 mod arguments;
@@ -10,6 +10,8 @@ mod modules;
 mod pages;
 #[path = "architecture/tokens.rs"]
 mod tokens;
+#[path = "architecture/words.rs"]
+mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -25,8 +27,29 @@ const LEFT: &[&str] = &[];
 /// Largest number of files of a folder.
 const FILES_MAX: usize = 14;
 
-/// Largest number of lines of a source file.
-const LINES_MAX: usize = 600;
+/// Largest number of lines of code of a source file; blank lines and comments do not count.
+const LINES_MAX: usize = 400;
+
+/// Files that are longer, and why.
+const LONG_FILES: &[(&str, &str)] = &[
+    ("crates/drape-collide/src/surface/contact/surface_contact.rs", "one type with many questions"),
+    ("crates/drape-export/src/format/svg.rs", "one drawing, with its text"),
+    (
+        "crates/drape-implicit/src/linear/level_schedule/layout.rs",
+        "one layout in memory, with its tests",
+    ),
+    ("crates/drape-input/src/decode/reader.rs", "one deserialiser"),
+    ("crates/drape-input/src/document.rs", "one type, with its tests"),
+    ("crates/drape-input/src/unit.rs", "one table of units"),
+    ("crates/drape-kes/src/exports/file_curves.rs", "one reader of exports, with its tests"),
+    ("crates/drape-kes/src/results/label.rs", "one table of labels"),
+    ("crates/drape-kes/src/sheets/section.rs", "one decoder, which is to go"),
+    ("crates/drape-kes/src/tables/find.rs", "one search, with its tests"),
+    ("crates/drape-kes/tests/drafts.rs", "a table of exports"),
+    ("crates/drape-kes/tests/exports.rs", "a table of exports"),
+    ("crates/drape-pattern/tests/reading.rs", "a table of patterns"),
+    ("tests/sweep/main.rs", "a table of studies"),
+];
 
 /// Largest number of arguments of a function, `self` not counted.
 const ARGUMENTS_MAX: usize = 4;
@@ -199,11 +222,35 @@ fn no_folder_of_sources_has_too_many_files() {
 fn no_source_file_is_too_long() {
     let lines = |file: &PathBuf| {
         let text = std::fs::read_to_string(file).expect("a file can be read");
-        (short(file), text.lines().count())
+        let code = text.lines().map(str::trim);
+        (short(file), code.filter(|line| !line.is_empty() && !line.starts_with("//")).count())
     };
+    let counts: BTreeMap<String, usize> = sources().iter().map(lines).collect();
+    let has_reason = |file: &str| LONG_FILES.iter().any(|(long, _)| *long == file);
     let long: Vec<_> =
-        sources().iter().map(lines).filter(|(_, count)| *count > LINES_MAX).collect();
-    assert!(long.is_empty(), "files of more than {LINES_MAX} lines: {long:?}");
+        counts.iter().filter(|(file, count)| **count > LINES_MAX && !has_reason(file)).collect();
+    assert!(long.is_empty(), "files of more than {LINES_MAX} lines of code: {long:?}");
+    for (file, reason) in LONG_FILES {
+        let count = counts.get(*file).copied().unwrap_or_default();
+        assert!(count > LINES_MAX, "{file} needs no reason ({reason}): it has {count} lines");
+    }
+}
+
+#[test]
+fn sources_are_written_in_plain_words() {
+    let wrong: Vec<String> = sources()
+        .iter()
+        .filter(|file| {
+            let name = short(file);
+            name.contains("/src/") && !name.ends_with("tests.rs")
+        })
+        .flat_map(|file| {
+            let text = std::fs::read_to_string(file).expect("a file can be read");
+            let name = short(file);
+            words::faults(&text).into_iter().map(move |fault| format!("{name}: {fault}"))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{} faults: {wrong:#?}", wrong.len());
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Frames that a run stores, how `drape check` verifies them, and how `drape export` writes them for
-//! other programs.
+//! Frames that a run stores, how `drape check` verifies them, and how `drape export` writes them
+//! for other programs.
 
 #[path = "frames/export.rs"]
 mod export;

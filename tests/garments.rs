@@ -92,8 +92,8 @@ fn a_sewn_strip_hangs_like_one_that_is_not_and_alike_on_two_threads() {
 fn a_sewn_strip_carried_from_a_coarser_grid_hangs_like_one_sewn_on_its_own_and_alike_on_three_threads()
  {
     let folder = tempfile::tempdir().expect("a folder");
-    // A clamp that ends at 20 mm on both grids: the friction of bending keeps a little of the coarse one's
-    // fall, and would keep much more where that is clamped elsewhere.
+    // A clamp that ends at 20 mm on both grids: the friction of bending keeps a little of the
+    // coarse one's fall, and would keep much more where that is clamped elsewhere.
     let clamp = ("radius = 0.0165", "radius = 0.0245");
     let scene = changed("seam-strip", &[clamp], folder.path());
     let direct = run(&scene, 1);
@@ -147,7 +147,8 @@ fn a_strip_graded_by_an_earlier_run_hangs_like_one_that_is_fine_everywhere() {
     let folder = tempfile::tempdir().expect("a folder");
     let clamp = ("radius = 0.0165", "radius = 0.0245");
     run(&changed("seam-strip", &[clamp], folder.path()), 1);
-    // Friction of bending keeps part of what the way to rest was: both come from the same coarser grid.
+    // Friction of bending keeps part of what the way to rest was: both come from the same coarser
+    // grid.
     let fine = ("spacing = 0.005", "spacing = 0.0025");
     let refined = "[settle]\n[refine]\nspacings = [0.005]";
     let uniform =
@@ -185,8 +186,8 @@ fn a_graded_flounce_is_gathered_to_its_band() {
     assert!((length / 0.27 - 1.0).abs() < 0.01, "the hem is {length} m long");
 }
 
-/// Writes the scene of a band of 90 mm with a flounce of 270 mm gathered to it into a folder, with some
-/// of its text replaced.
+/// Writes the scene of a band of 90 mm with a flounce of 270 mm gathered to it into a folder, with
+/// some of its text replaced.
 fn flounce(changes: &[(&str, &str)], folder: &Path) -> PathBuf {
     let shipped = root().join("scenes/patterns/gather.toml");
     let mut pattern = std::fs::read_to_string(&shipped).expect("a pattern");

@@ -92,7 +92,8 @@ fn the_fabrics_of_the_validation_are_those_of_the_sheets() {
         let mut found = Vec::new();
         let (mut kept, mut fitted) = (read(&file), read(&fitted));
         for fabric in [&mut kept, &mut fitted] {
-            // Standard errors and correlations are not used, and change more than the numbers themselves.
+            // Standard errors and correlations are not used, and change more than the numbers
+            // themselves.
             let provenance = fabric["provenance"].as_table_mut().expect("a table");
             provenance.remove("standard_errors");
             provenance.remove("correlations");

@@ -1,4 +1,5 @@
-//! Every command that is given a file of another kind says what the file is and which command takes it.
+//! Every command that is given a file of another kind says what the file is and which command takes
+//! it.
 
 use std::path::Path;
 

@@ -92,8 +92,8 @@ fn a_panel_is_coarser_where_an_earlier_run_was_flat_and_the_remedies_work() {
     assert!(text(&other.stderr).contains("no panel \"other\""), "{}", text(&other.stderr));
     let breen = graded("fine", &["--set", "model=\"breen-1994\"", "--force"]);
     assert!(text(&breen.stderr).contains("leave [grading] out"), "{}", text(&breen.stderr));
-    // Beside a fold, here one across the flat end of the sheet, particles are as near as elsewhere without
-    // grading.
+    // Beside a fold, here one across the flat end of the sheet, particles are as near as elsewhere
+    // without grading.
     let fold = "panel.0.fold=[{ from = [0.02, 0], to = [0.02, 0.2], angle = 90 }]";
     let folded = graded("folded", &["--set", fold]);
     assert!(folded.status.success(), "{}", text(&folded.stderr));

@@ -105,7 +105,8 @@ impl Random {
 }
 
 /// Kills runs of a scene so many times at random moments, a third of them while a checkpoint is
-/// written, goes on each time, and compares the results. Returns the number of kills that met a run.
+/// written, goes on each time, and compares the results. Returns the number of kills that met a
+/// run.
 fn kills(case: &Case, times: usize, random: &mut Random) -> usize {
     let folder = tempfile::tempdir().unwrap();
     let whole = folder.path().join("whole");

@@ -1,11 +1,11 @@
-//! Determinism: nine runs give the hashes of `golden.txt` after every step, in optimised builds in one,
-//! two and three threads, in builds with overflow checks in two.
+//! Determinism: nine runs give the hashes of `golden.txt` after every step, in optimised builds in
+//! one, two and three threads, in builds with overflow checks in two.
 //!
-//! A change of the physics or of the order of a sum changes the hashes: `DETERMINISM=write cargo test
-//! --release --test determinism` writes them anew, and the change goes with them into one commit.
-//! `crates/SIMD.md` says what differs by processor. Another processor or build is checked with the
-//! command that runs its program:
-//! `DRAPE="qemu-x86_64 -cpu Nehalem target/release/drape" cargo test --release --test determinism`.
+//! A change of the physics or of the order of a sum changes the hashes: `DETERMINISM=write cargo
+//! test --release --test determinism` writes them anew, and the change goes with them into one
+//! commit. `crates/SIMD.md` says what differs by processor. Another processor or build is checked
+//! with the command that runs its program: `DRAPE="qemu-x86_64 -cpu Nehalem target/release/drape"
+//! cargo test --release --test determinism`.
 
 #![allow(clippy::unwrap_used)]
 

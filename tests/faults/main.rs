@@ -1,4 +1,5 @@
-//! Faults of input and of machines: no panic, no hang, no exit code without a meaning, no half a file.
+//! Faults of input and of machines: no panic, no hang, no exit code without a meaning, no half a
+//! file.
 //!
 //! A sample runs by default; `FAULTS=full cargo test --release --test faults` runs all of them.
 

@@ -1,5 +1,5 @@
-//! Resources are known before they are used: what does not fit into memory is refused with a spacing
-//! that does.
+//! Resources are known before they are used: what does not fit into memory is refused with a
+//! spacing that does.
 
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,8 @@
 //! JSON Schemas as tables of keys.
 //!
-//! A schema says of a key what it holds, its range, its default, and in its description the rest: its
-//! unit as `…, in UNIT.` at the end of a sentence, and what takes its place as `…; DEFAULT if missing.`.
+//! A schema says of a key what it holds, its range, its default, and in its description the rest:
+//! its unit as `…, in UNIT.` at the end of a sentence, and what takes its place as `…; DEFAULT if
+//! missing.`.
 
 use std::collections::VecDeque;
 

@@ -1,5 +1,5 @@
-//! The schemas that `drape schema` prints: they accept every file that ships and every file to start
-//! from, and refuse the mistakes of `page.md` that are mistakes of form.
+//! The schemas that `drape schema` prints: they accept every file that ships and every file to
+//! start from, and refuse the mistakes of `page.md` that are mistakes of form.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -289,7 +289,8 @@ fn a_shirt_of_another_program_crosses_no_hand_at_the_centre_that_is_advised() {
     }
 }
 
-/// Reads a scene, by the library, which proposes places and does not try them; or returns its mistakes.
+/// Reads a scene, by the library, which proposes places and does not try them; or returns its
+/// mistakes.
 fn read(path: &Path, text: String) -> Result<(), String> {
     let root = [PathBuf::from(env!("CARGO_MANIFEST_DIR"))];
     let document = Document::new(path, text).allowing(&root);

@@ -1,5 +1,5 @@
-//! Figures of patterns and scenes that `drape check` refuses: what is wrong is red, whether the scene
-//! could be made or not.
+//! Figures of patterns and scenes that `drape check` refuses: what is wrong is red, whether the
+//! scene could be made or not.
 
 use std::fs::{read_to_string, write};
 use std::path::Path;

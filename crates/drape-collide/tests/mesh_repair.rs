@@ -59,8 +59,8 @@ fn a_ball_has_its_size_area_and_volume() {
 fn holes_wrong_sides_twins_and_slivers_are_found_and_repaired() {
     let whole = ball(0.2, [0.0; 3], 40);
     let mut broken = whole.clone();
-    // A hole of six edges around a vertex, ten triangles turned, one twice, one without area, one that
-    // names a vertex twice.
+    // A hole of six edges around a vertex, ten triangles turned, one twice, one without area, one
+    // that names a vertex twice.
     let center = 800;
     broken.triangles.retain(|triangle| !triangle.contains(&center));
     broken.triangles[100..110].iter_mut().for_each(|triangle| triangle.swap(0, 1));

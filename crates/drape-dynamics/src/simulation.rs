@@ -185,12 +185,12 @@ impl Simulation {
         Self::with_scheme(scene, scheme)
     }
 
-    /// Prepares the simulation of `scene` with the scheme `reference`, which checks the schemes that
-    /// a scene can ask for.
+    /// Prepares the simulation of `scene` with the scheme `reference`, which checks the schemes
+    /// that a scene can ask for.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] when the scheme cannot simulate the scene: only `Cholesky` keeps surfaces
-    /// apart, and explicit steps neither sew nor come to rest.
+    /// [`Error::Unsuited`] when the scheme cannot simulate the scene: only `Cholesky` keeps
+    /// surfaces apart, and explicit steps neither sew nor come to rest.
     pub fn with_reference_scheme(scene: Scene, reference: ReferenceScheme) -> Result<Self, Error> {
         if let Some(objection) = reference.objection(&scene) {
             return Err(Error::Unsuited { reason: objection.to_owned() });

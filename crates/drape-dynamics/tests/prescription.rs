@@ -42,7 +42,8 @@ fn forces(acceleration: [f64; 3], masses: &[f64]) -> Vec<f64> {
     masses.iter().flat_map(|mass| acceleration.map(|a| mass * a)).collect()
 }
 
-/// Masses of the particles of a free sheet with 7 × 7 particles, in kg: half and quarter at the edges.
+/// Masses of the particles of a free sheet with 7 × 7 particles, in kg: half and quarter at the
+/// edges.
 fn masses() -> Vec<f64> {
     let weight = |k: usize| if k == 0 || k == 6 { 0.5 } else { 1.0 };
     let cell = 0.15 * 0.02 * 0.02;
@@ -63,7 +64,8 @@ fn a_constant_force_is_a_fall_in_its_direction() {
     let t = f64::from(steps) * STEP;
     for (now, start) in simulation.positions().chunks(3).zip(start.chunks(3)) {
         for axis in 0..3 {
-            // BDF2 begins with a step of backward Euler: it adds a STEP² / 2 once, and 1/3 of it later.
+            // BDF2 begins with a step of backward Euler: it adds a STEP² / 2 once, and 1/3 of it
+            // later.
             let moved = now[axis] - start[axis];
             let exact = 0.5 * acceleration[axis] * t * t;
             let first = acceleration[axis] * STEP * STEP;

@@ -71,8 +71,8 @@ impl Faults {
         is_inside || is_around
     }
 
-    /// Replaces the message of the mistake at `key`, if there is one, by the message, the remedy and
-    /// the edits of `answer`.
+    /// Replaces the message of the mistake at `key`, if there is one, by the message, the remedy
+    /// and the edits of `answer`.
     pub fn explain(&mut self, key: &str, answer: &Diagnostic) {
         let path = KeyPath::from(key);
         for mistake in &mut self.mistakes {

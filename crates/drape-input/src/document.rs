@@ -358,7 +358,8 @@ impl Document {
         self.find(key).filter(|located| located.is_value)?.node.as_text()
     }
 
-    /// Returns the text of the value at the key path `key`, or `None` if the text has no such value.
+    /// Returns the text of the value at the key path `key`, or `None` if the text has no such
+    /// value.
     #[must_use]
     pub fn written(&self, key: &str) -> Option<&str> {
         let located = self.find(key).filter(|located| located.is_value)?;

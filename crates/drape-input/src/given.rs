@@ -6,9 +6,9 @@
 //! structure converts the number to SI.
 //!
 //! A structure that has plain numbers names the dimension in `#[serde_as(as = "Length")]`.
-//! [`Document`](crate::Document) then resolves the unit while it reads the number: the field has the
-//! number in SI, and angles in degrees, as [`Given::value`] returns them. A bare length is in the
-//! unit that the key `length` of the text names.
+//! [`Document`](crate::Document) then resolves the unit while it reads the number: the field has
+//! the number in SI, and angles in degrees, as [`Given::value`] returns them. A bare length is in
+//! the unit that the key `length` of the text names.
 
 use std::fmt;
 use std::marker::PhantomData;

@@ -213,8 +213,8 @@ impl Transform for WithoutNull {
     }
 }
 
-/// Writes the default of a length, which is in m, with its unit: bare lengths are in the unit of the
-/// file.
+/// Writes the default of a length, which is in m, with its unit: bare lengths are in the unit of
+/// the file.
 fn with_unit_of_default(schema: &mut Map<String, Value>) {
     let is_length = schema.get("$ref").is_some_and(|name| name == "#/$defs/Length");
     let Some(metres) = schema.get("default").and_then(Value::as_f64).filter(|_| is_length) else {

@@ -217,7 +217,8 @@ fn mistakes_of_grammar_are_all_told_and_nothing_else() {
     );
     let mistakes = document.decode_with_faults::<Cloth>().expect_err("it is no TOML").0;
     let helps: Vec<&str> = mistakes.iter().filter_map(|mistake| mistake.help.as_deref()).collect();
-    // The last line, a key that stands twice, is a mistake of grammar too; the type of `pin` is not.
+    // The last line, a key that stands twice, is a mistake of grammar too; the type of `pin` is
+    // not.
     let twice = "keep one of the two; all keys of a table stand together";
     assert_eq!(helps, ["write \"a b\"", "write 0.01", twice]);
 }

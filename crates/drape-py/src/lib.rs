@@ -7,8 +7,9 @@
 //! * `error`: mistakes and failures as exceptions;
 //! * `detached`: work on other threads, without the lock of the interpreter, which Ctrl-C ends;
 //! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of other programs;
-//! * `spec`: specs of scenes made of Python objects; `scene`: scenes and their runs; `stepping`: a simulation step by step; `recording`: runs that
-//!   were stored; `instruments`: drapemeters and the validation; `array`: NumPy arrays of numbers.
+//! * `spec`: specs of scenes made of Python objects; `scene`: scenes and their runs; `stepping`: a
+//!   simulation step by step; `recording`: runs that were stored; `instruments`: drapemeters and
+//!   the validation; `array`: NumPy arrays of numbers.
 
 mod array;
 mod convert;

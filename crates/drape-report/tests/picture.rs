@@ -357,7 +357,8 @@ fn triangles_have_the_colours_of_their_sides_with_smooth_normals_across_a_seam()
         for (x, colour) in [(-0.25, left), (0.25, right)] {
             let ScreenPoint { x, y, .. } = camera.project([x, 0.0, 0.25]);
             let seen = picture.pixel(x as u32, y as u32).unwrap().map(f64::from);
-            // Light scales the channels alike in linear light: their order stays, and so does the hue.
+            // Light scales the channels alike in linear light: their order stays, and so does the
+            // hue.
             let strongest = |of: [f64; 3]| (0..3).max_by(|a, b| of[*a].total_cmp(&of[*b]));
             assert_eq!(strongest(seen), strongest(colour.map(f64::from)), "{seen:?}, {colour:?}");
         }

@@ -151,7 +151,8 @@ fn points_of_a_graph_are_drawn_where_they_are_on_logarithmic_axes() {
     assert_eq!(classes(&series[0]), ["line", "exact"]);
 }
 
-/// Returns the bounds of the texts and rectangles that are not rotated: low x and y, high x and y, in px.
+/// Returns the bounds of the texts and rectangles that are not rotated: low x and y, high x and y,
+/// in px.
 fn places(svg: &roxmltree::Document<'_>) -> Vec<[f64; 4]> {
     let number = |node: &roxmltree::Node<'_, '_>, key: &str| {
         node.attribute(key).and_then(|text| text.parse::<f64>().ok())

@@ -30,8 +30,8 @@ impl From<Diagnostics> for Box<Refused> {
 }
 
 impl Refused {
-    /// Returns the refusal with mistakes of values: what the implied file at `path` says has no file
-    /// and no line.
+    /// Returns the refusal with mistakes of values: what the implied file at `path` says has no
+    /// file and no line.
     pub(crate) fn without_file(mut self: Box<Self>, path: &Path) -> Box<Self> {
         let mistakes = match &mut self.error {
             Error::Input(mistakes) => mistakes,

@@ -62,8 +62,8 @@ impl SceneSpec {
     }
 
     /// Makes a scene as [`build_with`](Self::build_with) does. What is refused has the scene beside
-    /// its mistakes where it could be made, to be shown. The mistakes contain `faults`, the mistakes
-    /// of the document that the spec was read from.
+    /// its mistakes where it could be made, to be shown. The mistakes contain `faults`, the
+    /// mistakes of the document that the spec was read from.
     ///
     /// # Errors
     /// The errors of [`build_with`](Self::build_with).

@@ -61,8 +61,8 @@ impl SceneSpec {
         grids.map(|(index, &value)| Spacing { key: format!("{REFINE}.{index}"), value }).collect()
     }
 
-    /// Returns the spec on a coarser grid, on which all spacings are `factor` times as large. It has
-    /// no coarser grids itself and is not graded.
+    /// Returns the spec on a coarser grid, on which all spacings are `factor` times as large. It
+    /// has no coarser grids itself and is not graded.
     #[must_use]
     pub fn coarsened(&self, factor: f64) -> Self {
         let mut spec = self.clone();

@@ -1,13 +1,14 @@
 //! Scene as a person or a program describes it.
 //!
-//! [`SceneSpec`] follows the text of a scene key by key: it has the same names and the same nesting.
-//! Numbers are in SI, and angles in degrees, in which a quarter turn is exact. Nothing here is
-//! checked beyond its type. The chapter `check` turns a spec into a [`Scene`](crate::Scene).
+//! [`SceneSpec`] follows the text of a scene key by key: it has the same names and the same
+//! nesting. Numbers are in SI, and angles in degrees, in which a quarter turn is exact. Nothing
+//! here is checked beyond its type. The chapter `check` turns a spec into a
+//! [`Scene`](crate::Scene).
 //!
 //! Each field declares its key: the sentence is the comment of the field, the unit stands in
-//! `serde_as`, the range in a `transform` of `schemars`, and the value of a missing key in `Default`
-//! or in `serde(default)`. The schema, the check of ranges, its messages and the page of the guide
-//! read these declarations.
+//! `serde_as`, the range in a `transform` of `schemars`, and the value of a missing key in
+//! `Default` or in `serde(default)`. The schema, the check of ranges, its messages and the page of
+//! the guide read these declarations.
 
 pub(crate) mod body;
 pub(crate) mod contact;
@@ -67,8 +68,8 @@ impl LengthUnit {
 
 /// Scene of drape: cloth, bodies, contact, time.
 ///
-/// A spec is edited and built as often as one likes: [`build`](SceneSpec::build) leaves it as it is.
-/// Panels, fabrics and pins refer to each other by name.
+/// A spec is edited and built as often as one likes: [`build`](SceneSpec::build) leaves it as it
+/// is. Panels, fabrics and pins refer to each other by name.
 #[serde_as]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

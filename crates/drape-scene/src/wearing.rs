@@ -21,8 +21,8 @@ use self::solids::{GarmentPlace, Solids};
 pub struct GarmentPlacement {
     /// Place at the start.
     pub place: GarmentPlace,
-    /// Shift that brings the garment about a body, in m: what is to be added to its `center`. `None`
-    /// if no place was found at which the garment fits and is clear of all bodies.
+    /// Shift that brings the garment about a body, in m: what is to be added to its `center`.
+    /// `None` if no place was found at which the garment fits and is clear of all bodies.
     pub shift: Option<[f64; 3]>,
 }
 
@@ -32,7 +32,8 @@ impl Scene {
     ///
     /// A garment that hangs from the waist is brought to the lowest height at which it holds, any
     /// other garment to the place nearest to the bodies. The search tries some hundred places and
-    /// takes about a second. Returns `None` if the scene has no such garment, or no body but floors.
+    /// takes about a second. Returns `None` if the scene has no such garment, or no body but
+    /// floors.
     #[must_use]
     pub fn garment_placement(&self, garment: usize) -> Option<GarmentPlacement> {
         let solids = Solids::new(self.bodies.iter().map(|moving| &moving.body))?;

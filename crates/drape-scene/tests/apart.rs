@@ -21,8 +21,8 @@ fn column(radius: f64) -> String {
     format!("[[collider.cylinder]]\nradius = {radius}\nheight = 1.5\ncenter = [0, 0.75, 0]")
 }
 
-/// Returns how far each panel of a scene lies from where it does in another, in m: the way of its first
-/// particle, which all its particles have gone.
+/// Returns how far each panel of a scene lies from where it does in another, in m: the way of its
+/// first particle, which all its particles have gone.
 fn ways(scene: &Scene, before: &Scene) -> Vec<[f64; 3]> {
     let way = |particle: usize| {
         let at = |scene: &Scene, k: usize| scene.start.positions[3 * particle + k];

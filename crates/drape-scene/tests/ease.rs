@@ -8,8 +8,8 @@ use drape_scene::{ClothPlaces, Figures, FoundBy, GirthPair, MeasuredGarment, NoG
 
 const FABRIC: &str = include_str!("plain.toml");
 
-/// Two panels of 400 mm × 300 mm in front of and behind a column of 200 mm across; `left` is an edge of the
-/// front, and sewn to that of the back.
+/// Two panels of 400 mm × 300 mm in front of and behind a column of 200 mm across; `left` is an
+/// edge of the front, and sewn to that of the back.
 const TUBE: &str = r#"length = "mm"
 [panel.front]
 grain = 0
@@ -55,8 +55,9 @@ fn tube(left: &str, unit: &str, measure: &str) -> Scene {
     Scene::from_documents(&Document::new("scene.toml", text), &documents).unwrap()
 }
 
-/// Measures the tube with its panels bent round an axis: the place along its girth of 800 mm becomes an angle,
-/// and a radius goes with the angle. All is turned about y and shifted, and so is the body.
+/// Measures the tube with its panels bent round an axis: the place along its girth of 800 mm
+/// becomes an angle, and a radius goes with the angle. All is turned about y and shifted, and so is
+/// the body.
 fn measured(
     scene: &Scene,
     radius: impl Fn(f64) -> f64,

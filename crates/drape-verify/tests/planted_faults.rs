@@ -21,7 +21,8 @@ impl Shape {
         Shape { vertices: corners.to_vec(), triangles: vec![[0, 1, 2]] }
     }
 
-    /// Ball about the origin: an octahedron whose triangles are divided, with vertices on the sphere.
+    /// Ball about the origin: an octahedron whose triangles are divided, with vertices on the
+    /// sphere.
     fn ball(radius: f64) -> Shape {
         let axis = |k: usize, sign: f64| [0, 1, 2].map(|j| if j == k { sign } else { 0.0 });
         let mut faces: Vec<[Point; 3]> = Vec::new();
@@ -290,7 +291,8 @@ fn parts_of_a_panel_that_are_close_at_rest_keep_a_quarter_of_their_rest_distance
 
 #[test]
 fn seams_that_meet_in_a_corner_are_joined_there_in_whatever_order_they_are_listed() {
-    // Three panels with their first corners at one point; the first and the last are not sewn directly.
+    // Three panels with their first corners at one point; the first and the last are not sewn
+    // directly.
     let fan = |k: f64| Shape::triangle([[0.0; 3], [0.1, 0.05 * k, 0.1], [0.1, 0.05 * k, -0.1]]);
     let with = |twins| {
         let panels = [-1.0, 0.0, 1.0].map(fan).to_vec();
@@ -335,8 +337,8 @@ fn the_place_of_a_pair_is_midway_between_its_closest_points() {
 
 #[test]
 fn the_pair_with_the_smallest_part_of_its_separation_is_listed_first() {
-    // Two triangles with a slit of 1 mm at rest keep 0.25 mm, and are 0.3 mm apart. A second panel lies
-    // 1 mm over one of them, where 2 mm are promised.
+    // Two triangles with a slit of 1 mm at rest keep 0.25 mm, and are 0.3 mm apart. A second panel
+    // lies 1 mm over one of them, where 2 mm are promised.
     let slit = [[0.0, 0.0], [0.1, 0.0], [0.05, 0.1], [0.0, -1e-3], [0.05, -0.1], [0.1, -1e-3]];
     let at = |&[u, v]: &[f64; 2]| [u, 0.0, if v == -1e-3 { -3e-4 } else { v }];
     let vertices = slit.iter().map(at).collect();

@@ -242,8 +242,8 @@ fn frictionless() -> SurfaceSettings {
     }
 }
 
-/// Displacements that are left where one corner of the upper of two sheets is told to go through the
-/// lower one and the rest of it sinks a little, with seams and held vertices.
+/// Displacements that are left where one corner of the upper of two sheets is told to go through
+/// the lower one and the rest of it sinks a little, with seams and held vertices.
 fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f64) {
     let mut contact =
         SurfaceContact::new(Surface::new(parts).unwrap(), frictionless(), vec![]).unwrap();
@@ -297,8 +297,8 @@ fn vertices_that_seams_join_or_tie_and_held_ones_keep_a_common_fraction() {
     }
 }
 
-/// Limited displacement of a free sheet, in m, and limited fraction of the motion of a body that is so far
-/// above it, where the step lifts both by so much each.
+/// Limited displacement of a free sheet, in m, and limited fraction of the motion of a body that is
+/// so far above it, where the step lifts both by so much each.
 fn rise(apart: f64, sheet: f64, body: f64) -> (f64, f64) {
     let side = 5;
     let (mut parts, mut positions) = stack(2, side);

@@ -1,4 +1,5 @@
-//! Cloth between two plates that close on it: who is pinched, what is kept then, and when that ends.
+//! Cloth between two plates that close on it: who is pinched, what is kept then, and when that
+//! ends.
 
 use drape_collide::{
     ContactDistances, PinchPolicy, PinchedVertices, Surface, SurfaceContact, SurfaceParts,

@@ -1,4 +1,5 @@
-//! Faults that are planted in a surface: the exact test finds each, and the step filter leads to none.
+//! Faults that are planted in a surface: the exact test finds each, and the step filter leads to
+//! none.
 
 use drape_collide::{
     ContactDistances, PinchPolicy, SeamIntersections, Surface, SurfaceContact, SurfaceParts,

@@ -1,5 +1,5 @@
-//! Minimum separations of surfaces: while they grow, after surfaces are placed, and between the sides of
-//! open seams.
+//! Minimum separations of surfaces: while they grow, after surfaces are placed, and between the
+//! sides of open seams.
 
 use drape_collide::{
     ContactDistances, PinchPolicy, SewnPlacement, Surface, SurfaceContact, SurfaceParts,
@@ -15,7 +15,8 @@ fn tight() -> Between {
     tight
 }
 
-/// Grows the distances by an increment in a step at one place; returns the fraction that is kept then.
+/// Grows the distances by an increment in a step at one place; returns the fraction that is kept
+/// then.
 fn grow(between: &mut Between, increment: f64, height: f64) -> f64 {
     let contact = &mut between.contact;
     contact.grow_distances(&level(height), increment);
@@ -158,8 +159,8 @@ fn steps_are_limited_by_a_plate_where_it_is_since_it_moved() {
     assert!((-8e-4..-1e-4).contains(&sunk), "{sunk} m, and the plate is 1 mm below");
 }
 
-/// Two squares of 10 mm, one above the other with a slit between them, in one plane, and the contact of
-/// their sides, which a seam joins.
+/// Two squares of 10 mm, one above the other with a slit between them, in one plane, and the
+/// contact of their sides, which a seam joins.
 fn slit(width: f64) -> Vec<f64> {
     let rows = [-0.01 - 0.5 * width, -0.5 * width, 0.5 * width, 0.01 + 0.5 * width];
     rows.iter().flat_map(|y| [0.0, *y, 0.0, 0.01, *y, 0.0]).collect()

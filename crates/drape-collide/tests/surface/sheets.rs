@@ -142,7 +142,8 @@ impl Between {
     }
 }
 
-/// Vertices and triangles of two plates with some half sides, in m, whose faces are at some heights, in m.
+/// Vertices and triangles of two plates with some half sides, in m, whose faces are at some
+/// heights, in m.
 pub fn plates(half: f64, faces: [f64; 2]) -> [(Vec<f64>, Vec<[u32; 3]>); 2] {
     let half_extents = [half, 0.5 * THICKNESS, half];
     let middles = [faces[0] - 0.5 * THICKNESS, faces[1] + 0.5 * THICKNESS];

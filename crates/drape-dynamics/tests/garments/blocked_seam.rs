@@ -34,8 +34,8 @@ origin = [0, -4, 0]
 sides = [["upper.sewn"], ["lower.sewn"]]
 "#;
 
-/// The pieces, with a level panel that is held between them: its size, in m, its turn about the vertical, in
-/// degrees, and the place of its middle in front of the pieces, in m.
+/// The pieces, with a level panel that is held between them: its size, in m, its turn about the
+/// vertical, in degrees, and the place of its middle in front of the pieces, in m.
 fn pieces(size: [f64; 2], turn: f64, front: f64) -> Simulation {
     let text = format!(
         "spacing = 0.01\nfabric.plain.file = \"plain.toml\"\n\

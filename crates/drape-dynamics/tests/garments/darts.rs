@@ -80,8 +80,8 @@ fn a_tube_with_closed_darts_has_the_girth_that_they_leave() {
     assert_eq!(sewing.seams.len(), 5);
     let positions = simulation.frame().positions;
     assert!(sewing.pairs.gaps(&positions).all(|gap| gap < 1e-12));
-    // Between the tips a dart takes in as much as its width there. The weave is soft across its yarns
-    // where it is bent to a dome: 2 %.
+    // Between the tips a dart takes in as much as its width there. The weave is soft across its
+    // yarns where it is bent to a dome: 2 %.
     for height in [0.06, 0.09, 0.12, 0.15, 0.18] {
         let open = 1.0 - (height - 0.12_f64).abs() / 0.1;
         let expected = width - 4.0 * intake * open;
@@ -106,8 +106,8 @@ fn a_tube_with_closed_darts_has_the_girth_that_they_leave() {
 
 #[test]
 fn a_disc_with_an_open_dart_is_the_cone_of_the_angle_that_is_left() {
-    // A dart from the rim to the middle of a disc of 120 mm takes out a sector. The disc starts a little
-    // bent: a flat one would be upset in its plane.
+    // A dart from the rim to the middle of a disc of 120 mm takes out a sector. The disc starts a
+    // little bent: a flat one would be upset in its plane.
     let radius = 0.12;
     for sector in [PI / 6.0, PI / 3.0] {
         let mouth = 1e3 * radius * sector;

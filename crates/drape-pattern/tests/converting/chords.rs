@@ -29,8 +29,9 @@ fn from_middles(pattern: &Pattern, points: &[[f64; 2]], unit: f64) -> f64 {
     1e3 * middles.map(off).fold(0.0, f64::max)
 }
 
-/// A sleeve whose cap has fine chords at its top and coarse ones at its ends, whose sides are straight
-/// over 300 mm, and whose hem is an arc of few points. Divided by the length of a unit in mm.
+/// A sleeve whose cap has fine chords at its top and coarse ones at its ends, whose sides are
+/// straight over 300 mm, and whose hem is an arc of few points. Divided by the length of a unit in
+/// mm.
 fn sleeve(unit: f64) -> Vec<[f64; 2]> {
     let edge = |a, b, curve| Edge::line("", a, b).curved(curve);
     let cap = edge([380.0, 300.0], [0.0, 300.0], Curve::Cubic([[250.0, 320.0], [230.0, 520.0]]));

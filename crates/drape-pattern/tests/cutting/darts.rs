@@ -145,7 +145,8 @@ fn closed_darts_are_holes_whose_legs_are_sewn_from_tip_to_tip() {
                 let right = (0..2).all(|k| near(ends[k], tips[k]))
                     || (0..2).all(|k| near(ends[k], tips[1 - k]));
                 assert!(right, "{ends:?} and {tips:?}");
-                // Left of the way from the first tip to the second is one leg, right of it the other.
+                // Left of the way from the first tip to the second is one leg, right of it the
+                // other.
                 let way = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
                 let side =
                     |p: [f64; 2]| way[0] * (p[1] - ends[0][1]) - way[1] * (p[0] - ends[0][0]);

@@ -97,7 +97,8 @@ fn frames(cut: &Cut, grain: f64) {
     }
 }
 
-/// The nodes of edges run along the closed lines, and each edge begins where the one before it ends.
+/// The nodes of edges run along the closed lines, and each edge begins where the one before it
+/// ends.
 fn edges(panel: &Panel, cut: &Cut) {
     let mut all = cut.edges.as_slice();
     for (line, own) in cut.lines().zip(panel.loops()) {

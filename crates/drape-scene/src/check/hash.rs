@@ -1,8 +1,8 @@
 //! Hash of a scene and all that it names.
 //!
 //! The hash is the digest of the spec and of the content of what the spec names: fabrics, patterns,
-//! bodies and their motions. The order of keys, comments and units in a file do not change the hash,
-//! and a spec that a program makes has the hash of the file that says the same.
+//! bodies and their motions. The order of keys, comments and units in a file do not change the
+//! hash, and a spec that a program makes has the hash of the file that says the same.
 
 use drape_collide::Shape;
 

@@ -233,8 +233,8 @@ impl SceneSpec {
         write("scene.toml", &format!("{HEADING}{}", spec.text()))
     }
 
-    /// Returns the spec with the names of its files, which are seen from `folder`, as paths from the
-    /// root of the file system.
+    /// Returns the spec with the names of its files, which are seen from `folder`, as paths from
+    /// the root of the file system.
     #[must_use]
     pub fn with_whole_paths(&self, folder: &Path) -> Self {
         let mut spec = self.clone();
@@ -262,7 +262,8 @@ impl SceneSpec {
         spec
     }
 
-    /// Returns the spec as a file in m says it: meshes without a `scale` have the unit of this spec.
+    /// Returns the spec as a file in m says it: meshes without a `scale` have the unit of this
+    /// spec.
     #[must_use]
     pub fn in_metres(&self) -> Self {
         let mut spec = self.clone();

@@ -1,9 +1,9 @@
 //! Placing of garments: the shift that brings a garment about a body.
 //!
-//! A garment that hangs from the waist, as the number of its openings shows, is brought to the lowest
-//! place where it is wide enough and the body below is too wide for it. Any other garment is brought
-//! to the place where its particles are nearest to the bodies on average without being inside a body.
-//! Particles at the top count for more, since a garment hangs from its top.
+//! A garment that hangs from the waist, as the number of its openings shows, is brought to the
+//! lowest place where it is wide enough and the body below is too wide for it. Any other garment is
+//! brought to the place where its particles are nearest to the bodies on average without being
+//! inside a body. Particles at the top count for more, since a garment hangs from its top.
 
 use std::cmp::Ordering;
 
