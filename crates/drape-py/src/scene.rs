@@ -52,6 +52,19 @@ impl Origin {
     }
 }
 
+/// Keys of a scene that was built in Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct SceneKeys<'py> {
+    /// The keys. Names of `held` in it stand for the things that `held` has.
+    table: Bound<'py, PyDict>,
+    held: Held,
+    /// Folder from which files are seen.
+    folder: PathBuf,
+    /// Files and folders elsewhere that the scene may name.
+    allow: Vec<PathBuf>,
+}
+
 /// Settings of a run.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -232,17 +245,11 @@ impl Scene {
         py.detach(|| Self::new(Origin::Text { document, others: Vec::new() }, None))
     }
 
-    /// Makes a scene of the keys in `table`, whose files are seen from `folder`. Names of `held` in
-    /// the table stand for the things that `held` has.
+    /// Makes a scene of `keys`.
     #[staticmethod]
-    fn from_keys(
-        py: Python<'_>,
-        table: &Bound<'_, PyDict>,
-        held: Held,
-        folder: PathBuf,
-        allow: Vec<PathBuf>,
-    ) -> PyResult<Self> {
-        let document = spec::document(Path::new(""), table)?;
+    fn from_keys(py: Python<'_>, keys: SceneKeys<'_>) -> PyResult<Self> {
+        let SceneKeys { table, held, folder, allow } = keys;
+        let document = spec::document(Path::new(""), &table)?;
         let decoded = SceneSpec::with_faults(&document);
         let (mut spec, faults) = decoded.map_err(|mistakes| input(&mistakes))?;
         spec::hold(py, &mut spec, &held)?;

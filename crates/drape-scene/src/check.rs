@@ -18,7 +18,6 @@ pub(crate) mod memory;
 mod motion;
 pub(crate) mod panel;
 mod pins;
-mod ranges;
 mod solver;
 mod start;
 pub(crate) mod time;
@@ -42,6 +41,7 @@ use crate::spec::SceneSpec;
 
 use self::body::{CheckedBody, MeshFile};
 use self::checker::Checker;
+use self::checker::ranges::check_ranges;
 use self::contact::ContactBounds;
 use self::documents::Documents;
 use self::garment::cost::cost;
@@ -58,7 +58,7 @@ pub(crate) fn check(
 ) -> Result<Scene, Box<Refused>> {
     let document = documents.scene;
     let checker = &mut Checker::new(documents, spec, faults);
-    ranges::check_ranges(checker);
+    check_ranges(checker);
     let model = spec.model;
     let materials = fabrics::materials(checker, documents.fabrics, model);
     let grading = panel::graded::grading(checker);

@@ -159,7 +159,8 @@ class SceneBuilder:
             file: value[1] if isinstance(value, tuple) else value
             for file, value in self._held.items()
         }
-        return Scene(_drape.Scene.from_keys(self._table, held, self._folder, self._allow))
+        keys = {"table": self._table, "held": held, "folder": self._folder, "allow": self._allow}
+        return Scene(_drape.Scene.from_keys(keys))
 
     def save(self, path: StrPath, *, replace: bool = False) -> None:
         """Writes the scene for the command, and its fabrics, patterns and bodies beside it.

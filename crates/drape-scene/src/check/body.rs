@@ -4,7 +4,7 @@ mod shape_files;
 
 use std::path::{Path, PathBuf};
 
-use drape_collide::{Body, Mesh, Pose, Shape, Triangulation};
+use drape_collide::{Body, Mesh, Pose, Shape};
 use drape_input::figure;
 
 use crate::check::checker::Checker;
@@ -13,7 +13,7 @@ use crate::scene::motion::{BodyMotion, rotate, rotate_pose};
 use crate::spec::body::{CommonKeys, CylinderSpec, MeshSpec};
 use crate::spec::file_or::FileOr;
 
-use self::shape_files::{Sampling, ShapeError, read_shapes};
+use self::shape_files::{Sampling, ShapeError, outline, read_shapes};
 
 /// Shortest and longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is
 /// 1.7 mm, 170 m or 1.7 km long.
@@ -191,17 +191,6 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Optio
             }
             None
         }
-    }
-}
-
-/// Returns the surface of the mesh `spec`, in its unit.
-pub(crate) fn outline(
-    checker: &Checker<'_>,
-    spec: &MeshSpec,
-) -> Result<Triangulation, drape_collide::Error> {
-    match &spec.file {
-        FileOr::File(name) => checker.mesh(&checker.folder.join(name)),
-        FileOr::Value(outline) => Ok(Triangulation::clone(outline)),
     }
 }
 

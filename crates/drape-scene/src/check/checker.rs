@@ -1,5 +1,7 @@
 //! Checker: the file of a scene and the mistakes that have been found in it.
 
+pub(crate) mod ranges;
+
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use drape_collide::{Mesh, PointCache, Triangulation};
 use drape_input::ForbiddenPath;
 
-use crate::check::body::outline;
 use crate::check::checker::{Checker, MESH_LIMIT};
 use crate::scene::motion::{ShapeMotion, check_frame};
 use crate::spec::body::{MeshMotion, MeshSpec};
@@ -59,6 +58,17 @@ struct Frames {
     /// File of each sample.
     paths: Vec<PathBuf>,
     samples: Vec<Vec<[f64; 3]>>,
+}
+
+/// Returns the surface of the mesh `spec`, in its unit.
+pub(crate) fn outline(
+    checker: &Checker<'_>,
+    spec: &MeshSpec,
+) -> Result<Triangulation, drape_collide::Error> {
+    match &spec.file {
+        FileOr::File(name) => checker.mesh(&checker.folder.join(name)),
+        FileOr::Value(outline) => Ok(Triangulation::clone(outline)),
+    }
 }
 
 /// Reads the mesh of a body and its frames. `place` brings a point of the files to its place in the
