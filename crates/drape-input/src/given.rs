@@ -148,6 +148,8 @@ dimensions! {
     /// # Ok::<(), drape_input::Diagnostics>(())
     /// ```
     Length, Length, 1.0, "the unit of the file", ["0.01", "10 mm"];
+    /// Length that a bare number gives in m, whatever the unit of the file.
+    Metres, Length, 1.0, "m", ["0.001", "1 mm"];
     /// Angle. A bare number is in degrees.
     Angle, Angle, DEGREE, "degrees", ["45", "45 deg"];
     /// Angular speed. A bare number is in degrees per second.

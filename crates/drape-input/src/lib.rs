@@ -44,7 +44,7 @@ pub use document::{Document, missing_file_help, similar_file};
 pub use figure::{counted, excerpt, figure, figure_above, figure_below, figures, tidy};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
-    ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,
+    ForcePerWidth, Given, Length, MassPerArea, Metres, MomentPerWidth, PressurePerDistance, Ratio,
     ShearStiffness, Speed, TextOr, Time, Velocity,
 };
 pub use node::key_path::{KeyPath, KeyStep};

@@ -74,6 +74,9 @@ impl<'a> Checker<'a> {
     /// Returns the path of a file that the scene names at a key; adds a mistake where the path
     /// leads out of the folders of the scene.
     pub(crate) fn locate(&mut self, key: &str, name: &str) -> Option<PathBuf> {
+        if !self.is_sound(key) {
+            return None;
+        }
         let path = self.folder.join(name);
         if self.given(&path).is_some() {
             return Some(path);
@@ -233,9 +236,17 @@ impl<'a> Checker<'a> {
     ) -> Option<T> {
         let choice = choices.iter().find(|(name, _)| word == *name);
         if choice.is_none() {
-            let names: Vec<&str> = choices.iter().map(|choice| choice.0).collect();
-            let unknown = UnknownName { name: word, known: &names, kind: "choices" };
-            self.unknown(key, format!("there is no \"{}\"", excerpt(word)), unknown);
+            let names: Vec<String> =
+                choices.iter().map(|choice| format!("\"{}\"", choice.0)).collect();
+            let near = closest(word, choices.iter().map(|choice| choice.0));
+            let help = match near {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("one of {}", names.join(", ")),
+            };
+            let mistake = self.fail(key, format!("there is no \"{}\"", excerpt(word)), &help);
+            if let Some(near) = near {
+                self.remedy(mistake, key, Some(&toml_string(near)));
+            }
         }
         choice.map(|(_, choice)| *choice)
     }

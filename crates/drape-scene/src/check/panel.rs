@@ -8,7 +8,6 @@ pub(crate) mod noise;
 mod placement;
 
 use std::collections::BTreeSet;
-use std::ops::RangeInclusive;
 
 use drape_cloth::{Grain, Lattice};
 use drape_input::{Subject, excerpt, figure, figure_below, tidy};
@@ -24,9 +23,6 @@ use crate::spec::panel::{FoldSpec, PanelSpec};
 use self::folds::{FoldLine, UnfoldedPanel, folded};
 use self::graded::graded;
 use self::placement::Placement;
-
-/// Shortest and longest sides of panels, in m: others have the wrong unit.
-const SIZES: RangeInclusive<f64> = 1e-4..=1e3;
 
 /// Largest speed of cloth at the start, in m/s: a tenth of the speed of a bullet. Steps are not
 /// smaller at this speed.
@@ -127,20 +123,6 @@ fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelSpec, particles: us
     1
 }
 
-/// Checks that `sides` are lengths that panels have, and returns the approximate number of
-/// particles.
-fn check_size(checker: &mut Checker<'_>, key: &str, sides: &[f64], spacing: f64) -> Option<f64> {
-    let wrong = sides.iter().find(|side| !SIZES.contains(side));
-    if let Some(side) = wrong {
-        let message = format!("{} m is no size of a panel", figure(*side));
-        let help =
-            "from 0.1 mm to 1000 m: is the unit right? write \"30 cm\", or set length = \"cm\"";
-        checker.fail(key, message, help);
-        return None;
-    }
-    Some(sides.iter().map(|side| side / spacing + 1.0).product())
-}
-
 /// Checks that no particle of a panel begins faster than cloth moves.
 fn check_speed(checker: &mut Checker<'_>, key: &str, entry: &PanelSpec, velocities: &[f64]) {
     let (velocities, _) = velocities.as_chunks::<3>();
@@ -173,7 +155,10 @@ fn lattice(
         (None, Some(disc)) => ("disc", [disc; 2]),
         (None, None) => ("rectangle", [1.0; 2]),
     };
-    let count = check_size(checker, &format!("{key}.{shape}"), &sides, spacing)?;
+    if !checker.is_sound(&format!("{key}.{shape}")) {
+        return None;
+    }
+    let count: f64 = sides.iter().map(|side| side / spacing + 1.0).product();
     let limit = checker.particles_max as f64;
     if before as f64 + count > limit {
         let message = format!(

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use drape_collide::Triangulation;
-use drape_input::{Angle, Length, TextOr, Time};
+use drape_input::{Angle, Length, Metres, TextOr, Time};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, ser::Error};
 use serde_with::serde_as;
@@ -153,7 +153,7 @@ pub struct MeshSpec {
     pub file: FileOr<Triangulation>,
     /// Length of a unit of the file, in m; the unit of the scene if missing.
     #[schemars(transform = drape_input::between(1e-6, 1e3))]
-    #[serde_as(as = "Option<Length>")]
+    #[serde_as(as = "Option<Metres>")]
     pub scale: Option<f64>,
     /// Shift of its vertices.
     #[serde(default)]

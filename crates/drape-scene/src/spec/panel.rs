@@ -16,12 +16,12 @@ pub struct PanelSpec {
     /// Name of its fabric.
     pub fabric: String,
     /// Width × height of a rectangle: weft × warp where no grain is given.
-    #[schemars(transform = drape_input::positive)]
+    #[schemars(transform = drape_input::between(1e-4, 1e3))]
     #[serde_as(as = "Option<[Length; 2]>")]
     pub rectangle: Option<[f64; 2]>,
     /// Diameter of a disc. Triangles along its rim follow the circle; the rim is stepped, along the
     /// cells, where the disc has a `hole` or a `grid`, and in Breen's model.
-    #[schemars(transform = drape_input::positive)]
+    #[schemars(transform = drape_input::between(1e-4, 1e3))]
     #[serde_as(as = "Option<Length>")]
     pub disc: Option<f64>,
     /// Diameter of the hole in a disc's middle; no hole if missing.

@@ -30,6 +30,20 @@ struct Declaration<'a> {
     parts: Vec<&'a Schema>,
 }
 
+/// Declaration of a key, and of the numbers in it.
+#[derive(Clone, Copy)]
+struct Declared<'a> {
+    key: &'a Declaration<'a>,
+    number: &'a Declaration<'a>,
+}
+
+impl<'a> Declared<'a> {
+    /// Returns the declaration of a key with one number.
+    fn alone(key: &'a Declaration<'a>) -> Self {
+        Self { key, number: key }
+    }
+}
+
 /// Range of a number.
 struct Range {
     least: f64,
@@ -137,32 +151,47 @@ fn check_value(
             }
         }
         Value::Array(list) => {
-            let inner = declaration.get("items").map(Declaration::new);
+            let Some(items) = declaration.get("items").map(Declaration::new) else { return };
             for (index, value) in list.iter().enumerate() {
-                path.steps.push(KeyStep::Index(index));
-                check_value(checker, path, value, inner.as_ref().unwrap_or(declaration));
-                path.steps.pop();
+                // A list of numbers is one value to the reader, and has one sentence.
+                match value {
+                    Value::Float(number) => check_number(
+                        checker,
+                        path,
+                        *number,
+                        Declared { key: declaration, number: &items },
+                    ),
+                    Value::Integer(number) => {
+                        let declared = Declared { key: declaration, number: &items };
+                        check_number(checker, path, *number as f64, declared);
+                    }
+                    _ => {
+                        path.steps.push(KeyStep::Index(index));
+                        check_value(checker, path, value, &items);
+                        path.steps.pop();
+                    }
+                }
             }
         }
-        Value::Float(number) => check_number(checker, path, *number, declaration),
-        Value::Integer(number) => check_number(checker, path, *number as f64, declaration),
+        Value::Float(number) => check_number(checker, path, *number, Declared::alone(declaration)),
+        Value::Integer(number) => {
+            check_number(checker, path, *number as f64, Declared::alone(declaration));
+        }
         Value::String(_) | Value::Boolean(_) | Value::Datetime(_) => {}
     }
 }
 
-/// Checks `number`, whose key has the path `path` and the `declaration`. A number of a list is a
-/// mistake of the list: the list is one value to the reader.
-fn check_number(
-    checker: &mut Checker<'_>,
-    path: &KeyPath,
-    number: f64,
-    declaration: &Declaration<'_>,
-) {
-    let Some(fault) = declaration.range().fault(number) else { return };
+/// Checks `number`, whose key has the path `path`, against what is `declared`.
+fn check_number(checker: &mut Checker<'_>, path: &KeyPath, number: f64, declared: Declared<'_>) {
+    let Some(fault) = declared.number.range().fault(number) else { return };
     let key = path.to_string();
 
     // What was written is repeated where the unit makes it another number.
     let written = checker.written(&key).filter(|written| written.starts_with('"'));
     let message = written.map_or(fault.clone(), |written| format!("{written} is wrong: {fault}"));
-    checker.fail(&key, message, &declaration.sentence());
+    let mut help = declared.key.sentence();
+    if declared.number.get("mostMetres").is_some() {
+        help += "; is the unit right? write it with one, such as \"30 cm\", or set length = \"cm\"";
+    }
+    checker.fail(&key, message, &help);
 }
