@@ -2,7 +2,7 @@
 
 use drape::export::{FabricPalette, Field, Fields};
 use drape::frames::{Frame, Recording};
-use drape::report::{
+use drape::render::{
     Camera, Colour, ColourScale, Extent, Ground, Legend, LitShapes, Picture, Scene, Surface,
     Swatches, View,
 };

@@ -1,10 +1,10 @@
 //! Strain map: pictures of cloth coloured by a quantity, each above its colour scale.
 
 use askama::Template;
+use drape_render::{Picture, diverging};
 
 use crate::check;
 use crate::error::Error;
-use crate::picture::{Picture, diverging};
 use crate::text::base64::encode;
 
 /// Number of steps of a colour bar.
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_figure_has_a_picture_and_a_scale_for_each_map() {
-        let picture = Picture::new(2, 3, vec![200; 18]);
+        let picture = Picture::from_pixels([2, 3], vec![200; 18]).expect("the size");
         let map = |caption: &str, unit: &str| StrainMap {
             caption: caption.into(),
             limit: 0.5,

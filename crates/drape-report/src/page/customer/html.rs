@@ -322,10 +322,10 @@ fn thinned(plot: &LoopPlot) -> LoopPlot {
 fn drape_texts(drape: &ReportedDrape) -> Result<DrapeTexts<'_>, Error> {
     let in_percent = |ratio: f64| typeset(&format!("{:.1}", 100.0 * ratio));
     let [low, high] = drape.interval.map(in_percent);
-    let picture = drape
-        .picture
-        .as_ref()
-        .map(|picture| Ok((picture.width(), picture.height(), encode(&picture.png()?))));
+    let picture = match &drape.picture {
+        Some(picture) => Some((picture.width(), picture.height(), encode(&picture.png()?))),
+        None => None,
+    };
     Ok(DrapeTexts {
         drape,
         coefficient: format!(
@@ -336,6 +336,6 @@ fn drape_texts(drape: &ReportedDrape) -> Result<DrapeTexts<'_>, Error> {
         interval: format!("{low} to {high} %"),
         nodes: drape.nodes_in_words(),
         shadow: shadow_figure(&drape.shadow, Placement::InPage),
-        picture: picture.transpose()?,
+        picture,
     })
 }
