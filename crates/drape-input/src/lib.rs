@@ -15,7 +15,8 @@
 //! * `spelling`: [`closest`], the known word nearest to a misspelt word.
 //! * `setting`: [`Setting`], a value that replaces a value of a text, such as on a command line.
 //! * `allowed_folders`: [`AllowedFolders`], the folders with the files that a document may name.
-//! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
+//! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML, and [`xml_text`], texts
+//!   as XML.
 //! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
 //! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
 
@@ -47,7 +48,7 @@ pub use given::{
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,
     ShearStiffness, Speed, TextOr, Time,
 };
-pub use quoting::{toml_key, toml_string};
+pub use quoting::{toml_key, toml_string, xml_text};
 #[cfg(feature = "schema")]
 pub use schema::{at_least, laboratory_schema, one_of, positive, schema_of, unit_schema, within};
 pub use setting::{Setting, SettingError};

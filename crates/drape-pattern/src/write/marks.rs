@@ -1,9 +1,10 @@
 //! Marks that are drawn on a panel: grain line, name, notches, folds, letters and ticks of seams.
 
+use drape_input::xml_text;
 use std::fmt::Write;
 
 use super::number::{decimal, letters};
-use super::xml::{escape, text_anchor};
+use super::text_anchor::text_anchor;
 use crate::edge::{Edge, cross, difference, distance};
 use crate::panel::Panel;
 use crate::pattern::Pattern;
@@ -233,7 +234,7 @@ impl Label<'_> {
             decimal(*x, 100.0),
             decimal(*y, 100.0),
             decimal(*size, 100.0),
-            escape(text)
+            xml_text(text)
         );
     }
 }
