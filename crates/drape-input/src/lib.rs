@@ -18,7 +18,8 @@
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML, and [`xml_text`], texts
 //!   as XML.
 //! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
-//! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
+//! * `figure`: [`figure`](fn@figure), [`Notation`], [`excerpt`] and others, numbers and texts in
+//!   messages, on pages and in tables.
 
 mod allowed_folders;
 mod decode;
@@ -42,7 +43,11 @@ pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
 pub use document::{Document, missing_file_help, similar_file};
-pub use figure::{counted, excerpt, figure, figure_above, figure_below, figures, tidy};
+pub use figure::{
+    Notation, brief, counted, duration_in_words, excerpt, figure, figure_above, figure_below,
+    figure_in_decimals, figure_in_digits, figure_in_range, figures, percent, round_decimals,
+    round_digits, signed_percent, significant, size_in_words, tidy, typeset, with_error,
+};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,

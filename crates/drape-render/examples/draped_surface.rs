@@ -35,7 +35,8 @@ fn main() -> Result<(), Error> {
 /// Draws the cloth on grey, with the scale of its heights below it.
 fn picture() -> Result<Picture, Error> {
     let (positions, triangles) = cloth();
-    let scale = ColourScale::new([-100.0 * (CLOTH - TABLE), 0.0], false)?;
+    let lowest = -100.0 * (CLOTH - TABLE);
+    let scale = ColourScale::new([lowest, 0.0], false)?;
     let heights = positions.chunks_exact(3).map(|point| 100.0 * point[1]);
     let tints: Vec<Colour> = heights.map(|height| scale.colour(height)).collect();
 
@@ -46,7 +47,8 @@ fn picture() -> Result<Picture, Error> {
         ..Scene::default()
     };
     let view = View { width: 800, height: 600, ..View::default() };
-    let legend = Legend { name: "height".to_owned(), unit: "cm".to_owned(), scale };
+    let labels = [lowest, 0.5 * lowest, 0.0].map(|height| format!("{height:.1}"));
+    let legend = Legend { name: "height".to_owned(), unit: "cm".to_owned(), scale, labels };
     Ok(legend.below(&render(&scene, &view)?, Ground::GREY.bottom))
 }
 

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use drape_frames::{Frame, Recording, SurfacePart};
-use drape_input::xml_text;
+use drape_input::{significant, xml_text};
 
 use self::panel_layout::{Extent, PanelLayout};
 use self::region::{FlatField, Node};
@@ -326,7 +326,7 @@ impl Page {
                 to,
                 "<text x=\"{x:.3}\" y=\"{:.3}\" text-anchor=\"{anchor}\">{}</text>",
                 top + 2.1 * text,
-                scale::digits(value)
+                significant(value, 3)
             )?;
         }
         writeln!(to, "</g>")
@@ -349,7 +349,7 @@ impl Page {
             -0.4 * text,
             x + 0.5 * length,
             y + 1.1 * text,
-            scale::digits(length)
+            significant(length, 3)
         )
     }
 }

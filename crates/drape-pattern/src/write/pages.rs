@@ -1,9 +1,9 @@
 //! Drawing of a pattern on pages of paper, at true scale. The pages overlap, to be glued together.
 
-use drape_input::xml_text;
+use drape_input::{figure_in_decimals, xml_text};
 use std::fmt::Write;
 
-use super::number::{decimal, letters};
+use super::number::letters;
 use super::svg::{PatternSheet, STYLE};
 use crate::pattern::Pattern;
 
@@ -115,8 +115,8 @@ fn page(paper: Paper, window: &PageWindow<'_>, groups: &[&str]) -> String {
         corner[1],
         room[0],
         room[1],
-        decimal(MARGIN - corner[0], 1e4),
-        decimal(MARGIN - corner[1], 1e4)
+        figure_in_decimals(MARGIN - corner[0], 4),
+        figure_in_decimals(MARGIN - corner[1], 4)
     );
     groups.iter().for_each(|group| svg.push_str(group));
     svg.push_str("</g>\n");

@@ -8,11 +8,11 @@
 
 use std::fmt::Write;
 
-use drape_input::{toml_key, toml_string, xml_text};
+use drape_input::{figure_in_decimals, toml_key, toml_string, xml_text};
 
 use super::layout::{Extent, Rows};
 use super::marks::PanelMarks;
-use super::number::{decimal, millimetres};
+use super::number::millimetres;
 use super::toml_text::{degrees, write_darts, write_placement};
 use crate::edge::{Curve, Edge, distance};
 use crate::panel::Panel;
@@ -146,7 +146,7 @@ fn closed_line(edges: &[Edge], on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> Stri
 
 /// Returns a point of the sheet as it stands in path data.
 fn pair(point: [f64; 2]) -> String {
-    let [x, y] = point.map(|x| decimal(x, 1e4));
+    let [x, y] = point.map(|x| figure_in_decimals(x, 4));
     format!("{x} {y}")
 }
 

@@ -1,6 +1,7 @@
 //! Strain map: pictures of cloth coloured by a quantity, each above its colour scale.
 
 use askama::Template;
+use drape_input::{figure_in_decimals, typeset};
 use drape_render::{Picture, diverging};
 
 use crate::check;
@@ -131,11 +132,9 @@ pub fn strain_svg(maps: &[StrainMap]) -> Result<String, Error> {
 
 /// Returns the text of a mark at a `value` in a `unit`.
 fn mark(value: f64, unit: &str) -> String {
-    let number = format!("{value:+.3}");
-    let number = number.trim_end_matches('0').trim_end_matches('.');
-    let number = if value == 0.0 { "0" } else { number };
+    let sign = if value > 0.0 { "+" } else { "" };
     let space = if unit == "°" { "" } else { " " };
-    format!("{}{space}{unit}", number.replace('-', "−"))
+    format!("{sign}{}{space}{unit}", typeset(&figure_in_decimals(value, 3)))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! HTML page of the report to a customer.
 
 use askama::Template;
+use drape_input::{percent, typeset};
 
 use super::chart::{LANE, ValueChart};
 use super::csv::{Detail, table};
@@ -13,7 +14,6 @@ use crate::page::law_report::Limits;
 use crate::page::shown::{Marked, ShownValue};
 use crate::plot::{COLOURS, LoopPlot, Placement, STYLE, loop_figure, shadow_figure};
 use crate::text::base64::encode;
-use crate::text::number::{percent, typeset};
 
 /// Style of this page, in addition to the style of all pages.
 const CUSTOMER_STYLE: &str = include_str!("../../../templates/page/customer.css");
