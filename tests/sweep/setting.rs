@@ -71,7 +71,7 @@ fn a_resumed_run_has_what_was_set_and_refuses_other_values() {
     assert!(text.contains("time.end=3.0"), "{text}");
     std::fs::write(&request, text.replace("time.end=3.0", "time.end=2.0")).unwrap();
     let (_, messages) = bench.ran(&["resume", "part", "--no-picture"], 3);
-    assert!(messages.contains("what is set beside the scene"), "{messages}");
+    assert!(messages.contains("has changed: the scene"), "{messages}");
     // The remedy is to undo the change.
     std::fs::write(&request, text).unwrap();
     bench.ran(&["resume", "part", "--no-picture"], 0);

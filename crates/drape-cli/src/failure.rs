@@ -77,7 +77,7 @@ impl Failure {
     }
 
     /// Returns the failure for `error`, of a picture that cannot be drawn or encoded.
-    pub(crate) fn from_picture(error: drape::report::Error) -> Self {
+    pub(crate) fn from_picture(error: drape::render::Error) -> Self {
         Self::Output(error.to_string())
     }
 
@@ -137,6 +137,13 @@ impl From<drape::export::Error> for Failure {
             Error::Write(_) => Self::Output(format!("cannot write: {error}")),
             error => Self::Usage(error.to_string()),
         }
+    }
+}
+
+impl From<drape::render::Error> for Failure {
+    /// Converts `error`, whose cause is a shape or a number of the input that cannot be drawn.
+    fn from(error: drape::render::Error) -> Self {
+        Self::Input(Diagnostic::new("report", error.to_string()).into())
     }
 }
 

@@ -57,16 +57,6 @@ pub(crate) fn colour(fraction: f64, is_signed: bool) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Returns `value` with three digits.
-pub(crate) fn digits(value: f64) -> String {
-    let size = value.abs();
-    let places = match size {
-        0.0 => 2,
-        _ => (2 - size.log10().floor() as i32).clamp(0, 12) as usize,
-    };
-    format!("{value:.places$}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,11 +76,5 @@ mod tests {
         assert_eq!(colour(0.5, true), "#f6f6f4");
         assert_eq!(colour(0.125, false), "#234375");
         assert_eq!(colour(7.0, false), "#fae442");
-    }
-
-    #[test]
-    fn numbers_have_three_digits() {
-        let all = [0.0, -5.0, 0.05, 123.4, 50_000.0].map(digits);
-        assert_eq!(all, ["0.00", "-5.00", "0.0500", "123", "50000"]);
     }
 }

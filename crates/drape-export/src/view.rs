@@ -13,6 +13,7 @@ mod samples;
 mod scene;
 
 use drape_frames::Error;
+use drape_input::xml_text;
 use serde_json::{Value, json};
 
 use self::element::json_element;
@@ -60,7 +61,7 @@ impl View {
         let fabrics = json_element("fabrics-data", &Value::from(fabrics));
         let data: String = scenes.iter().enumerate().map(|(k, scene)| scene.elements(k)).collect();
         let parts = [
-            ("title", escape(&names.join(" | "))),
+            ("title", xml_text(&names.join(" | "))),
             ("style", STYLE.to_owned()),
             ("three", THREE.to_owned()),
             ("data", fabrics + &data),
@@ -81,9 +82,4 @@ impl View {
         let frames = scenes.into_iter().map(|scene| scene.frames).collect();
         Ok(View { html, frames })
     }
-}
-
-/// Returns `text` as HTML.
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

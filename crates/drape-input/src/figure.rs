@@ -1,25 +1,19 @@
-//! Numbers and quoted texts in messages, with as many digits and letters as a reader needs.
+//! Numbers and quoted texts for people, with as many digits and letters as a reader needs.
+//!
+//! `rounding` has [`figure`], a number in a message, and numbers of few digits, `notation` numbers
+//! with their uncertainty and per cents, and `amount` durations and sizes of memory. Messages,
+//! pages and tables of all crates use these functions, so that a number looks alike everywhere.
 
-/// Returns `value` as a message shows it. The number has at most 12 digits, so that rounding does
-/// not show, and an exponent if it is very large or very small.
-///
-/// ```
-/// use drape_input::figure;
-///
-/// assert_eq!(figure(0.1 + 0.2), "0.3");
-/// assert_eq!(figure(2.0), "2");
-/// assert_eq!(figure(1e-7), "1e-7");
-/// assert_eq!(figure(f64::NAN), "NaN");
-/// ```
-#[must_use]
-pub fn figure(value: f64) -> String {
-    if !value.is_finite() || value == 0.0 {
-        return value.to_string();
-    }
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-    let plain = (1e-4..1e7).contains(&rounded.abs());
-    if plain { rounded.to_string() } else { format!("{rounded:e}") }
-}
+mod amount;
+mod notation;
+mod rounding;
+
+pub use amount::{duration_in_words, size_in_words};
+pub use notation::{Notation, percent, signed_percent, significant, typeset, with_error};
+pub use rounding::{
+    brief, figure, figure_in_decimals, figure_in_digits, figure_in_range, round_decimals,
+    round_digits,
+};
 
 /// Returns a number with two digits that is no larger than `value`, for advice to stay below
 /// `value`.
@@ -53,18 +47,13 @@ pub fn figure_above(value: f64) -> String {
 ///
 /// The number is not below `value` if `direction` is 1, and not above `value` if `direction` is -1.
 fn two_digits(value: f64, direction: f64) -> String {
-    let mut number = round_to_two_digits(value);
+    let mut number = round_digits(value, 2);
     if direction * (number - value) < 0.0 {
         // More than half of the last digit, but less than a whole one, leads to the next number.
         let digit = 10_f64.powf(number.abs().log10().floor() - 1.0);
-        number = round_to_two_digits(number + direction * 0.55 * digit);
+        number = round_digits(number + direction * 0.55 * digit, 2);
     }
     figure(if direction * (number - value) < 0.0 { value } else { number })
-}
-
-/// Returns the number with two digits that is nearest to `value` in either direction.
-fn round_to_two_digits(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 /// Returns `count` with its noun in the right number.

@@ -15,9 +15,11 @@
 //! * `spelling`: [`closest`], the known word nearest to a misspelt word.
 //! * `setting`: [`Setting`], a value that replaces a value of a text, such as on a command line.
 //! * `allowed_folders`: [`AllowedFolders`], the folders with the files that a document may name.
-//! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
+//! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML, and [`xml_text`], texts
+//!   as XML.
 //! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
-//! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
+//! * `figure`: [`figure`](fn@figure), [`Notation`], [`excerpt`] and others, numbers and texts in
+//!   messages, on pages and in tables.
 
 mod allowed_folders;
 mod decode;
@@ -41,14 +43,18 @@ pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
 pub use document::{Document, missing_file_help, similar_file};
-pub use figure::{counted, excerpt, figure, figure_above, figure_below, figures, tidy};
+pub use figure::{
+    Notation, brief, counted, duration_in_words, excerpt, figure, figure_above, figure_below,
+    figure_in_decimals, figure_in_digits, figure_in_range, figures, percent, round_decimals,
+    round_digits, signed_percent, significant, size_in_words, tidy, typeset, with_error,
+};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, Metres, MomentPerWidth, PressurePerDistance, Ratio,
     ShearStiffness, Speed, TextOr, Time, Velocity,
 };
 pub use node::key_path::{KeyPath, KeyStep};
-pub use quoting::{toml_key, toml_string};
+pub use quoting::{toml_key, toml_string, xml_text};
 #[cfg(feature = "schema")]
 pub use schema::{
     at_least, between, laboratory_schema, one_of, positive, schema_of, unit_schema, within,

@@ -1,20 +1,23 @@
 //! Format of numbers and texts in files.
 
-use drape_input::figure;
+use drape_input::{figure_in_digits, round_digits};
 
-/// Returns `value` with six digits, for a file. No fabric is measured more accurately.
+/// Number of digits of a number in a file. No fabric is measured more accurately.
+const DIGITS: usize = 6;
+
+/// Returns `value` with six digits, for a file.
 pub(crate) fn number(value: f64) -> String {
-    figure(rounded(value))
+    figure_in_digits(value, DIGITS)
 }
 
 /// Returns `value` rounded to six digits.
 pub(crate) fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
+    round_digits(value, DIGITS)
 }
 
 /// Returns `value` with three digits, for a sentence.
 pub(crate) fn brief(value: f64) -> String {
-    figure(format!("{value:.2e}").parse().unwrap_or(value))
+    figure_in_digits(value, 3)
 }
 
 /// Returns the mean of `pair`, a number of warp and weft, for a program with one number for both.

@@ -10,8 +10,8 @@ mod number;
 mod pages;
 mod sketch_figure;
 mod svg;
+mod text_anchor;
 mod toml_text;
-mod xml;
 
 pub use figure::{figure, seam_colour};
 pub(crate) use number::as_written;

@@ -27,8 +27,27 @@ pub(crate) struct Simulation {
     is_broken: bool,
 }
 
-/// Step: time, length, largest speed, imbalance, iterations, whether it is the last, phase, events.
-type StepFields = (f64, f64, f64, f64, usize, bool, String, Vec<String>);
+/// Step, as the keywords of `drape.Step`.
+#[derive(IntoPyObject)]
+struct StepFields {
+    time: f64,
+    dt: f64,
+    speed_max: f64,
+    imbalance: f64,
+    iterations: usize,
+    finished: bool,
+    phase: String,
+    events: Vec<String>,
+}
+
+/// Motion of a rigid body: a shift, in m, and a turn about x, y and z, in degrees, about a centre.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct RigidMotion {
+    shift: [f64; 3],
+    turn: [f64; 3],
+    center: Option<[f64; 3]>,
+}
 
 /// Body: name, vertices, triangles.
 type Outline<'py> = (String, Bound<'py, PyAny>, Bound<'py, PyAny>);
@@ -80,16 +99,16 @@ impl Simulation {
         };
         raised?;
         let phase = serde_json::to_value(step.phase).unwrap_or_default();
-        Ok((
-            step.time,
-            step.dt,
-            step.speed_max,
-            step.imbalance,
-            step.report.iterations,
-            step.finished,
-            phase.as_str().unwrap_or_default().to_owned(),
-            step.events,
-        ))
+        Ok(StepFields {
+            time: step.time,
+            dt: step.dt,
+            speed_max: step.speed_max,
+            imbalance: step.imbalance,
+            iterations: step.report.iterations,
+            finished: step.finished,
+            phase: phase.as_str().unwrap_or_default().to_owned(),
+            events: step.events,
+        })
     }
 
     /// Lets forces act from now on, three numbers for each particle; none without numbers.
@@ -102,17 +121,16 @@ impl Simulation {
         self.simulation.next_step()
     }
 
-    /// Leads a body to positions of its vertices, three numbers each, or by a shift, a turn and its
-    /// centre.
+    /// Leads a body to positions of its vertices, three numbers each, or by a rigid motion.
     fn lead_body(
         &mut self,
         name: &str,
         vertices: Option<PyReadonlyArray1<'_, f64>>,
-        rigid: ([f64; 3], [f64; 3], Option<[f64; 3]>),
+        rigid: RigidMotion,
         seconds: f64,
     ) -> PyResult<()> {
         self.check()?;
-        let (shift, turn, center) = rigid;
+        let RigidMotion { shift, turn, center } = rigid;
         let target = match vertices {
             Some(numbers) => BodyTarget::Vertices(numbers.as_slice()?.as_chunks::<3>().0.to_vec()),
             None => BodyTarget::Rigid { shift, turn, center },

@@ -2,24 +2,18 @@
 //!
 //! # Tour
 //!
-//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`].
-//! [`LitShapes`] draw the same shapes several times. The functions of [`plot`] draw SVG figures of
-//! measured and fitted curves. [`FitPage`], [`ComparePage`], [`CustomerPage`], [`ValidationPage`]
-//! and [`StudyPage`] are reports that become HTML pages and text. A [`Parameter`] is a number with
-//! its [`Units`] and its [`Interval`].
+//! The functions of [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`],
+//! [`ComparePage`], [`CustomerPage`], [`ValidationPage`] and [`StudyPage`] are reports that become
+//! HTML pages and text. A [`Parameter`] is a number with its [`Units`] and its [`Interval`].
+//! Pages show pictures of the crate `drape-render`.
 //!
-//! Layers, lowest first: `error`, `check`, `text`, `parameter`, `picture`; the chapters `render`
-//! and `plot`; `page`.
+//! Layers, lowest first: `error`, `check`, `text`, `parameter`; the chapter `plot`; `page`.
 
 // Checks and texts.
 mod check;
 mod error;
 mod parameter;
 mod text;
-
-// Pictures of cloth.
-mod picture;
-mod render;
 
 // Figures.
 pub mod plot;
@@ -36,5 +30,3 @@ pub use page::{
     ValidationCase, ValidationPage, ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
-pub use picture::{Animation, Colour, ColourScale, Legend, Picture, Swatches, diverging};
-pub use render::{Camera, Extent, Ground, LitShapes, Scene, ScreenPoint, Surface, View, render};

@@ -5,7 +5,7 @@
 //! becomes one self-contained HTML page or a text for the terminal. Serialised, the data is the
 //! report for programs. `shown` rounds quantities and writes them in both units, `assets` holds the
 //! style and the script, and the templates are in `templates/page`. The chapter takes figures from
-//! `plot` and pictures from `render`.
+//! `plot`.
 
 mod assets;
 mod compare_page;

@@ -4,10 +4,11 @@
 
 mod samples;
 
+use drape_render::{Scene, Surface, View, render};
 use drape_report::plot::{Point, UncertaintyPlot, correlation_svg, loop_svg, uncertainty_svg};
 use drape_report::{
     CaptionedPicture, ComparePage, ComparedNumber, ComparedValue, Error, FabricName, FitPage,
-    Interval, Scene, Surface, Units, ValidationCase, ValidationPage, ValidationRow, View, render,
+    Interval, Units, ValidationCase, ValidationPage, ValidationRow,
 };
 use proptest::prelude::*;
 use samples::{a_graph, a_loop, a_page, an_overlay, classes, text_of, tree};

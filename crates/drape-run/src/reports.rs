@@ -27,6 +27,6 @@ pub use fabric::show_page;
 pub use fit::fit_page;
 pub use instruments::{TESTS, TestedLoop, instruments_page};
 pub use quantity::DIRECTIONS;
-pub use sheet_value::{CheckedValue, brief, sheet_values};
+pub use sheet_value::{CheckedValue, sheet_values};
 pub use version::VERSION;
 pub use viewer::{VIEWER_SIZE_MAX, ViewerPage};

@@ -36,7 +36,8 @@ impl Spacing {
 impl SceneSpec {
     /// Returns the spacing of the scene, then the spacings that panels and garments name.
     ///
-    /// The spacing of the scene is left out if every panel and garment names a spacing.
+    /// The spacing of the scene is left out if it is the usual one and every panel and garment names
+    /// a spacing.
     #[must_use]
     pub fn spacings(&self) -> Vec<Spacing> {
         let panels = self.panel.iter().map(|panel| panel.spacing).enumerate();
@@ -46,7 +47,9 @@ impl SceneSpec {
             garments.map(|(index, spacing)| (format!("garment.{index}.spacing"), spacing));
         let parts: Vec<(String, Option<f64>)> = panels.chain(garments).collect();
 
-        let is_used = parts.iter().any(|(_, spacing)| spacing.is_none()) || parts.is_empty();
+        let is_used = self.spacing != Self::default().spacing
+            || parts.iter().any(|(_, spacing)| spacing.is_none())
+            || parts.is_empty();
         let common = is_used.then(|| Spacing { key: "spacing".into(), value: self.spacing });
         let named = parts
             .into_iter()

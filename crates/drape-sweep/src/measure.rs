@@ -3,7 +3,7 @@
 
 pub(crate) mod convergence;
 
-use drape_input::{Quantity, UnitError, parse_unit};
+use drape_input::{Quantity, UnitError, parse_unit, round_digits};
 
 /// Quantities whose units a measure may have.
 const QUANTITIES: [Quantity; 8] = [
@@ -50,10 +50,7 @@ impl Measure {
     /// Other values stay as they are.
     pub(crate) fn in_unit(&self, value: String) -> String {
         match value.parse::<f64>() {
-            Ok(number) if self.factor != 1.0 => {
-                let number = number / self.factor;
-                format!("{number:.11e}").parse::<f64>().unwrap_or(number).to_string()
-            }
+            Ok(number) if self.factor != 1.0 => round_digits(number / self.factor, 12).to_string(),
             _ => value,
         }
     }

@@ -23,6 +23,7 @@ pub use drape_scene as scene;
 pub use drape_checkpoint as checkpoint;
 pub use drape_export as export;
 pub use drape_frames as frames;
+pub use drape_render as render;
 pub use drape_report as report;
 pub use drape_run as run;
 pub use drape_sweep as sweep;

@@ -2,7 +2,7 @@
 
 use drape::dynamics::Snapshot;
 use drape::export::FabricPalette;
-use drape::report::{
+use drape::render::{
     Camera, Colour, Extent, Ground, LitShapes, Picture, Scene, Surface, Swatches, View,
 };
 

@@ -2,7 +2,8 @@
 
 use drape::export::{FabricPalette, Field, Fields};
 use drape::frames::{Frame, Recording};
-use drape::report::{
+use drape::input::figure_in_range;
+use drape::render::{
     Camera, Colour, ColourScale, Extent, Ground, Legend, LitShapes, Picture, Scene, Surface,
     Swatches, View,
 };
@@ -153,7 +154,10 @@ impl<'a> RunPictures<'a> {
             let scale =
                 ColourScale::new(range, field.is_signed()).map_err(Failure::from_picture)?;
             let (name, unit) = (field.label().to_owned(), field.unit().to_owned());
-            pictures.legend.map = Some(Legend { name, unit, scale });
+            let [low, high] = range;
+            let labels = [low, 0.5 * (low + high), high];
+            let labels = labels.map(|value| figure_in_range(value, high - low));
+            pictures.legend.map = Some(Legend { name, unit, scale, labels });
         }
         Ok(pictures)
     }

@@ -7,8 +7,8 @@
 
 use drape::dynamics::Snapshot;
 use drape::pattern::seam_colour;
+use drape::render::{Colour, Picture, Surface};
 use drape::report::plot::{SeamKey, seams_svg};
-use drape::report::{Colour, Picture, Surface};
 use drape::scene::Seam;
 
 use super::picture::SnapshotPictures;

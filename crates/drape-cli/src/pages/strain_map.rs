@@ -3,8 +3,8 @@
 use drape::cloth::TriangleStrain;
 use drape::dynamics::Snapshot;
 use drape::export::rounded_up;
+use drape::render::{Colour, diverging};
 use drape::report::plot::{StrainMap, strain_svg};
-use drape::report::{Colour, diverging};
 
 use super::picture::SnapshotPictures;
 use crate::failure::Failure;

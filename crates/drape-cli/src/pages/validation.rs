@@ -2,8 +2,9 @@
 
 mod limits;
 
+use drape::render::Picture;
 use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
-use drape::report::{CaptionedPicture, Picture, ValidationCase, ValidationPage, ValidationRow};
+use drape::report::{CaptionedPicture, ValidationCase, ValidationPage, ValidationRow};
 use drape::run::reports::VERSION;
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 

@@ -11,12 +11,13 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use drape_frames::{Frame, Recording, SurfacePart};
+use drape_input::{significant, xml_text};
 
 use self::panel_layout::{Extent, PanelLayout};
 use self::region::{FlatField, Node};
 use crate::field::Field;
 use crate::mesh;
-use crate::name::{self, xml};
+use crate::name;
 use crate::scale;
 
 /// Number of bands of colour. An eye cannot distinguish more of them beside each other. The number
@@ -201,7 +202,7 @@ impl Page {
     /// Writes the beginning of the file, with the title.
     fn head(&self, to: &mut impl Write) -> io::Result<()> {
         let Page { width, height, title, text, margin, .. } = self;
-        let title = xml(title);
+        let title = xml_text(title);
         writeln!(
             to,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.3} {height:.3}\" \
@@ -217,7 +218,7 @@ impl Page {
     /// Draws `panel` with its name. Its upper left corner is at a point of the page, in mm.
     fn panel(&self, panel: &FlatPanel, [x, y]: [f64; 2], to: &mut impl Write) -> io::Result<()> {
         let Page { text, unit, range: [low, high], .. } = *self;
-        let name = xml(&panel.name);
+        let name = xml_text(&panel.name);
         writeln!(to, "<g id=\"{}\"><title>{name}</title>", panel.identifier)?;
         // The arrow along the warp. In SVG y points down, and angles turn clockwise.
         let [weft, warp] = panel.part.pattern_point([0.0, 1.0]);
@@ -302,7 +303,7 @@ impl Page {
     fn legend(&self, to: &mut impl Write) -> io::Result<()> {
         let Page { text, margin, height, range: [low, high], .. } = *self;
         let (band_width, top) = (0.8 * text, height - margin - 2.4 * text);
-        let label = xml(&self.label);
+        let label = xml_text(&self.label);
         writeln!(
             to,
             "<g id=\"legend\"><text x=\"{margin:.3}\" y=\"{:.3}\">{label}</text>",
@@ -325,7 +326,7 @@ impl Page {
                 to,
                 "<text x=\"{x:.3}\" y=\"{:.3}\" text-anchor=\"{anchor}\">{}</text>",
                 top + 2.1 * text,
-                scale::digits(value)
+                significant(value, 3)
             )?;
         }
         writeln!(to, "</g>")
@@ -348,7 +349,7 @@ impl Page {
             -0.4 * text,
             x + 0.5 * length,
             y + 1.1 * text,
-            scale::digits(length)
+            significant(length, 3)
         )
     }
 }

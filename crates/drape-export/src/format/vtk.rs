@@ -8,11 +8,11 @@ use std::io::{self, Write};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use drape_frames::{Frame, Recording, SurfacePart};
+use drape_input::xml_text;
 
 use crate::error::Error;
 use crate::field::Field;
 use crate::mesh;
-use crate::name::xml;
 use crate::normal;
 
 /// Surface of a frame that is written.
@@ -126,7 +126,7 @@ pub fn write_pvd(files: &[CollectionFile], mut to: impl Write) -> Result<(), Err
             Surface::Cloth => (0, "cloth"),
             Surface::Bodies => (1, "bodies"),
         };
-        let file = xml(file);
+        let file = xml_text(file);
         writeln!(
             to,
             "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>"

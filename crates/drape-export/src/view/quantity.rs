@@ -1,5 +1,7 @@
 //! Quantity: the plain name and the unit of a number of `summary.json`, by its key.
 
+use drape_input::brief;
+
 /// Quantity of a summary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Quantity {
@@ -145,32 +147,13 @@ impl Unit {
                 units.into_iter().find(fits).unwrap_or((1.0, "J"))
             }
         };
-        let number = number(factor * value);
+        let number = brief(factor * value, 3).replace('-', "−");
         match unit {
             "" => number,
             "°" => format!("{number}°"),
             unit => format!("{number} {unit}"),
         }
     }
-}
-
-/// Returns `value` with three significant digits. A large number has all its digits before the
-/// point.
-fn number(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let digits = 2 - value.abs().log10().floor() as i32;
-    let text = match digits {
-        ..=-4 if value.fract() != 0.0 || value.abs() >= 1e7 => format!("{value:.2e}"),
-        ..=0 => format!("{value:.0}"),
-        1..=6 => format!("{value:.*}", digits as usize),
-        _ => format!("{value:.1e}"),
-    };
-    // A whole number has no digits after the point.
-    let is_whole = value.fract() == 0.0 && text.contains('.') && !text.contains('e');
-    let text = if is_whole { format!("{value:.0}") } else { text };
-    text.replace('-', "−")
 }
 
 #[cfg(test)]
@@ -190,7 +173,7 @@ mod tests {
             (Plain("m²"), 0.165_749, "0.166 m²"),
             (Energy, -1.823_9e-5, "−18.2 µJ"),
             (Energy, 0.036_9, "36.9 mJ"),
-            (Energy, -1.36e-16, "−1.4e−16 J"),
+            (Energy, -1.36e-16, "−1.36e−16 J"),
             (Energy, 0.0, "0 J"),
             (Bare, 924.0, "924"),
             (Bare, 7.0, "7"),

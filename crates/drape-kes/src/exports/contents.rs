@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, Quantity, parse_unit};
+use drape_input::{Diagnostic, Diagnostics, Quantity, parse_unit, round_digits};
 
 use crate::exports::compression;
 use crate::exports::curve_draft::{CurveDraft, Key};
 use crate::exports::evidence::Evidence;
 use crate::exports::file_curves::{Export, OpenDraft, describe_mistake};
 use crate::exports::files::{Files, holds_no_table};
-use crate::results::average::{AssumedDirection, AveragedValue, rounded};
+use crate::results::average::{AssumedDirection, AveragedValue};
 use crate::results::item::Item;
 use crate::results::sheet_results::results;
 use crate::tables::block::{Lines, blocks};
@@ -273,7 +273,7 @@ fn compression_values(c: compression::Compression, line: usize) -> Vec<AveragedV
             item: Item::Key(key),
             direction: None,
             // The integral has no more digits than the curve.
-            number: rounded(number, 6),
+            number: round_digits(number, 6),
             deviation: None,
             unit: parse_unit(unit.spelling, &[quantity]).ok().filter(|_| key != "LC"),
             lines: (line, line),

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use drape_input::Quantity;
+use drape_input::{Quantity, round_digits};
 
 use crate::exports::contents::{FileContents, FileValue};
 use crate::exports::file_curves::OpenDraft;
-use crate::results::average::{AveragedValue, moments, rounded};
+use crate::results::average::{AveragedValue, moments};
 use crate::results::item::Item;
 use crate::results::sheet_value::SourcedValue;
 use crate::tables::heading::{is_specimen, normal};
@@ -146,8 +146,8 @@ fn mean(group: &[&FileValue]) -> SourcedValue {
     let numbers: Vec<f64> = group.iter().map(|value| si(&value.value) / factor).collect();
     let (mean, deviation) = moments(&numbers);
     let value = AveragedValue {
-        number: rounded(mean, 7),
-        deviation: deviation.filter(|d| *d > 0.0).map(|d| rounded(d, 4)),
+        number: round_digits(mean, 7),
+        deviation: deviation.filter(|d| *d > 0.0).map(|d| round_digits(d, 4)),
         remark: format!("mean of {} specimens, a table each", group.len()),
         ..first.clone()
     };

@@ -142,22 +142,13 @@ fn unreadable(folder: &Path, error: &std::io::Error) -> Diagnostic {
 /// it.
 pub(crate) fn relative(path: &Path, beside: &Path) -> String {
     // The folder of the sheet may not exist yet.
-    let base = if beside.as_os_str().is_empty() {
-        canonical(Path::new("."))
-    } else {
-        std::path::absolute(beside).map_or_else(|_| beside.to_owned(), |path| canonical(&path))
-    };
-    let path = canonical(if path.as_os_str().is_empty() { Path::new(".") } else { path });
-
-    // The common start of both paths is removed.
-    let (mut of_path, mut of_base) = (path.components().peekable(), base.components().peekable());
-    while of_path.peek().is_some() && of_path.peek() == of_base.peek() {
-        of_path.next();
-        of_base.next();
-    }
-    let up = of_base.map(|_| "..".to_owned());
-    let down = of_path.map(|part| part.as_os_str().to_string_lossy().into_owned());
-    up.chain(down).collect::<Vec<_>>().join("/")
+    let [path, base] = [path, beside].map(|path| {
+        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+        std::path::absolute(path).map_or_else(|_| path.to_owned(), |path| canonical(&path))
+    });
+    // Paths on different drives have no relative path.
+    let relative = pathdiff::diff_paths(&path, base).unwrap_or(path);
+    relative.to_string_lossy().replace(std::path::MAIN_SEPARATOR, "/")
 }
 
 /// Returns the canonical form of `path`; `path` itself if it does not exist.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use drape_input::Unit;
+use drape_input::{Unit, round_digits};
 
 use crate::results::item::Item;
 use crate::results::label::{Cut, Statistic};
@@ -201,7 +201,7 @@ fn average(
         averaged.number = if numbers.iter().all(|number| *number == numbers[0]) {
             numbers[0]
         } else {
-            rounded(mean, 7)
+            round_digits(mean, 7)
         };
         averaged.remark = describe(&singles, specimens.len());
 
@@ -225,7 +225,7 @@ fn average(
             .or(variation.map(|reading| 0.01 * reading.number * averaged.number.abs()));
     }
     averaged.deviation = averaged.deviation.filter(|deviation| *deviation > 0.0);
-    averaged.deviation = averaged.deviation.map(|deviation| rounded(deviation, 4));
+    averaged.deviation = averaged.deviation.map(|deviation| round_digits(deviation, 4));
     Some(averaged)
 }
 
@@ -342,7 +342,7 @@ fn compare_with_stated(averaged: &AveragedValue, stated: Option<f64>, notes: &mu
         notes.push(format!(
             "line {line}: the table says {} {stated} for the mean, and its specimens have {}, which is taken",
             averaged.item.symbol(),
-            rounded(averaged.number, 5)
+            round_digits(averaged.number, 5)
         ));
     }
 }
@@ -351,9 +351,4 @@ fn compare_with_stated(averaged: &AveragedValue, stated: Option<f64>, notes: &mu
 fn fraction_digits(number: f64) -> usize {
     let text = number.to_string();
     text.split_once('.').map_or(0, |(_, fraction)| fraction.len())
-}
-
-/// Returns `number` rounded to the given number of significant `digits`.
-pub(crate) fn rounded(number: f64, digits: usize) -> f64 {
-    format!("{number:.*e}", digits - 1).parse().unwrap_or(number)
 }

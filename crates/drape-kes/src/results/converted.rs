@@ -1,9 +1,9 @@
 //! Converts averaged values to values of a sheet. Numbers without unit get their units, and values
 //! of FAST and of cantilevers are converted to values that a sheet has keys for.
 
-use drape_input::{Quantity, Unit, figure, parse_unit};
+use drape_input::{Quantity, Unit, figure, parse_unit, round_digits};
 
-use crate::results::average::{AveragedValue, rounded};
+use crate::results::average::AveragedValue;
 use crate::results::item::Item;
 use crate::results::sheet_value::{
     ConvertedValues, DraftValue, FabricValues, SourcedValue, source_of,
@@ -57,8 +57,8 @@ fn mark_ratios(values: &mut FabricValues, converted: &mut ConvertedValues) {
 figure(value.number)
 ));
         value.unit = parse_unit("%", &[Quantity::Ratio]).ok();
-        value.number = rounded(100.0 * value.number, 10);
-        value.deviation = value.deviation.map(|deviation| rounded(100.0 * deviation, 10));
+        value.number = round_digits(100.0 * value.number, 10);
+        value.deviation = value.deviation.map(|deviation| round_digits(100.0 * deviation, 10));
         *value = value.clone().with_remark("ASSUMED: a ratio, no percentage");
     }
 }

@@ -1,6 +1,8 @@
 //! Values of one fabric on the way to a sheet.
 
-use crate::results::average::{AveragedValue, rounded};
+use drape_input::round_digits;
+
+use crate::results::average::AveragedValue;
 use crate::results::item::Item;
 use crate::test::Direction;
 
@@ -74,5 +76,5 @@ pub(crate) fn source_of(sourced: &SourcedValue) -> String {
 
 /// Returns a computed number with five significant digits.
 pub(crate) fn computed(number: f64) -> f64 {
-    rounded(number, 5)
+    round_digits(number, 5)
 }

@@ -1,10 +1,11 @@
 //! Drawing of cut panels as SVG.
 
+use drape_input::xml_text;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::layout::Rows;
-use super::xml::{escape, text_anchor};
+use super::text_anchor::text_anchor;
 use crate::cut::{Cut, CutPattern, NodeId, SeamNodes};
 use crate::edge::{cross, difference, distance, dot};
 use crate::panel::{Fold, Panel};
@@ -414,7 +415,7 @@ impl Label<'_> {
     /// Draws the text on a white halo.
     fn draw(&self, svg: &mut String) {
         let Self { text, anchor, at: [x, y], size } = self;
-        let clean = escape(text);
+        let clean = xml_text(text);
         let _ = writeln!(
             svg,
             "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{size:.1}\" text-anchor=\"{anchor}\" \

@@ -1,9 +1,10 @@
 //! Marks that are drawn on a panel: grain line, name, notches, folds, letters and ticks of seams.
 
+use drape_input::{figure_in_decimals, xml_text};
 use std::fmt::Write;
 
-use super::number::{decimal, letters};
-use super::xml::{escape, text_anchor};
+use super::number::letters;
+use super::text_anchor::text_anchor;
 use crate::edge::{Edge, cross, difference, distance};
 use crate::panel::Panel;
 use crate::pattern::Pattern;
@@ -142,8 +143,8 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> PanelMarks<'_, F> {
                 let _ = writeln!(
                     svg,
                     "<circle class=\"first\" cx=\"{}\" cy=\"{}\" r=\"0.8\" fill=\"#000000\"/>",
-                    decimal(at[0], 100.0),
-                    decimal(at[1], 100.0)
+                    figure_in_decimals(at[0], 2),
+                    figure_in_decimals(at[1], 2)
                 );
             }
             before += length;
@@ -230,17 +231,17 @@ impl Label<'_> {
             svg,
             "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"#000000\" \
              stroke=\"none\">{}</text>",
-            decimal(*x, 100.0),
-            decimal(*y, 100.0),
-            decimal(*size, 100.0),
-            escape(text)
+            figure_in_decimals(*x, 2),
+            figure_in_decimals(*y, 2),
+            figure_in_decimals(*size, 2),
+            xml_text(text)
         );
     }
 }
 
 /// Returns a point as it stands in path data.
 fn pair([x, y]: [f64; 2]) -> String {
-    format!("{} {}", decimal(x, 1e4), decimal(y, 1e4))
+    format!("{} {}", figure_in_decimals(x, 4), figure_in_decimals(y, 4))
 }
 
 #[cfg(test)]

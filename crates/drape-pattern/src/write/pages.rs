@@ -1,10 +1,10 @@
 //! Drawing of a pattern on pages of paper, at true scale. The pages overlap, to be glued together.
 
+use drape_input::{figure_in_decimals, xml_text};
 use std::fmt::Write;
 
-use super::number::{decimal, letters};
+use super::number::letters;
 use super::svg::{PatternSheet, STYLE};
-use super::xml::escape;
 use crate::pattern::Pattern;
 
 /// Border of a page that printers leave white, in mm.
@@ -115,8 +115,8 @@ fn page(paper: Paper, window: &PageWindow<'_>, groups: &[&str]) -> String {
         corner[1],
         room[0],
         room[1],
-        decimal(MARGIN - corner[0], 1e4),
-        decimal(MARGIN - corner[1], 1e4)
+        figure_in_decimals(MARGIN - corner[0], 4),
+        figure_in_decimals(MARGIN - corner[1], 4)
     );
     groups.iter().for_each(|group| svg.push_str(group));
     svg.push_str("</g>\n");
@@ -144,7 +144,7 @@ fn page(paper: Paper, window: &PageWindow<'_>, groups: &[&str]) -> String {
         svg,
         "<text x=\"{MARGIN}\" y=\"7\" font-size=\"3.2\" fill=\"#000000\" stroke=\"none\">{}</text>\n\
          <path class=\"scale\" d=\"M{} 6h50m-50 -1.5v3m50 -3v3\"/>\n</svg>",
-        escape(&words),
+        xml_text(&words),
         width - MARGIN - 50.0
     );
     svg

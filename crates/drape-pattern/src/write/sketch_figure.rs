@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use drape_input::{Diagnostic, Subject};
+use drape_input::{Diagnostic, Subject, xml_text};
 
 use super::layout::Rows;
-use super::xml::{escape, text_anchor};
+use super::text_anchor::text_anchor;
 use crate::edge::{Edge, difference};
 use crate::sketch::{Sketch, SketchFault, SketchPanel};
 
@@ -206,7 +206,7 @@ impl SketchDrawing<'_> {
              stroke-width=\"{:.2}\" paint-order=\"stroke\">{}</text>",
             y + 0.35 * letter,
             0.25 * letter,
-            escape(text)
+            xml_text(text)
         );
     }
 }

@@ -8,13 +8,12 @@
 
 use std::fmt::Write;
 
-use drape_input::{toml_key, toml_string};
+use drape_input::{figure_in_decimals, toml_key, toml_string, xml_text};
 
 use super::layout::{Extent, Rows};
 use super::marks::PanelMarks;
-use super::number::{decimal, millimetres};
+use super::number::millimetres;
 use super::toml_text::{degrees, write_darts, write_placement};
-use super::xml::escape;
 use crate::edge::{Curve, Edge, distance};
 use crate::panel::Panel;
 use crate::pattern::Pattern;
@@ -77,11 +76,13 @@ impl Pattern {
     pub fn to_svg(&self, width: Option<f64>) -> String {
         let sheet = PatternSheet::new(self, width);
         let [width, height] = sheet.size;
+        let metadata = metadata(self);
+        let lines: Vec<String> = metadata.split('\n').map(xml_text).collect();
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
              viewBox=\"0 0 {width} {height}\" {STYLE}>\n<metadata><pattern xmlns=\"{NAMESPACE}\">{}\
              </pattern></metadata>\n",
-            escape(&metadata(self))
+            lines.join("\n")
         );
         sheet.groups.iter().for_each(|(_, group)| svg.push_str(group));
         svg.push_str("</svg>\n");
@@ -100,10 +101,10 @@ fn group(pattern: &Pattern, panel: &Panel, origin: [f64; 2]) -> String {
     let mut svg = format!(
         "<g class=\"panel\" data-panel=\"{}\" data-origin=\"{} {}\">\n\
          <path class=\"outline\" data-edges=\"{}\" stroke-width=\"0.5\" d=\"{}\"/>\n",
-        escape(panel.name()),
+        xml_text(panel.name()),
         origin[0],
         origin[1],
-        escape(&names.join("|")),
+        xml_text(&names.join("|")),
         closed_line(panel.outline(), &on_sheet)
     );
     for hole in panel.loops().skip(1) {
@@ -145,7 +146,7 @@ fn closed_line(edges: &[Edge], on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> Stri
 
 /// Returns a point of the sheet as it stands in path data.
 fn pair(point: [f64; 2]) -> String {
-    let [x, y] = point.map(|x| decimal(x, 1e4));
+    let [x, y] = point.map(|x| figure_in_decimals(x, 4));
     format!("{x} {y}")
 }
 

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use drape_input::{toml_key, toml_string};
+use drape_input::{figure_in_decimals, toml_key, toml_string};
 
-use super::number::{as_written, decimal, millimetres, point};
+use super::number::{as_written, millimetres, point};
 use crate::ease::{DEFAULT_EASE, MAX_EASE};
 use crate::edge::{Curve, Edge, distance};
 use crate::note::PatternNote;
@@ -69,7 +69,7 @@ impl Pattern {
                 Some(seam) => format!(", seam {}", plain(&seam.name)),
                 None => String::new(),
             };
-            let length = decimal(1e3 * edge.length(), 10.0);
+            let length = figure_in_decimals(1e3 * edge.length(), 1);
             let _ = writeln!(text, "    {},    # {length} mm{remark}", edge_text(edge));
         }
         text.push_str("]\n");
@@ -96,7 +96,8 @@ impl Pattern {
             let words = side.iter().map(|&id| toml_string(&self.edge_word(id)));
             words.collect::<Vec<_>>().join(", ")
         });
-        let lengths = seam.sides.each_ref().map(|side| decimal(1e3 * self.side_length(side), 10.0));
+        let lengths =
+            seam.sides.each_ref().map(|side| figure_in_decimals(1e3 * self.side_length(side), 1));
         let _ = writeln!(
             text,
             "\n[seam.{}]\nsides = [[{}], [{}]]    # {} mm on {} mm",
@@ -193,7 +194,7 @@ fn shape(edge: &Edge) -> String {
 
 /// Returns `angle`, in rad, as a number of degrees.
 pub(crate) fn degrees(angle: f64) -> String {
-    decimal(angle.to_degrees(), 1e6)
+    figure_in_decimals(angle.to_degrees(), 6)
 }
 
 /// Returns `name` without the letters that would end a comment.

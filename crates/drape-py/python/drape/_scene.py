@@ -261,7 +261,7 @@ class Simulation:
             self._inner.apply_forces(pushed.ravel())
             self._pushed = forces is not None
         self._positions = self._velocities = None
-        return Step(*self._inner.step())
+        return Step(**self._inner.step())
 
     @property
     def next_step(self) -> float:
@@ -299,11 +299,14 @@ class Simulation:
             target = np.asarray(vertices, dtype=np.float64)
             if target.ndim != 2 or target.shape[1] != 3:
                 raise UsageError(f"vertices of shape {target.shape}: give (k, 3), in m")
-        rigid = (_triple("shift", shift), _triple("turn", turn))
-        middle = None if center is None else _triple("center", center)
+        rigid = {
+            "shift": _triple("shift", shift),
+            "turn": _triple("turn", turn),
+            "center": None if center is None else _triple("center", center),
+        }
         within = self.next_step if seconds is None else seconds
         flat = None if target is None else target.ravel()
-        self._inner.lead_body(name, flat, (*rigid, middle), within)
+        self._inner.lead_body(name, flat, rigid, within)
 
     @property
     def time(self) -> float:

@@ -1,6 +1,7 @@
 //! Comparison of fabrics, as a page and as text.
 
 use askama::Template;
+use drape_input::{percent, signed_percent};
 use serde::Serialize;
 
 use super::assets::{PAGE_SCRIPT, PAGE_STYLE};
@@ -9,7 +10,6 @@ use super::shown::{Marked, Shown, ShownValue};
 use crate::check;
 use crate::error::Error;
 use crate::plot::{COLOURS, OverlayPlot, Placement, STYLE, overlay_figure};
-use crate::text::number::{percent, signed_percent};
 use crate::text::table::Table;
 
 /// Comparison of fabrics: their overlaid curves, their measured values and the values of their

@@ -1,6 +1,7 @@
 //! HTML page of the report of a fit.
 
 use askama::Template;
+use drape_input::{percent, signed_percent, significant, typeset};
 
 use super::assets::{PAGE_SCRIPT, PAGE_STYLE};
 use super::fit_page::{FitPage, KesValue, Quantity};
@@ -13,7 +14,6 @@ use crate::plot::{
     Placement, STYLE, UncertaintyPlot, correlation_figure, correlation_side, loop_figure,
     uncertainty_figure,
 };
-use crate::text::number::{percent, signed_percent, significant, typeset};
 use crate::text::symbol::Symbol;
 
 /// What the HTML template shows.

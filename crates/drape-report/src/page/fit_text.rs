@@ -1,10 +1,11 @@
 //! Text of the report of a fit, for a terminal.
 
+use drape_input::{percent, signed_percent, significant};
+
 use super::fit_page::{FitPage, KesValue};
 use super::law_report::{LawReport, Limits, Statistics, Trust};
 use super::shown::{Shown, ShownLawValue, ShownParameter, ShownValue};
 use crate::error::Error;
-use crate::text::number::{percent, signed_percent, significant};
 use crate::text::table::Table;
 
 /// Width at which running text is broken, in letters. The width is larger than the usual 80 of a

@@ -1,5 +1,6 @@
 //! Report of one fitted law, and its judgement.
 
+use drape_input::percent;
 use serde::Serialize;
 
 use super::law_value::LawValue;
@@ -7,7 +8,6 @@ use crate::check;
 use crate::error::Error;
 use crate::parameter::Parameter;
 use crate::plot::{Correlation, LoopPlot};
-use crate::text::number::percent;
 
 /// Report of a fitted law: its curves, its misfit and its parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]

@@ -1,8 +1,12 @@
 //! Quantities as text, before a page or a terminal lays them out.
 
+use drape_input::{Notation, percent, significant, typeset};
+
 use super::law_value::LawValue;
 use crate::parameter::{Interval, Parameter, Units};
-use crate::text::number::{DIGITS, Notation, percent, significant, typeset};
+
+/// Number of significant digits of a number without a known uncertainty.
+const DIGITS: i32 = 4;
 
 /// Words for an interval that says nothing.
 const NOT_DETERMINED: &str = "not determined by this curve";

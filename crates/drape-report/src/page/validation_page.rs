@@ -1,11 +1,11 @@
 //! Page of a validation: measured figures with their references, plots and pictures.
 
 use askama::Template;
+use drape_render::Picture;
 
 use super::assets::{PAGE_SCRIPT, PAGE_STYLE};
 use crate::check;
 use crate::error::Error;
-use crate::picture::Picture;
 use crate::plot::{GraphPlot, Placement, STYLE, graph_figure};
 use crate::text::base64::encode;
 
@@ -139,7 +139,8 @@ impl ValidationPage {
         let cases = self.cases.iter().map(|case| {
             let pictures = case.pictures.iter().map(|CaptionedPicture { caption, picture }| {
                 let (width, height) = (picture.width(), picture.height());
-                Ok(PictureView { caption, width, height, data: encode(&picture.png()?) })
+                let data = encode(&picture.png().map_err(Error::Picture)?);
+                Ok(PictureView { caption, width, height, data })
             });
             let plots = case.plots.iter();
             Ok(CaseView {

@@ -1,13 +1,13 @@
 //! Heat map of the correlations between parameters.
 
 use askama::Template;
+use drape_input::typeset;
 use serde::Serialize;
 
 use super::style::Placement;
 use super::svg::px;
 use crate::check;
 use crate::error::Error;
-use crate::text::number::typeset;
 use crate::text::symbol::Symbol;
 
 /// Correlations between the estimates of some parameters.

@@ -1,7 +1,8 @@
 //! Scale of an axis: maps values, or their logarithms, to pixels, and chooses the ticks.
 
+use drape_input::{significant, typeset};
+
 use super::svg::px;
-use crate::text::number::{significant, typeset};
 
 /// Room for a tick with its label, in px. With steps of 1, 2 and 5 there are up to 2.5 times as
 /// many ticks.

@@ -1,10 +1,10 @@
 //! Picture of a garment with the names of its seams in their colours.
 
 use askama::Template;
+use drape_render::{Colour, Picture};
 
 use crate::check;
 use crate::error::Error;
-use crate::picture::{Colour, Picture};
 use crate::text::base64::encode;
 
 /// Width of the picture, in px.
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn a_picture_has_the_name_of_each_seam_in_its_colour() {
-        let picture = Picture::new(2, 3, vec![200; 18]);
+        let picture = Picture::from_pixels([2, 3], vec![200; 18]).expect("the size");
         let seam = |name: &str, colour| SeamKey { name: name.into(), colour };
         let seams = [seam("side <left>", [255, 0, 0]), seam("waist", [0, 128, 255])];
         let svg = seams_svg(&picture, &seams).expect("a figure");
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn names_are_below_the_picture_and_the_page_ends_with_them() {
-        let picture = Picture::new(4, 2, vec![200; 24]);
+        let picture = Picture::from_pixels([4, 2], vec![200; 24]).expect("the size");
         let seam = |k: usize| SeamKey { name: format!("seam {k}"), colour: [0, 0, 0] };
         let seams: Vec<SeamKey> = (0..2 * COLUMNS + 1).map(seam).collect();
         let svg = seams_svg(&picture, &seams).expect("a figure");

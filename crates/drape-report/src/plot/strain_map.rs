@@ -1,10 +1,11 @@
 //! Strain map: pictures of cloth coloured by a quantity, each above its colour scale.
 
 use askama::Template;
+use drape_input::{figure_in_decimals, typeset};
+use drape_render::{Picture, diverging};
 
 use crate::check;
 use crate::error::Error;
-use crate::picture::{Picture, diverging};
 use crate::text::base64::encode;
 
 /// Number of steps of a colour bar.
@@ -131,11 +132,9 @@ pub fn strain_svg(maps: &[StrainMap]) -> Result<String, Error> {
 
 /// Returns the text of a mark at a `value` in a `unit`.
 fn mark(value: f64, unit: &str) -> String {
-    let number = format!("{value:+.3}");
-    let number = number.trim_end_matches('0').trim_end_matches('.');
-    let number = if value == 0.0 { "0" } else { number };
+    let sign = if value > 0.0 { "+" } else { "" };
     let space = if unit == "°" { "" } else { " " };
-    format!("{}{space}{unit}", number.replace('-', "−"))
+    format!("{sign}{}{space}{unit}", typeset(&figure_in_decimals(value, 3)))
 }
 
 #[cfg(test)]
@@ -144,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_figure_has_a_picture_and_a_scale_for_each_map() {
-        let picture = Picture::new(2, 3, vec![200; 18]);
+        let picture = Picture::from_pixels([2, 3], vec![200; 18]).expect("the size");
         let map = |caption: &str, unit: &str| StrainMap {
             caption: caption.into(),
             limit: 0.5,

@@ -1,11 +1,11 @@
 //! Path data and lengths of SVG.
 
+use drape_input::figure_in_decimals;
+
 /// Returns a `length` in px with two decimals, finer than any printer at the usual size of a
 /// figure.
 pub(crate) fn px(length: f64) -> String {
-    let text = format!("{length:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0" } else { text }.to_owned()
+    figure_in_decimals(length, 2)
 }
 
 /// Returns a line through `pixels` as path data.

@@ -1,13 +1,13 @@
 //! Uncertainty plot: the relative errors and intervals of parameters side by side.
 
 use askama::Template;
+use drape_input::percent;
 
 use super::scale::{Scale, Tick};
 use super::style::Placement;
 use super::svg::px;
 use crate::error::Error;
 use crate::parameter::{Interval, Parameter};
-use crate::text::number::percent;
 use crate::text::symbol::Symbol;
 
 /// Parameters whose relative uncertainty is compared.

@@ -238,25 +238,45 @@ fn given_values(fabrics: &[ComparedFabric<'_>]) -> Vec<ComparedValue> {
         }
     };
     let mass = value("W", "mass per area", quantity::mass(), |compared| {
-        number(compared.sheet.map(Sheet::density), compared.fabric.density)
+        SheetNumber::read(compared.sheet, Sheet::density).beside(compared.fabric.density)
     });
     let thickness = value("T", "thickness", quantity::thickness(), |compared| {
-        number(compared.sheet.map(Sheet::thickness), compared.fabric.thickness)
+        SheetNumber::read(compared.sheet, Sheet::thickness).beside(compared.fabric.thickness)
     });
     let friction = value("µ", "surface friction", quantity::ratio(), |compared| {
-        number(compared.sheet.map(surface_friction), compared.fabric.surface_friction)
+        SheetNumber::read(compared.sheet, surface_friction).beside(compared.fabric.surface_friction)
     });
     vec![mass, thickness, friction]
 }
 
-/// Returns the number `of_sheet` with the number of the `law`. The outer `None` stands for a fabric
-/// without a sheet, the inner `None` for a sheet without the number.
-fn number(of_sheet: Option<Option<f64>>, law: f64) -> ComparedNumber {
-    ComparedNumber {
-        measured: of_sheet.flatten(),
-        law: Some(law),
-        is_assumed: of_sheet == Some(None),
-        ..ComparedNumber::default()
+/// Number of a fabric in the sheet of its measurements.
+enum SheetNumber {
+    /// The fabric has no sheet.
+    NoSheet,
+    /// The sheet does not have the number, and the law assumes one.
+    Missing,
+    /// The sheet has the number, in SI.
+    Measured(f64),
+}
+
+impl SheetNumber {
+    /// Returns the number that `read` finds in the `sheet` of a fabric.
+    fn read(sheet: Option<&Sheet>, read: fn(&Sheet) -> Option<f64>) -> SheetNumber {
+        match sheet.map(read) {
+            None => SheetNumber::NoSheet,
+            Some(None) => SheetNumber::Missing,
+            Some(Some(number)) => SheetNumber::Measured(number),
+        }
+    }
+
+    /// Returns the number beside the number of the `law`, in SI.
+    fn beside(&self, law: f64) -> ComparedNumber {
+        let (measured, is_assumed) = match *self {
+            SheetNumber::NoSheet => (None, false),
+            SheetNumber::Missing => (None, true),
+            SheetNumber::Measured(number) => (Some(number), false),
+        };
+        ComparedNumber { measured, law: Some(law), is_assumed, ..ComparedNumber::default() }
     }
 }
 

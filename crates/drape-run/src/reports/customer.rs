@@ -3,6 +3,7 @@
 
 use drape_fabric::{Fabric, Provenance};
 use drape_fit::{Fit, FitSettings, fabric_values};
+use drape_input::figure_in_digits;
 use drape_kes::{Direction, Sheet, Symbol, Test, TestRecord};
 use drape_report::{
     ComparedNumber, ComparedValue, CustomerPage, LawReport, ReportedDrape, ReportedFabric,
@@ -14,7 +15,7 @@ use super::compared::ComparedFabric;
 use super::fabric::{TESTS, directions, law};
 use super::fit::curve_law;
 use super::quantity::DIRECTIONS;
-use super::sheet_value::{CheckedValue, brief, sheet_values};
+use super::sheet_value::{CheckedValue, sheet_values};
 use super::value_law::value_laws;
 use super::{kes_value, quantity};
 
@@ -251,7 +252,7 @@ impl CustomerSubject<'_> {
         let unit = quantity::tension().kes?;
         let [load, standard] = [sheet.maximum_tension(), Sheet::default().maximum_tension()];
         let is_other = (load / standard - 1.0).abs() > 0.01;
-        let load = brief(load / unit.in_si);
+        let load = figure_in_digits(load / unit.in_si, 4);
         is_other.then(|| {
             format!("LT, WT, RT and EM are values at a load of {load} {}, not of 500", unit.name)
         })

@@ -4,8 +4,9 @@
 use serde::{Deserialize, Serialize};
 
 use drape_fabric::Fabric;
+use drape_render::Picture;
+use drape_report::ReportedDrape;
 use drape_report::plot::ShadowPlot;
-use drape_report::{Picture, ReportedDrape};
 use drape_validate::drapemeter::{Drape, Study};
 
 /// Half width of the interval of nineteen specimens in twenty, in standard deviations.

@@ -3,11 +3,14 @@
 
 use serde::Serialize;
 
-use drape_input::figure;
+use drape_input::figure_in_digits;
 use drape_kes::{Direction, Sheet, SheetValue};
 use drape_report::Units;
 
 use super::{kes_value, quantity};
+
+/// Number of digits of a value in a message.
+const DIGITS: usize = 4;
 
 /// Value of a sheet, with the range that fabrics usually have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -47,9 +50,9 @@ impl CheckedValue {
             "{}: a {name} of {} {si_unit} is unusual; nine fabrics in ten have {} to {}; check the value and \
              its unit",
             self.label(),
-            brief(*si),
-            brief(least),
-            brief(most)
+            figure_in_digits(*si, DIGITS),
+            figure_in_digits(least, DIGITS),
+            figure_in_digits(most, DIGITS)
         ))
     }
 
@@ -61,12 +64,6 @@ impl CheckedValue {
             None => self.symbol.into(),
         }
     }
-}
-
-/// Returns a `value` with four digits.
-#[must_use]
-pub fn brief(value: f64) -> String {
-    figure(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
 /// Returns every value of a `sheet`, and the bending lengths, with the ranges that fabrics usually

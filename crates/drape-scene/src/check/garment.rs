@@ -192,8 +192,7 @@ fn cut(
         None => "spacing".into(),
     };
     let cut = pieces(checker, (key, &spacing_key), Cutter::new(spacing).cut(pattern))?;
-    let layer = entry.layer;
-    check_layer(checker, &format!("{key}.layer"), layer);
+    let layer = check_layer(checker, &format!("{key}.layer"), entry.layer);
     let mut noise = entry.noise.as_ref().map(Noise::new);
     let (mut pieces, mut next) = (Vec::new(), first);
     for (index, panel) in cut.panels.iter().enumerate() {

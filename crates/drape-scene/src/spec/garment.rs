@@ -32,11 +32,11 @@ pub struct GarmentSpec {
     #[serde(default)]
     #[serde_as(as = "[Length; 3]")]
     pub center: [f64; 3],
-    /// Layer in which it is worn, from the inside out: for each layer a panel starts 20 mm farther
-    /// out.
+    /// Layer in which it is worn: 0 is next to the body, and for each layer a panel starts 20 mm
+    /// farther out.
     #[schemars(transform = drape_input::within(0.0, 20.0))]
     #[serde(default)]
-    pub layer: u32,
+    pub layer: i64,
     /// Random heights over the panels.
     pub noise: Option<NoiseSpec>,
     /// Heights above y = 0 at which girth and ease are measured, by their names: `waist = 1.08`.
@@ -76,7 +76,7 @@ pub struct GarmentPanelSpec {
     pub wrap: Option<f64>,
     /// Layer in which it is worn; the layer of its garment if missing.
     #[schemars(transform = drape_input::within(0.0, 20.0))]
-    pub layer: Option<u32>,
+    pub layer: Option<i64>,
 }
 
 /// Seam between edges of the panels of a garment.

@@ -66,7 +66,7 @@ impl Range {
 /// Returns `value` as a TOML value with 12 digits. A whole number is written without a point, so
 /// that keys of whole numbers accept it too.
 pub(crate) fn toml_number(value: f64) -> String {
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+    let rounded = drape_input::round_digits(value, 12);
     if rounded.fract() == 0.0 && rounded.abs() < 1e15 {
         return format!("{rounded:.0}");
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use drape::dynamics::{Progress, Simulation, Status, Step};
+use drape::input::duration_in_words;
 
 use super::describe::read_scene;
 use crate::failure::Failure;
@@ -50,7 +51,10 @@ pub(super) fn describe(path: &Path) -> Result<String, Failure> {
         return Ok(format!("  time: unknown, the first step fails: {reason}"));
     }
     if summary.status == Status::Ok {
-        return Ok(format!("  time: {}, the whole run in {count} steps", in_words(seconds)));
+        return Ok(format!(
+            "  time: {}, the whole run in {count} steps",
+            duration_in_words(seconds)
+        ));
     }
 
     let estimate = seconds * total_ticks.max(ticks) as f64 / ticks as f64;
@@ -58,17 +62,7 @@ pub(super) fn describe(path: &Path) -> Result<String, Failure> {
         if may_rest { ("up to ", ", less if it comes to rest earlier") } else { ("about ", "") };
     Ok(format!(
         "  time: {up_to}{} at the pace of the first {count} steps, which took {}{rest}",
-        in_words(estimate),
-        in_words(seconds)
+        duration_in_words(estimate),
+        duration_in_words(seconds)
     ))
-}
-
-/// Returns the duration `seconds` in a suitable unit.
-fn in_words(seconds: f64) -> String {
-    match seconds {
-        ..10.0 => format!("{seconds:.1} s"),
-        10.0..120.0 => format!("{seconds:.0} s"),
-        120.0..7200.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.1} h", seconds / 3600.0),
-    }
 }

@@ -2,8 +2,12 @@
 
 use std::fmt::Write;
 
+use drape::input::figure_in_digits;
 use drape::kes::Sheet;
-use drape::run::reports::{CheckedValue, brief, sheet_values};
+use drape::run::reports::{CheckedValue, sheet_values};
+
+/// Number of digits of a value.
+const DIGITS: usize = 4;
 
 /// Describes the values of `sheet`, one a line.
 pub(crate) fn describe(sheet: &Sheet) -> String {
@@ -16,18 +20,18 @@ pub(crate) fn describe(sheet: &Sheet) -> String {
 }
 
 fn line(value: &CheckedValue) -> String {
-    let deviation =
-        value.deviation.map_or(String::new(), |deviation| format!(" ± {}", brief(deviation)));
-    let written = with_unit(brief(value.value) + &deviation, &value.unit);
+    let shown = |number: f64| figure_in_digits(number, DIGITS);
+    let deviation = value.deviation.map_or(String::new(), |number| format!(" ± {}", shown(number)));
+    let written = with_unit(shown(value.value) + &deviation, &value.unit);
     let mut line = format!("  {}, {}: {written}", value.label(), value.name);
 
     if value.unit != value.si_unit {
-        let _ = write!(line, " = {}", with_unit(brief(value.si), &value.si_unit));
+        let _ = write!(line, " = {}", with_unit(shown(value.si), &value.si_unit));
     }
 
     if let (Some([low, high]), Some(is_usual)) = (value.usual, value.is_usual) {
         let verdict = if is_usual { "usual" } else { "UNUSUAL" };
-        let range = with_unit(format!("{} to {}", brief(low), brief(high)), &value.si_unit);
+        let range = with_unit(format!("{} to {}", shown(low), shown(high)), &value.si_unit);
         let _ = write!(line, ", {verdict}: nine fabrics in ten have {range}");
     }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape::export::Clip;
-use drape::report::{Animation, Picture};
+use drape::render::{Animation, Picture};
 
 use super::files::OutputFiles;
 use crate::commands::show::look::LookArguments;

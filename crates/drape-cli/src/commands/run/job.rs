@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 use drape::dynamics::Summary;
 use drape::frames::Recording;
-use drape::report::Picture;
+use drape::render::Picture;
 use drape::run::reports::{VIEWER_SIZE_MAX, ViewerPage};
 use drape::run::{EndedRun, FolderRun, RunOptions};
 use drape::scene::Scene;

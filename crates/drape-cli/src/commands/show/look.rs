@@ -5,7 +5,7 @@ use std::str::FromStr;
 use clap::{Args, ValueEnum};
 use drape::export::Field;
 use drape::frames::Recording;
-use drape::report::Colour;
+use drape::render::Colour;
 
 use crate::failure::Failure;
 use crate::pages::picture::{ELEVATION, SIDES, SIZE, UPRIGHT};

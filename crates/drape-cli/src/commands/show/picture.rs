@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use drape::frames::Recording;
-use drape::report::{Animation, Picture};
+use drape::render::{Animation, Picture};
 
 use super::look::LookArguments;
 use crate::failure::Failure;

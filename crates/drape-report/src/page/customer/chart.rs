@@ -1,12 +1,13 @@
 //! Chart of values over published ranges. A value with a published range has an axis. Another value
 //! has only its number.
 
+use drape_input::{figure, significant, typeset};
+
 use super::report::CustomerPage;
 use super::values::ReportedValue;
 use crate::page::compared_value::ComparedNumber;
 use crate::page::shown::ShownValue;
 use crate::plot::COLOURS;
-use crate::text::number::{significant, typeset};
 
 /// Part of the axis beyond the range at either side, as a power of the ratio of the ends of the
 /// range.
@@ -215,8 +216,7 @@ fn axis([low, high]: [f64; 2], ranges: &[Option<[f64; 2]>], in_si: f64) -> Axis 
 /// Returns a `tick` as a short text.
 fn short(tick: f64) -> String {
     if (1e-3..1e5).contains(&tick) {
-        let decimals = usize::try_from(-tick.log10().floor() as i32).unwrap_or(0);
-        return format!("{tick:.decimals$}");
+        return figure(tick);
     }
     typeset(&significant(tick, 1))
 }

@@ -3,6 +3,8 @@
 //! Numbers are in the units of the laboratory. Columns without a number stay empty. Numbers have a
 //! decimal point and at most ten digits.
 
+use drape_input::figure_in_digits;
+
 use super::drape::ReportedDrape;
 use super::garment::ReportedGarment;
 use super::report::{CustomerPage, ReportedLoop};
@@ -89,14 +91,7 @@ fn optional(value: Option<f64>) -> String {
 
 /// Returns a `value` as text, without digits that only show rounding.
 fn rounded(value: f64) -> String {
-    let text = format!("{value:.*e}", DIGITS - 1);
-    let value: f64 = text.parse().unwrap_or(value);
-    let size = value.abs();
-    if size == 0.0 || (1e-4..1e9).contains(&size) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
+    figure_in_digits(value, DIGITS)
 }
 
 /// Returns a `text` as a cell, quoted where RFC 4180 requires quotes.

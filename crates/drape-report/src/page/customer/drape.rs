@@ -1,10 +1,10 @@
 //! Fabric on a drapemeter, as a report shows it.
 
+use drape_render::Picture;
 use serde::Serialize;
 
 use crate::check;
 use crate::error::Error;
-use crate::picture::Picture;
 use crate::plot::ShadowPlot;
 
 /// Specimens of a fabric on a simulated drapemeter.

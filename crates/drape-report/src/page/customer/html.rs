@@ -1,6 +1,7 @@
 //! HTML page of the report to a customer.
 
 use askama::Template;
+use drape_input::{percent, typeset};
 
 use super::chart::{LANE, ValueChart};
 use super::csv::{Detail, table};
@@ -13,7 +14,6 @@ use crate::page::law_report::Limits;
 use crate::page::shown::{Marked, ShownValue};
 use crate::plot::{COLOURS, LoopPlot, Placement, STYLE, loop_figure, shadow_figure};
 use crate::text::base64::encode;
-use crate::text::number::{percent, typeset};
 
 /// Style of this page, in addition to the style of all pages.
 const CUSTOMER_STYLE: &str = include_str!("../../../templates/page/customer.css");
@@ -322,10 +322,10 @@ fn thinned(plot: &LoopPlot) -> LoopPlot {
 fn drape_texts(drape: &ReportedDrape) -> Result<DrapeTexts<'_>, Error> {
     let in_percent = |ratio: f64| typeset(&format!("{:.1}", 100.0 * ratio));
     let [low, high] = drape.interval.map(in_percent);
-    let picture = drape
-        .picture
-        .as_ref()
-        .map(|picture| Ok((picture.width(), picture.height(), encode(&picture.png()?))));
+    let picture = match &drape.picture {
+        Some(picture) => Some((picture.width(), picture.height(), encode(&picture.png()?))),
+        None => None,
+    };
     Ok(DrapeTexts {
         drape,
         coefficient: format!(
@@ -336,6 +336,6 @@ fn drape_texts(drape: &ReportedDrape) -> Result<DrapeTexts<'_>, Error> {
         interval: format!("{low} to {high} %"),
         nodes: drape.nodes_in_words(),
         shadow: shadow_figure(&drape.shadow, Placement::InPage),
-        picture: picture.transpose()?,
+        picture,
     })
 }

@@ -25,12 +25,14 @@ pub(crate) fn worn_at(placement: Placement, layer: u32) -> Placement {
     placement
 }
 
-/// Checks that cloth meets cloth where `layer` is not next to the body.
-pub(crate) fn check_layer(checker: &mut Checker<'_>, key: &str, layer: u32) {
-    if layer > 0 && !checker.spec.keeps_surfaces_apart() {
+/// Returns `layer`, the value of `key`, and checks that cloth meets cloth in the scene if the layer
+/// is not next to the body. Layers out of their range have been reported.
+pub(crate) fn check_layer(checker: &mut Checker<'_>, key: &str, layer: i64) -> u32 {
+    if layer > 0 && checker.is_sound(key) && !checker.spec.keeps_surfaces_apart() {
         let help = "leave it out, or keep surfaces apart (contact.surfaces)";
         checker.fail(key, "cloth does not meet cloth in this scene", help);
     }
+    u32::try_from(layer).unwrap_or(0)
 }
 
 #[cfg(test)]

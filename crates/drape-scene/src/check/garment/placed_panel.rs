@@ -80,7 +80,7 @@ pub(crate) fn placed_panel(
     let placement = placement(checker, piece);
     let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
     let layer = panel_entry.and_then(|entry| entry.layer);
-    check_layer(checker, &layer_key, layer.unwrap_or(0));
+    let layer = layer.map(|layer| check_layer(checker, &layer_key, layer));
     let layer = layer.unwrap_or(layer_of_garment);
     let (fabric_key, fabric) = match panel_entry.and_then(|entry| entry.fabric.as_ref()) {
         Some(fabric) => (format!("{key}.panel.{}.fabric", toml_key(panel.name())), fabric),

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use drape::dynamics::Snapshot;
 use drape::fabric::Fabric;
+use drape::input::duration_in_words;
 use drape::run::reports::{DrapeEvaluation, DrapeResult, VERSION, laws_digest};
 use drape::validate::ValidationError;
 use drape::validate::drapemeter::{Prediction, Sampling, spacing_bound};
@@ -73,7 +74,7 @@ impl Specimens<'_> {
         Ok(format!(
             "{} specimens, about {} at the pace of the first steps",
             self.count(),
-            in_words(total_seconds)
+            duration_in_words(total_seconds)
         ))
     }
 
@@ -131,13 +132,4 @@ impl Specimens<'_> {
 
 fn failed(error: ValidationError) -> Failure {
     Failure::Solver(error.to_string())
-}
-
-/// Returns the duration `seconds` in a suitable unit.
-fn in_words(seconds: f64) -> String {
-    match seconds {
-        ..120.0 => format!("{:.0} s", seconds.max(1.0)),
-        120.0..7200.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.1} h", seconds / 3600.0),
-    }
 }

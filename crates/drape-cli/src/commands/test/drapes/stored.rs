@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use drape::input::Diagnostic;
+use drape::render::Picture;
+use drape::report::ReportedDrape;
 use drape::report::plot::shadow_svg;
-use drape::report::{Picture, ReportedDrape};
 use drape::run::file;
 use drape::run::reports::DrapeResult;
 

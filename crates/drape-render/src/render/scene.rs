@@ -19,7 +19,7 @@ const BODY: Colour = [190, 190, 188];
 /// Triangle mesh with its colours.
 ///
 /// ```
-/// use drape_report::Surface;
+/// use drape_render::Surface;
 ///
 /// let positions = [0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.5, 0.0];
 /// let coordinates = [0.0, 0.0, 0.5, 0.0, 0.0, 0.5];

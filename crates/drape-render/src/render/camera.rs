@@ -20,7 +20,7 @@ const MARGIN: f64 = 0.35;
 /// View of a scene: direction of the camera, field of view, size of the picture.
 ///
 /// ```
-/// use drape_report::{Scene, Surface, View};
+/// use drape_render::{Scene, Surface, View};
 ///
 /// let corners = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
 /// let scene = Scene { cloths: vec![Surface::cloth(&corners, &[[0, 1, 2]])], ..Scene::default() };
@@ -29,7 +29,7 @@ const MARGIN: f64 = 0.35;
 /// // Seen from the front, +x points to the right of the picture.
 /// let [left, right] = [[0.0; 3], [1.0, 0.0, 0.0]].map(|corner| camera.project(corner).x);
 /// assert!(left < right);
-/// # Ok::<(), drape_report::Error>(())
+/// # Ok::<(), drape_render::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {

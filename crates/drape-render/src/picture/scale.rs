@@ -6,14 +6,14 @@ use crate::error::Error;
 /// Colours of the values in a range.
 ///
 /// ```
-/// use drape_report::ColourScale;
+/// use drape_render::ColourScale;
 ///
 /// let speed = ColourScale::new([0.0, 2.0], false)?;
 /// assert_eq!(speed.colour(5.0), speed.colour(2.0), "beyond its ends it has the colours of the ends");
 /// // About zero of signed values, nearly white, blue is below and red above.
 /// let [red, _, blue] = ColourScale::new([-1.0, 1.0], true)?.colour(0.5);
 /// assert!(red > blue);
-/// # Ok::<(), drape_report::Error>(())
+/// # Ok::<(), drape_render::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColourScale {

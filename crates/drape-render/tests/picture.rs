@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Extent, Ground, LitShapes, Picture, Scene, ScreenPoint, Surface, View, render};
+use drape_render::{Extent, Ground, LitShapes, Picture, Scene, ScreenPoint, Surface, View, render};
 use std::f64::consts::{PI, TAU};
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);

@@ -60,7 +60,7 @@ pub(crate) fn between<const N: usize>(stops: &[Colour; N], part: f64) -> Colour 
 /// ends have the colour of the end.
 ///
 /// ```
-/// use drape_report::diverging;
+/// use drape_render::diverging;
 ///
 /// let [red, _, blue] = diverging(-0.02, 0.05);
 /// assert!(blue > red);

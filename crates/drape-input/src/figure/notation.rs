@@ -1,7 +1,7 @@
 //! Numbers rounded to their uncertainty, in plain or scientific notation.
 
 /// Number of significant digits of a number without a known uncertainty.
-pub(crate) const DIGITS: i32 = 4;
+const DIGITS: i32 = 4;
 
 /// Number of significant digits of an uncertainty. The value is rounded to the decimal place of its
 /// uncertainty.
@@ -14,16 +14,24 @@ const MOST_DIGITS: i32 = 9;
 const PLAIN: std::ops::Range<i32> = -3..5;
 
 /// Notation in which a value, its error and its bounds are written together.
+///
+/// ```
+/// use drape_input::Notation;
+///
+/// let notation = Notation::of(1258.34, Some(11.7));
+/// assert_eq!([1258.34, 11.7].map(|number| notation.mantissa(number)), ["1258", "12"]);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Notation {
+pub struct Notation {
     /// Power of ten that is split off. 0 in plain notation.
-    pub(crate) exponent: i32,
+    exponent: i32,
     decimals: usize,
 }
 
 impl Notation {
     /// Returns the notation that shows a `value` to the precision of its `uncertainty`.
-    pub(crate) fn of(value: f64, uncertainty: Option<f64>) -> Notation {
+    #[must_use]
+    pub fn of(value: f64, uncertainty: Option<f64>) -> Notation {
         let error = uncertainty.filter(|error| *error > 0.0);
         let error_top = error.map(power_of_ten);
         let value_top = if value == 0.0 { error_top.unwrap_or(0) } else { power_of_ten(value) };
@@ -42,7 +50,8 @@ impl Notation {
     }
 
     /// Returns a `number` in this notation, without the power of ten.
-    pub(crate) fn mantissa(&self, number: f64) -> String {
+    #[must_use]
+    pub fn mantissa(&self, number: f64) -> String {
         let text = format!("{:.*}", self.decimals, shift(number, -self.exponent));
         if text.trim_start_matches('-').chars().all(|c| "0.".contains(c)) {
             text.trim_start_matches('-').to_owned()
@@ -53,13 +62,15 @@ impl Notation {
 
     /// Returns whether a `number` has at most nine digits before its decimal point in this
     /// notation.
-    pub(crate) fn suits(&self, number: f64) -> bool {
+    #[must_use]
+    pub fn suits(&self, number: f64) -> bool {
         shift(number, -self.exponent).abs() < 10f64.powi(MOST_DIGITS)
     }
 
     /// Returns a `number` with its power of ten: in this notation, or with four significant digits
     /// where this notation would be too long.
-    pub(crate) fn whole(&self, number: f64) -> String {
+    #[must_use]
+    pub fn whole(&self, number: f64) -> String {
         if self.suits(number) {
             self.mantissa(number) + &self.power()
         } else {
@@ -68,7 +79,8 @@ impl Notation {
     }
 
     /// Returns the power of ten as text: `e-5`, or nothing.
-    pub(crate) fn power(&self) -> String {
+    #[must_use]
+    pub fn power(&self) -> String {
         if self.exponent == 0 { String::new() } else { format!("e{}", self.exponent) }
     }
 }
@@ -89,8 +101,35 @@ fn power_of_ten(number: f64) -> i32 {
     text.rsplit_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
 }
 
-/// Returns a `number` with `digits` significant digits, in plain notation where this is short.
-pub(crate) fn significant(number: f64, digits: i32) -> String {
+/// Returns a `value` with its `error` in one notation. The error has two digits.
+///
+/// ```
+/// use drape_input::with_error;
+///
+/// assert_eq!(with_error(431.465_349_1, 1.234), "431.5 ± 1.2");
+/// assert_eq!(with_error(-2.5e-9, 1e-10), "(-2.50 ± 0.10)e-9");
+/// ```
+#[must_use]
+pub fn with_error(value: f64, error: f64) -> String {
+    let notation = Notation::of(value, Some(error));
+    let [number, error] = [value, error].map(|number| notation.mantissa(number));
+    match notation.power() {
+        power if power.is_empty() => format!("{number} ± {error}"),
+        power => format!("({number} ± {error}){power}"),
+    }
+}
+
+/// Returns a `number` with exactly `digits` significant digits, zeros included, in plain notation
+/// where this is short.
+///
+/// ```
+/// use drape_input::significant;
+///
+/// assert_eq!(significant(0.118, 4), "0.1180");
+/// assert_eq!(significant(1.157e-5, 3), "1.16e-5");
+/// ```
+#[must_use]
+pub fn significant(number: f64, digits: i32) -> String {
     let top = power_of_ten(number);
     let exponent = if PLAIN.contains(&top) { 0 } else { top };
     let decimals = usize::try_from(exponent - top + digits - 1).unwrap_or(0);
@@ -99,7 +138,12 @@ pub(crate) fn significant(number: f64, digits: i32) -> String {
 }
 
 /// Returns a `ratio` in per cent with three significant digits at most, such as "0.97 %".
-pub(crate) fn percent(ratio: f64) -> String {
+///
+/// ```
+/// assert_eq!(drape_input::percent(0.1234), "12.3 %");
+/// ```
+#[must_use]
+pub fn percent(ratio: f64) -> String {
     let percent = 100.0 * ratio;
     let size = percent.abs();
     if size != 0.0 && size < 0.01 {
@@ -119,13 +163,23 @@ pub(crate) fn percent(ratio: f64) -> String {
 }
 
 /// Returns a `ratio` in per cent with its sign, such as "+0.97 %".
-pub(crate) fn signed_percent(ratio: f64) -> String {
+///
+/// ```
+/// assert_eq!(drape_input::signed_percent(0.0097), "+0.97 %");
+/// ```
+#[must_use]
+pub fn signed_percent(ratio: f64) -> String {
     let sign = if ratio > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(ratio))
 }
 
 /// Returns a `text` with its numbers typeset: true minus signs, and powers of ten as superscripts.
-pub(crate) fn typeset(text: &str) -> String {
+///
+/// ```
+/// assert_eq!(drape_input::typeset("-1.16e-5"), "−1.16 × 10⁻⁵");
+/// ```
+#[must_use]
+pub fn typeset(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let at = |index: usize| letters.get(index).copied().unwrap_or(' ');
     let mut printed = String::with_capacity(text.len());

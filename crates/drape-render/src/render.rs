@@ -62,7 +62,7 @@ pub fn render(scene: &Scene, view: &View) -> Result<Picture, Error> {
 /// The light does not depend on the view or on colours, and takes most of the time of a picture.
 ///
 /// ```
-/// use drape_report::{Extent, LitShapes, Scene, Surface, View};
+/// use drape_render::{Extent, LitShapes, Scene, Surface, View};
 ///
 /// let corners = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
 /// let scene = Scene { cloths: vec![Surface::cloth(&corners, &[[0, 1, 2]])], ..Scene::default() };
@@ -72,7 +72,7 @@ pub fn render(scene: &Scene, view: &View) -> Result<Picture, Error> {
 /// for camera in View::cameras(&[view(0.0), view(90.0)], &Extent::of(&scene))? {
 ///     assert_eq!(shapes.draw(&scene, &camera)?.width(), 90);
 /// }
-/// # Ok::<(), drape_report::Error>(())
+/// # Ok::<(), drape_render::Error>(())
 /// ```
 pub struct LitShapes {
     tessellation: Tessellation,

@@ -17,7 +17,30 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Returns a picture of `pixels` with three bytes each.
+    /// Returns the picture of a `size`, width and height, with `pixels` of three bytes each, row by
+    /// row from the top.
+    ///
+    /// ```
+    /// use drape_render::Picture;
+    ///
+    /// let grey = Picture::from_pixels([4, 2], vec![128; 24])?;
+    /// assert_eq!(grey.pixel(3, 1), Some([128; 3]));
+    /// assert!(Picture::from_pixels([4, 2], vec![128; 23]).is_err());
+    /// # Ok::<(), drape_render::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The number of bytes does not fit the `size`.
+    pub fn from_pixels(size: [u32; 2], pixels: Vec<u8>) -> Result<Picture, Error> {
+        let [width, height] = size;
+        let needed = u64::from(width).checked_mul(u64::from(height)).and_then(|n| n.checked_mul(3));
+        if needed != Some(pixels.len() as u64) {
+            return Err(Error::BadPixels { size, bytes: pixels.len() });
+        }
+        Ok(Picture { width, height, pixels })
+    }
+
+    /// Returns a picture of `pixels`, whose number fits `width` and `height`.
     pub(crate) fn new(width: u32, height: u32, pixels: Vec<u8>) -> Picture {
         Picture { width, height, pixels }
     }

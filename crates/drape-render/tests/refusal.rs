@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Error, Extent, LitShapes, Scene, Surface, View, render};
+use drape_render::{Error, Extent, LitShapes, Scene, Surface, View, render};
 
 const SMALL: View =
     View { azimuth_deg: 25.0, elevation_deg: 30.0, field_deg: 24.0, width: 160, height: 120 };
