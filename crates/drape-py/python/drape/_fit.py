@@ -20,7 +20,6 @@ from ._errors import InputError, UsageError
 from ._given import StrPath, expect, path_of, refuse
 from ._toml import dumps
 
-
 # Programs of materials by the endings of their files.
 _PROGRAMS = {".py": "blender", ".toml": "ppf", ".csv": "browzwear", ".u3m": "u3m", ".u3ma": "u3ma"}
 
