@@ -46,7 +46,7 @@ fn the_law_can_be_chosen_by_hand() {
     let fabric = folder.path().join("tagawa.toml");
     let mut command = drape();
     command.arg("fit").arg(fabrics().join("tagawa-2003")).arg("-o").arg(&fabric);
-    command.args(["--bending", "breen-1994"]).assert().success();
+    command.args(["--bending", "piecewise"]).assert().success();
     let text = std::fs::read_to_string(&fabric).expect("a fabric");
     let fabric: toml::Table = text.parse().expect("TOML");
     let bending = fabric["warp"]["bending"].as_table().expect("a law");
@@ -58,6 +58,36 @@ fn the_law_can_be_chosen_by_hand() {
         let own = key.strip_prefix("warp.bending.piecewise.").expect("a key of the law");
         assert!(bending["piecewise"][own].is_float(), "{key}");
     }
+}
+
+#[test]
+fn a_former_name_of_a_law_is_accepted_with_a_note() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fitted = |option: &str, law: &str| {
+        let fabric = folder.path().join(format!("{law}.toml"));
+        let mut command = drape();
+        command.arg("fit").arg(fabrics().join("tagawa-2003")).arg("-o").arg(&fabric);
+        let output = command.args([option, law, "--force"]).assert().success().get_output().clone();
+        let text = std::fs::read_to_string(&fabric).expect("a fabric");
+        let report = String::from_utf8(output.stdout).expect("a report");
+        (text, report, String::from_utf8(output.stderr).expect("messages"))
+    };
+    for (former, law) in [("parallel", "two-elements"), ("breen-1994", "piecewise")] {
+        // The report calls the law by the name that the command takes.
+        let (formerly, report, messages) = fitted("--bending", former);
+        let note = format!("note: `{former}` is now called `{law}`\n");
+        assert_eq!(messages, note);
+        assert!(report.contains(&format!("  law      {law}: ")), "{report}");
+        let (today, _, messages) = fitted("--bending", law);
+        assert_eq!(formerly, today);
+        assert_eq!(messages, "");
+        assert_eq!(fitted("--shear", former).2, note);
+    }
+
+    // A list of known names shows no former name.
+    let output = drape().args(["fit", "x", "--bending", "third"]).assert().code(2);
+    let messages = String::from_utf8(output.get_output().stderr.clone()).expect("messages");
+    assert!(messages.contains("two-elements") && !messages.contains("parallel"), "{messages}");
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn fits_of_a_study_are_those_of_the_command() {
     let bench = Bench::new("");
     ["matsudaira-a", "cupro-weave"].iter().for_each(|name| bench.copy_sheet(name));
     bench.write_whole(
-        "fit = \"matsudaira-a/sheet.toml\"\noptions = [\"--shear\", \"parallel\"]\nkeep = \"last\"\n\
+        "fit = \"matsudaira-a/sheet.toml\"\noptions = [\"--shear\", \"two-elements\"]\nkeep = \"last\"\n\
          [[axis]]\nname = \"sheet\"\nkey = \"fit\"\nfiles = \"*/sheet.toml\"\n\
          [[axis]]\nkey = \"W\"\nvalues = [11, 13]\n",
     );
@@ -45,7 +45,7 @@ fn fits_of_a_study_are_those_of_the_command() {
     assert_eq!(inputs.collect::<Vec<_>>(), expected);
     assert!(rows.iter().all(|row| row["outcome"] == "ok"));
     for (index, sheet) in ["cupro-weave", "matsudaira-a"].iter().enumerate() {
-        let fit = ["fit", sheet, "--shear", "parallel", "--set", "W=13", "-o", "alone.toml"];
+        let fit = ["fit", sheet, "--shear", "two-elements", "--set", "W=13", "-o", "alone.toml"];
         bench.ran(&[&fit[..], &["--force"]].concat(), 0);
         let alone = std::fs::read_to_string(bench.path("alone.toml")).unwrap();
         let row = 2 * index + 1;

@@ -455,7 +455,7 @@ fn exported_tasks_are_all_points() {
     let ended = shell.output().unwrap();
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
     let (dask, _) = bench.ran(&["sweep", "export", "study.toml", "--dask", "-o", "-"], 0);
-    assert!(dask.contains("TASKS = 1\n") && dask.contains("\"study.toml\""), "{dask}");
+    assert!(dask.contains("            tasks=1,\n") && dask.contains("\"study.toml\""), "{dask}");
     let (_, messages) = bench.ran(&["sweep", "export", "study.toml"], 2);
     assert!(messages.contains("--slurm"), "{messages}");
 }

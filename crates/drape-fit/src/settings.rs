@@ -13,7 +13,7 @@ pub(crate) mod weighting;
 
 use drape_kes::{BendingPoints, EvaluationPoints, Model, ShearPoints, Sheet};
 
-use model::{FrictionOrder, LoopModel, Plateau, Toe, TractionModel};
+use model::{LoopModel, Plateau, Toe, TractionModel};
 use weighting::Weighting;
 
 /// Laws to identify, how to identify them, and where KES values are read.
@@ -56,13 +56,7 @@ impl FitSettings {
     /// Returns the settings with the law `model` of a sheet for bending and shear, where no law is
     /// set.
     pub(crate) fn with_default_model(self, model: Option<Model>) -> Self {
-        let model = model.map(|model| match model {
-            Model::FirstOrder => LoopModel::Linear(FrictionOrder::First),
-            Model::TwoElements => LoopModel::Linear(FrictionOrder::Parallel),
-            Model::SecondOrder => LoopModel::Linear(FrictionOrder::Second),
-            Model::Varying => LoopModel::Varying,
-            Model::Breen1994 => LoopModel::Piecewise,
-        });
+        let model = model.map(LoopModel::from);
         Self { bending: self.bending.or(model), shear: self.shear.or(model), ..self }
     }
 

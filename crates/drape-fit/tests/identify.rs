@@ -242,7 +242,7 @@ fn a_sheet_asks_for_a_law_and_the_settings_overrule_it() {
     });
     let mut sheet = sheet(WARP, WARP);
     sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
-    sheet.model = Some(Model::Breen1994);
+    sheet.model = Some(Model::Piecewise);
     let fit = identify(&sheet).expect("identified");
     let bending = fit.fabric.warp.bending;
     assert!(matches!(bending.backbone, BendingBackbone::Piecewise(_)), "{bending:?}");

@@ -82,7 +82,8 @@ fn the_last_cycle_of_the_cupro_strips_is_predicted_from_the_first_two() {
             );
         }
         let of = |law: &str| predictions.iter().find(|p| p.law == law).expect("a law compared");
-        let (still, moving) = (of("priming zone"), of("priming zone that moves"));
+        let (still, moving) =
+            (of("primed: a priming zone"), of("primed: a priming zone that moves"));
         // A straight line ends below the next, larger cycle.
         assert!(still.peak_error < 0.0 && still.peak_error > -0.135, "{}", still.peak_error);
         if curve.direction == Direction::Warp {
@@ -94,7 +95,8 @@ fn the_last_cycle_of_the_cupro_strips_is_predicted_from_the_first_two() {
         // The selected law follows the strip as closely as the law of the paper does, and predicts
         // its last cycle about as well.
         let chosen = &fit.candidates[fit.chosen];
-        let primed = fit.candidates.iter().find(|c| c.law == "priming zone").expect("compared");
+        let primed = "primed: a priming zone";
+        let primed = fit.candidates.iter().find(|c| c.law == primed).expect("compared");
         assert!(chosen.misfit <= 1.005 * primed.misfit, "{:#?}", fit.candidates);
         let [found, paper] = [chosen, primed].map(|c| c.prediction.expect("three cycles"));
         assert!(found < 1.1 * paper, "{found} {paper}");

@@ -231,7 +231,7 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
         // amplitude).
         let (order, sign) = match random.unit() < 0.5 {
             true => (FrictionOrder::Second, -1.0),
-            false => (FrictionOrder::Parallel, 2.0),
+            false => (FrictionOrder::TwoElements, 2.0),
         };
         let slow = sign * random.between(0.2, 0.7);
         let ratio = random.logarithmic(0.08, 0.5);

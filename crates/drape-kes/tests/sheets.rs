@@ -264,10 +264,33 @@ fn an_unusual_value_is_a_warning_and_not_an_error() {
 
 #[test]
 fn a_sheet_may_ask_for_a_law() {
-    let sheet = read("name = \"x\"\nmodel = \"breen-1994\"", "").expect("a good sheet");
-    assert_eq!(sheet.model, Some(Model::Breen1994));
-    let found = finding("name = \"x\"\nmodel = \"breen-1995\"", "");
-    assert_eq!(help(&found), "did you mean \"breen-1994\"?");
+    for law in Model::ALL {
+        let text = format!("name = \"x\"\nmodel = \"{}\"", law.name());
+        let sheet = read(&text, "").expect("a good sheet");
+        assert_eq!(sheet.model, Some(law));
+        assert_eq!(sheet.warnings(), []);
+    }
+    let found = finding("name = \"x\"\nmodel = \"two-element\"", "");
+    assert_eq!(help(&found), "did you mean \"two-elements\"?");
+}
+
+#[test]
+fn a_former_name_of_a_law_is_accepted_with_a_remedy_that_works() {
+    for (former, law) in [("parallel", Model::TwoElements), ("breen-1994", Model::Piecewise)] {
+        let text = format!("name = \"x\"\nmodel = \"{former}\"\n");
+        let sheet = read(&text, "").expect("a good sheet");
+        assert_eq!(sheet.model, Some(law));
+        let [warning] = sheet.warnings() else { panic!("{former}: {:?}", sheet.warnings()) };
+        let message = format!("model: `{former}` is now called `{}`", law.name());
+        assert_eq!((warning.line, &warning.message), (Some(2), &message));
+
+        let [edit] = warning.edits.as_slice() else { panic!("{former}: {:?}", warning.edits) };
+        let old = edit.old.as_deref().expect("the name in the sheet");
+        let mended = text.replace(old, edit.new.as_deref().expect("a name of today"));
+        let sheet = read(&mended, "").expect("a good sheet");
+        assert_eq!(sheet.model, Some(law));
+        assert_eq!(sheet.warnings(), []);
+    }
 }
 
 /// Denim D of table 5 of "Regenerated Cellulose-Based Denim Fabric for Tropical Regions", Journal

@@ -1,18 +1,20 @@
 //! Sheets, fabrics, and fits of fabrics to sheets.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
 use drape::fit::{
-    FitSettings, FittedSheet, FrictionOrder, Intervals, LoopModel, TractionModel, identify_all,
-    identify_with, parameter_key,
+    FitSettings, FittedSheet, Intervals, LoopModel, TractionModel, identify_all, identify_with,
+    parameter_key,
 };
 use drape::input::{Diagnostic, Document};
-use drape::kes::SheetDraft;
+use drape::kes::{Model, SheetDraft};
 use drape::material::Material;
 use drape::report::FitPage;
 use drape::run::file::FileKind;
 use drape::run::reports::fit_page;
+use pyo3::exceptions::PyFutureWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -56,40 +58,44 @@ pub(crate) struct Laws {
 }
 
 impl Laws {
-    fn settings(&self) -> PyResult<FitSettings> {
-        let traction = match self.traction.as_deref() {
-            None => None,
-            Some("exponential") => Some(TractionModel::Exponential),
-            Some("primed") => Some(TractionModel::Primed),
-            Some("polynomial") => Some(TractionModel::Polynomial),
-            Some(other) => {
-                return Err(unknown("traction", other, "exponential, primed, polynomial"));
-            }
-        };
+    /// Returns the settings that the laws name. Warns about former names.
+    fn settings(&self, py: Python<'_>) -> PyResult<FitSettings> {
         Ok(FitSettings {
-            traction,
-            bending: loop_model("bending", self.bending.as_deref())?,
-            shear: loop_model("shear", self.shear.as_deref())?,
+            traction: traction_model(self.traction.as_deref())?,
+            bending: loop_model(py, "bending", self.bending.as_deref())?,
+            shear: loop_model(py, "shear", self.shear.as_deref())?,
             intervals: if self.profile { Intervals::Profile } else { Intervals::Wald },
             ..FitSettings::default()
         })
     }
 }
 
-fn loop_model(test: &str, name: Option<&str>) -> PyResult<Option<LoopModel>> {
-    let known = "first-order, parallel, second-order, varying, breen-1994";
-    Ok(Some(match name {
-        None => return Ok(None),
-        Some("first-order") => LoopModel::Linear(FrictionOrder::First),
-        Some("parallel") => LoopModel::Linear(FrictionOrder::Parallel),
-        Some("second-order") => LoopModel::Linear(FrictionOrder::Second),
-        Some("varying") => LoopModel::Varying,
-        Some("breen-1994") => LoopModel::Piecewise,
-        Some(other) => return Err(unknown(test, other, known)),
-    }))
+/// Returns the traction law with the `name`.
+fn traction_model(name: Option<&str>) -> PyResult<Option<TractionModel>> {
+    let Some(name) = name else { return Ok(None) };
+    match TractionModel::named(name) {
+        Some(model) => Ok(Some(model)),
+        None => Err(unknown("traction", name, &TractionModel::ALL.map(TractionModel::name))),
+    }
 }
 
-fn unknown(test: &str, law: &str, known: &str) -> PyErr {
+/// Returns the law of the loops of `test` with the `name`. Warns about a former name.
+fn loop_model(py: Python<'_>, test: &str, name: Option<&str>) -> PyResult<Option<LoopModel>> {
+    let Some(name) = name else { return Ok(None) };
+    let Some(law) = Model::named(name) else {
+        return Err(unknown(test, name, &Model::ALL.map(Model::name)));
+    };
+
+    // The warning names the line that calls `drape.fit` or `drape.fit_all`.
+    if let Some(note) = Model::note_on(name) {
+        let note = CString::new(format!("{test}: {note}"))?;
+        PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &note, 2)?;
+    }
+    Ok(Some(law.into()))
+}
+
+fn unknown(test: &str, law: &str, known: &[&str]) -> PyErr {
+    let known = known.join(", ");
     failure(Kind::Usage, format!("{test}={law:?} is no law; give one of {known}"))
 }
 
@@ -151,7 +157,7 @@ impl Sheet {
     }
 
     fn fit(&self, py: Python<'_>, laws: Laws) -> PyResult<Fit> {
-        let (settings, sheet) = (laws.settings()?, self.0.clone());
+        let (settings, sheet) = (laws.settings(py)?, self.0.clone());
         let work = move || {
             let fit = identify_with(&sheet, &settings).map_err(|error| error.to_string())?;
             Fit::new(&sheet, fit, &settings)
@@ -189,7 +195,7 @@ impl From<drape::fit::Error> for NoFit {
 /// Fits the sheets of some paths on all threads; returns the fit of each, or its exception.
 #[pyfunction]
 pub(crate) fn fit_all(py: Python<'_>, paths: Vec<PathBuf>, laws: Laws) -> PyResult<Vec<Py<PyAny>>> {
-    let settings = laws.settings()?;
+    let settings = laws.settings(py)?;
     let work = move || {
         let read = |path: &PathBuf| SheetDraft::sheet(path, None).map_err(NoFit::Sheet);
         identify_all(&paths, &settings, read, |path, found| {

@@ -66,6 +66,18 @@ def test_laws_are_chosen_by_name(root):
         drape.fit(sheet, bending="third-order")
 
 
+@pytest.mark.parametrize("former, law", [("parallel", "two-elements"), ("breen-1994", "piecewise")])
+def test_a_former_name_of_a_law_is_accepted_with_a_warning(root, former, law):
+    sheet = drape.read_sheet(root / "fabrics/cupro-weave")
+    with pytest.warns(FutureWarning, match=f"`{former}` is now called `{law}`") as warned:
+        fit = drape.fit(sheet, bending=former)
+    assert [warning.filename for warning in warned] == [__file__]
+    assert fit.to_toml() == drape.fit(sheet, bending=law).to_toml()
+    with pytest.warns(FutureWarning, match=f"shear: `{former}`"):
+        fits = drape.fit_all([root / "fabrics/cupro-weave"], shear=former)
+    assert fits["cupro-weave"].to_toml() == drape.fit(sheet, shear=law).to_toml()
+
+
 def test_a_fabric_comes_back_from_its_text(root, tmp_path):
     fabric = drape.fit(root / "fabrics/cupro-weave").fabric
     path = tmp_path / "fabric.toml"

@@ -5,6 +5,9 @@ use std::path::PathBuf;
 
 use drape_input::toml_string;
 
+/// Program in Python that runs the tasks of any study, without the call that names the tasks.
+const DASK: &str = include_str!("engine/dask_sweep.py");
+
 /// Program that runs the shards of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Engine {
@@ -100,101 +103,18 @@ impl Batch {
         text
     }
 
-    /// Returns the Python program for [`Engine::Dask`].
+    /// Returns the Python program for [`Engine::Dask`]: the program of every study, and a call with
+    /// the tasks of this one.
     fn dask(&self) -> String {
         let command: Vec<String> = self.command().iter().map(|word| python_string(word)).collect();
-
+        let command = command.join(", ");
+        let folder = python_string(&self.folder.display().to_string());
+        let output = python_string(&self.output.display().to_string());
+        let tasks = self.tasks;
         format!(
-            r##"# Runs a study on the workers of Dask: python FILE [SCHEDULER] [--store URL]; without a scheduler on
-# this machine. Results meet in the study's folder, which all workers see, or in the folder or object store
-# of a URL of fsspec, such as s3://bucket/study, from which they are fetched at the end.
-# Needs: pip install "dask[distributed]", and what fsspec needs for the store. What is done is not done again.
-import argparse
-import pathlib
-import subprocess
-import sys
-import tempfile
-
-import fsspec
-from dask.distributed import Client, LocalCluster, as_completed
-
-COMMAND = [{command}]
-FOLDER = {folder}
-OUTPUT = {output}
-TASKS = {tasks}
-
-
-def drape(task, *options):
-    """Runs a part of the points; a failure of the machine is an error, so that Dask tries again."""
-    arguments = [*COMMAND, "--shard", f"{{task}}/{{TASKS}}", "--jobs", "1", *options]
-    ended = subprocess.run(arguments, cwd=FOLDER, capture_output=True, text=True)
-    if ended.returncode != 0:
-        raise RuntimeError(f"exit code {{ended.returncode}}: {{ended.stderr[-2000:]}}")
-    return ended.stdout
-
-
-def fetch(fs, source, target):
-    """Fetches a file of the store; returns whether it is there."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        target.write_bytes(fs.cat_file(source))
-    except FileNotFoundError:
-        return False
-    return True
-
-
-def run(task, store=None):
-    """Runs a part of the points; with a store, in a folder of its own."""
-    if store is None:
-        drape(task)
-        return task
-    fs, root = fsspec.core.url_to_fs(store)
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        own = ["--results", str(folder)]
-        for line in drape(task, *own, "--list").splitlines():
-            key = line.split("\t")[1]
-            for name in [f"points/{{key[:2]}}/{{key}}.json", f"points/{{key[:2]}}/{{key}}/summary.json"]:
-                fetch(fs, f"{{root}}/{{name}}", folder / name)
-        before = set(folder.rglob("*"))
-        drape(task, *own)
-        # Records come last: a point that has one is whole.
-        files = [path for path in folder.glob("points/**/*") if path.is_file() and path not in before]
-        for path in sorted(files, key=lambda path: len(path.relative_to(folder).parts), reverse=True):
-            target = f"{{root}}/{{path.relative_to(folder).as_posix()}}"
-            fs.makedirs(target.rsplit("/", 1)[0], exist_ok=True)
-            fs.pipe_file(target, path.read_bytes())
-    return task
-
-
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("scheduler", nargs="?", help="address; a cluster on this machine if missing")
-    parser.add_argument("--store", help="URL of fsspec where results meet")
-    arguments = parser.parse_args()
-    address = arguments.scheduler or LocalCluster(threads_per_worker=1)
-    with Client(address) as client:
-        futures = client.map(run, range(1, TASKS + 1), store=arguments.store, retries=3, pure=False)
-        failed = 0
-        for future in as_completed(futures):
-            if future.status != "finished":
-                failed += 1
-                print(future.exception() or future.status, file=sys.stderr)
-        print(f"{{TASKS - failed}} of {{TASKS}} tasks are done")
-    if arguments.store:
-        fs, root = fsspec.core.url_to_fs(arguments.store)
-        for path in fs.find(f"{{root}}/points"):
-            fetch(fs, path, pathlib.Path(OUTPUT) / path[len(root) + 1 :])
-    sys.exit(6 if failed else 0)
-
-
-if __name__ == "__main__":
-    main()
-"##,
-            command = command.join(", "),
-            folder = python_string(&self.folder.display().to_string()),
-            output = python_string(&self.output.display().to_string()),
-            tasks = self.tasks,
+            "{DASK}\n\nif __name__ == \"__main__\":\n    main(\n        Batch(\n            \
+             command=[{command}],\n            folder={folder},\n            output={output},\n            \
+             tasks={tasks},\n        )\n    )\n"
         )
     }
 }

@@ -79,11 +79,7 @@ impl LoopForm {
 
     /// Returns the name of elastic load and friction in reports.
     pub(crate) fn name(self) -> String {
-        let order = self.order.name();
-        match self.elastic {
-            Elastic::Line => order.to_owned(),
-            Elastic::Varying => format!("stiffness that changes, {order}"),
-        }
+        self.model().title()
     }
 
     /// Returns whether the `plateau` grows.
@@ -277,7 +273,7 @@ mod tests {
             p.extend([0.6, 0.03]);
             match form.order {
                 FrictionOrder::First => {}
-                FrictionOrder::Parallel => p.extend([0.5, 0.2]),
+                FrictionOrder::TwoElements => p.extend([0.5, 0.2]),
                 FrictionOrder::Second => p.extend([-0.4, 0.2]),
             }
             let forward = LoopForward { history: &history, path: &path, form };

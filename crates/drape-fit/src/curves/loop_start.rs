@@ -247,7 +247,7 @@ impl<'a> MeasuredLoop<'a> {
         let mut friction = vec![0.05 * self.curve.load_range().span(), 0.05 * self.largest];
         match form.order {
             FrictionOrder::First => {}
-            FrictionOrder::Parallel => friction.extend([SLOW_START, RATIO_START]),
+            FrictionOrder::TwoElements => friction.extend([SLOW_START, RATIO_START]),
             FrictionOrder::Second => friction.extend([-SLOW_START, RATIO_START]),
         }
         let elastic = match form.elastic {
@@ -326,7 +326,7 @@ mod tests {
         let lengths: [f64; LENGTHS] =
             geometric_grid(LENGTH_RANGE[0] * 250.0, LENGTH_RANGE[1] * 250.0);
         let path = FrictionPath::new(&history);
-        for (part, order) in [(0.4, FrictionOrder::Parallel), (-0.3, FrictionOrder::Second)] {
+        for (part, order) in [(0.4, FrictionOrder::TwoElements), (-0.3, FrictionOrder::Second)] {
             for growth in [0.0, 0.002] {
                 let [one, other] = [fast, slow].map(|i| {
                     let UnitFriction { constant, growing, .. } = path.unit_friction(lengths[i]);

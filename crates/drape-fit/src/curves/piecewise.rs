@@ -12,6 +12,7 @@ use crate::regression::curve_fit::{CurveFit, FitOptions, branch_of_each_point, f
 use crate::regression::residuals::NamedParameter;
 use crate::regression::selection::{CandidateModel, select};
 use crate::settings::FitSettings;
+use crate::settings::model::LoopModel;
 
 /// Part of the largest deformation above which the slope of the line is read.
 const OUTER: f64 = 0.6;
@@ -31,7 +32,7 @@ pub(crate) fn fit_first_branch(
     let branch = &history[..first.load().len()];
     let forward = || Box::new(|p: &[f64], out: &mut [f64]| drive(p, branch, out));
     let model = CandidateModel {
-        name: "a quadratic and a line on the first branch".into(),
+        name: LoopModel::Piecewise.title(),
         starts: starts(&first)?,
         prediction: None,
         forward: forward(),

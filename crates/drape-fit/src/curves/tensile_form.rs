@@ -112,24 +112,23 @@ impl TensileForm {
         wanted.map(|(model, toe, terms)| Self { model, toe, terms, strip }).collect()
     }
 
-    /// Returns the name in reports, such as `"priming zone"`.
-    pub(crate) fn name(self) -> &'static str {
-        match (self.model, self.toe, self.terms) {
-            (TractionModel::Exponential, Toe::Still, Terms::ToeOnly) => "exponential toe",
-            (TractionModel::Exponential, Toe::Still, Terms::ToeAndLine) => {
-                "exponential toe and line"
-            }
+    /// Returns the name in reports, such as `"primed: a priming zone"`.
+    pub(crate) fn name(self) -> String {
+        let parts = match (self.model, self.toe, self.terms) {
+            (TractionModel::Exponential, Toe::Still, Terms::ToeOnly) => "a toe",
+            (TractionModel::Exponential, Toe::Still, Terms::ToeAndLine) => "a toe and a line",
             (TractionModel::Exponential, Toe::Still, Terms::All) => {
-                "exponential toe and line, friction with a constant part"
+                "a toe and a line, friction with a constant part"
             }
             (TractionModel::Exponential, Toe::Moving, Terms::All) => {
-                "exponential toe that moves and line, friction with a constant part"
+                "a toe that moves and a line, friction with a constant part"
             }
-            (TractionModel::Exponential, Toe::Moving, _) => "exponential toe that moves",
-            (TractionModel::Primed, Toe::Still, _) => "priming zone",
-            (TractionModel::Primed, Toe::Moving, _) => "priming zone that moves",
-            (TractionModel::Polynomial, ..) => "even polynomial",
-        }
+            (TractionModel::Exponential, Toe::Moving, _) => "a toe that moves",
+            (TractionModel::Primed, Toe::Still, _) => "a priming zone",
+            (TractionModel::Primed, Toe::Moving, _) => "a priming zone that moves",
+            (TractionModel::Polynomial, ..) => "even powers",
+        };
+        format!("{}: {parts}", self.model.name())
     }
 
     /// Returns whether a line lies beside an exponential toe: `terms` are more than the toe.

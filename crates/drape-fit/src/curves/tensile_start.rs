@@ -120,7 +120,7 @@ impl InitialGuess {
     /// Returns the candidate of `form` on `curve`.
     pub(crate) fn model<'a>(&self, form: TensileForm, curve: &'a Curve) -> CandidateModel<'a> {
         CandidateModel {
-            name: form.name().into(),
+            name: form.name(),
             starts: self.starts(&form),
             prediction: None,
             forward: form.forward(curve),

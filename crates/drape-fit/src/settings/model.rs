@@ -1,5 +1,7 @@
 //! Laws that a curve can be fitted with.
 
+use drape_kes::Model;
+
 /// Friction elements of a bending or shear law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FrictionOrder {
@@ -8,24 +10,14 @@ pub enum FrictionOrder {
     First,
     /// Two positive elements of different length in parallel: nested loops that grow with their
     /// amplitude.
-    Parallel,
+    TwoElements,
     /// Fast element less a slow one: stiction, and a drop to the plateau \[BS95\].
     Second,
 }
 
 impl FrictionOrder {
     /// All orders, in the order of preference.
-    pub const ALL: [Self; 3] = [Self::First, Self::Parallel, Self::Second];
-
-    /// Returns the name in reports, such as `"one friction element"`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::First => "one friction element",
-            Self::Parallel => "two friction elements side by side",
-            Self::Second => "friction of second order",
-        }
-    }
+    pub const ALL: [Self; 3] = [Self::First, Self::TwoElements, Self::Second];
 }
 
 /// Whether the plateau of a shear friction grows with the angle.
@@ -58,6 +50,40 @@ impl Default for LoopModel {
     }
 }
 
+impl LoopModel {
+    /// Returns the law by which sheets, commands and reports name the model.
+    #[must_use]
+    pub fn law(self) -> Model {
+        match self {
+            Self::Linear(FrictionOrder::First) => Model::FirstOrder,
+            Self::Linear(FrictionOrder::TwoElements) => Model::TwoElements,
+            Self::Linear(FrictionOrder::Second) => Model::SecondOrder,
+            Self::Varying => Model::Varying,
+            Self::Piecewise => Model::Piecewise,
+        }
+    }
+
+    /// Returns name and description in reports, such as
+    /// `"first-order: a line with one friction element"`.
+    pub(crate) fn title(self) -> String {
+        let law = self.law();
+        format!("{}: {}", law.name(), law.description())
+    }
+}
+
+impl From<Model> for LoopModel {
+    /// Returns the model that a `law` of a sheet names.
+    fn from(law: Model) -> Self {
+        match law {
+            Model::FirstOrder => Self::Linear(FrictionOrder::First),
+            Model::TwoElements => Self::Linear(FrictionOrder::TwoElements),
+            Model::SecondOrder => Self::Linear(FrictionOrder::Second),
+            Model::Varying => Self::Varying,
+            Model::Piecewise => Self::Piecewise,
+        }
+    }
+}
+
 /// Traction law that a tensile curve is fitted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TractionModel {
@@ -68,6 +94,40 @@ pub enum TractionModel {
     Primed,
     /// Even polynomial, with friction \[THK03, fig. 8a\].
     Polynomial,
+}
+
+impl TractionModel {
+    /// All models, in the order of preference.
+    pub const ALL: [Self; 3] = [Self::Exponential, Self::Primed, Self::Polynomial];
+
+    /// Returns the name in commands, reports and `fabric.toml`, such as `"exponential"`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Exponential => "exponential",
+            Self::Primed => "primed",
+            Self::Polynomial => "polynomial",
+        }
+    }
+
+    /// Returns what the law is, in a few words for help texts.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Exponential => {
+                "an exponential toe that runs into its tangent, with friction that grows with the \
+                 tension"
+            }
+            Self::Primed => "a priming zone that runs into a line (Ngo Ngoc & Boivin 2004)",
+            Self::Polynomial => "an even polynomial (Tagawa et al. 2003)",
+        }
+    }
+
+    /// Returns the model with the name `word`.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|model| model.name() == word)
+    }
 }
 
 /// Whether the toe, or the priming zone, becomes longer once the fabric has been stretched.

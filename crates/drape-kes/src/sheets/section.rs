@@ -241,7 +241,7 @@ impl<'t> Section<'t> {
     }
 
     /// Returns the value of `choice` whose word is `written`. An unknown word is reported.
-    fn choose<T: Copy>(
+    pub(crate) fn choose<T: Copy>(
         &self,
         choice: &Choice<'_, T>,
         written: &str,

@@ -177,7 +177,7 @@ impl Sheet {
         let name = root.required_text("name", "\"cotton poplin\"", findings);
         let source = root.text("source", findings);
         let record = read_record(root, findings);
-        let model = root.choice(&MODEL, findings);
+        let model = read_model(root, findings);
         let whole = WholeValues::read(root, findings);
         if let Some(w) = &whole.w {
             plausible::density(w, findings);
@@ -337,6 +337,23 @@ impl Sheet {
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
     }
+}
+
+/// Returns the law that a sheet asks for. A former name is accepted with a warning, whose edit
+/// writes the name of today.
+fn read_model(root: &Section<'_>, findings: &mut Findings<'_>) -> Option<Model> {
+    let written = root.text(MODEL.key, findings)?;
+    let Some(note) = Model::note_on(&written) else {
+        return root.choose(&MODEL, &written, findings);
+    };
+
+    let law = Model::named(&written)?;
+    let document = findings.document;
+    let name = format!("\"{}\"", law.name());
+    let warning = document.at(MODEL.key, note).help(format!("write model = {name}"));
+    let edits = document.edit(MODEL.key, Some(&name)).into_iter().collect();
+    findings.warnings.push(Diagnostic { edits, ..warning });
+    Some(law)
 }
 
 /// Adds `numbers` to the digest of `hasher`.

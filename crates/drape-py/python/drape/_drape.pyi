@@ -1,11 +1,11 @@
 from pathlib import Path
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 
-_Array = npt.NDArray[np.float64]
-_Triangles = npt.NDArray[np.uint32]
+_Array: TypeAlias = npt.NDArray[np.float64]
+_Triangles: TypeAlias = npt.NDArray[np.uint32]
 
 __all__ = [
     "Fabric",

@@ -20,7 +20,6 @@ from ._errors import InputError, UsageError
 from ._given import StrPath, expect, path_of, refuse
 from ._toml import dumps
 
-
 # Programs of materials by the endings of their files.
 _PROGRAMS = {".py": "blender", ".toml": "ppf", ".csv": "browzwear", ".u3m": "u3m", ".u3ma": "u3ma"}
 
@@ -418,7 +417,8 @@ def fit(
 
     The laws are those that the curves support best unless they are named: `traction` is
     `"exponential"`, `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`,
-    `"parallel"`, `"second-order"`, `"varying"` or `"breen-1994"`. `profile` takes intervals from the profile of the residuals.
+    `"two-elements"`, `"second-order"`, `"varying"` or `"piecewise"`. A former name of a law is
+    accepted with a `FutureWarning`. `profile` takes intervals from the profile of the residuals.
     Ctrl-C returns at once; the work then ends by itself. Raises `InputError`, and `UsageError` for
     a law that is not known and a folder of many sheets, which are for `fit_all`.
     """

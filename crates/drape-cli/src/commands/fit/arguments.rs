@@ -2,9 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
-use drape::fit::{FitSettings, FrictionOrder, Intervals, LoopModel, TractionModel};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use drape::fit::{FitSettings, Intervals, LoopModel, TractionModel};
 use drape::input::Setting;
+use drape::kes::Model;
+
+use crate::console::note;
 
 #[derive(Args)]
 pub(crate) struct FitArguments {
@@ -39,74 +43,72 @@ pub(crate) struct FitArguments {
 }
 
 /// Laws that replace the laws which the curves support best.
-#[derive(Args, Clone, Copy)]
+#[derive(Args)]
 pub(crate) struct LawArguments {
     /// Traction laws.
-    #[arg(long, value_enum, value_name = "LAW")]
-    traction: Option<Traction>,
+    #[arg(long, value_parser = traction_laws(), value_name = "LAW")]
+    traction: Option<TractionModel>,
     /// Bending laws.
-    #[arg(long, value_enum, value_name = "LAW")]
-    bending: Option<Loop>,
+    #[arg(long, value_parser = loop_laws(), value_name = "LAW")]
+    bending: Option<LoopLaw>,
     /// Shear law.
-    #[arg(long, value_enum, value_name = "LAW")]
-    shear: Option<Loop>,
+    #[arg(long, value_parser = loop_laws(), value_name = "LAW")]
+    shear: Option<LoopLaw>,
     /// Intervals from the profile of the residuals, for nonlinear laws and parameters at bounds;
     /// slower.
     #[arg(long)]
     profile: bool,
 }
 
-/// Traction laws.
-#[derive(Clone, Copy, ValueEnum)]
-enum Traction {
-    /// An exponential toe that runs into its tangent, with friction that grows with the tension.
-    Exponential,
-    /// A priming zone that runs into a line (Ngo Ngoc & Boivin 2004).
-    Primed,
-    /// An even polynomial (Tagawa et al. 2003).
-    Polynomial,
+/// Law of bending or shear, whose curves are loops.
+#[derive(Clone)]
+struct LoopLaw {
+    law: Model,
+    /// Note on the name, if the name is a former one.
+    note: Option<String>,
 }
 
-/// Laws of bending or shear, whose curves are loops.
-#[derive(Clone, Copy, ValueEnum)]
-enum Loop {
-    /// A line with one friction element.
-    FirstOrder,
-    /// A line with two friction elements side by side: nested loops that grow.
-    Parallel,
-    /// A line with friction of second order (Bliman & Sorine 1995).
-    SecondOrder,
-    /// A stiffness that changes along the test, with one friction element.
-    Varying,
-    /// A quadratic and a line without friction (Breen et al. 1994).
-    #[value(name = "breen-1994")]
-    Breen,
-}
-
-impl Loop {
-    /// Returns the [`LoopModel`] of the law.
-    fn model(self) -> LoopModel {
-        match self {
-            Self::FirstOrder => LoopModel::Linear(FrictionOrder::First),
-            Self::Parallel => LoopModel::Linear(FrictionOrder::Parallel),
-            Self::SecondOrder => LoopModel::Linear(FrictionOrder::Second),
-            Self::Varying => LoopModel::Varying,
-            Self::Breen => LoopModel::Piecewise,
-        }
+impl LoopLaw {
+    /// Returns the [`LoopModel`] of the law, and prints the note on its name.
+    fn model(&self) -> LoopModel {
+        self.note.iter().for_each(note);
+        self.law.into()
     }
 }
 
+/// Returns the parser of the names of traction laws.
+fn traction_laws() -> impl TypedValueParser<Value = TractionModel> {
+    let laws = TractionModel::ALL.map(|law| possible_value(law.name(), law.description()));
+    PossibleValuesParser::new(laws)
+        .map(|name| TractionModel::named(&name).expect("the parser accepts only names of laws"))
+}
+
+/// Returns the parser of the names of loop laws. Former names are accepted and not listed.
+fn loop_laws() -> impl TypedValueParser<Value = LoopLaw> {
+    let current = Model::ALL.map(|law| possible_value(law.name(), law.description()));
+    let former = Model::FORMER_NAMES.map(|(name, _)| PossibleValue::new(name).hide(true));
+    let names = PossibleValuesParser::new(current.into_iter().chain(former));
+    names.map(|name| LoopLaw {
+        law: Model::named(&name).expect("the parser accepts only names of laws"),
+        note: Model::note_on(&name),
+    })
+}
+
+/// Returns the value `name` with its `description`, which begins with a capital letter in the help.
+fn possible_value(name: &'static str, description: &str) -> PossibleValue {
+    let mut letters = description.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    let help: String = first.into_iter().chain(letters).collect();
+    PossibleValue::new(name).help(help)
+}
+
 impl LawArguments {
-    /// Returns the [`FitSettings`] that the arguments name.
-    pub(crate) fn settings(self) -> FitSettings {
+    /// Returns the [`FitSettings`] that the arguments name, and prints notes on former names.
+    pub(crate) fn settings(&self) -> FitSettings {
         FitSettings {
-            traction: self.traction.map(|traction| match traction {
-                Traction::Exponential => TractionModel::Exponential,
-                Traction::Primed => TractionModel::Primed,
-                Traction::Polynomial => TractionModel::Polynomial,
-            }),
-            bending: self.bending.map(Loop::model),
-            shear: self.shear.map(Loop::model),
+            traction: self.traction,
+            bending: self.bending.as_ref().map(LoopLaw::model),
+            shear: self.shear.as_ref().map(LoopLaw::model),
             intervals: if self.profile { Intervals::Profile } else { Intervals::Wald },
             ..FitSettings::default()
         }

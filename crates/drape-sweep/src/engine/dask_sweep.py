@@ -1,0 +1,1 @@
+../../../drape-py/programs/dask_sweep.py
