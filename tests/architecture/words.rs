@@ -15,18 +15,22 @@ const COMMENT_MAX: usize = 100;
 pub fn faults(text: &str) -> Vec<String> {
     let source = text.split("#[cfg(test)]").next().unwrap_or_default();
     let mut faults = Vec::new();
+    let mut is_code = false;
     for (number, line) in source.lines().enumerate() {
         let comment = line.trim_start();
+        let text = comment.trim_start_matches(['/', '!', ' ']);
+        is_code = comment.starts_with("//") && (is_code != text.starts_with("```"));
         if !comment.starts_with("//") {
             continue;
         }
-        let words = format!(" {} ", comment.trim_start_matches(['/', '!', ' ']));
+
+        let words = format!(" {text} ");
         for phrase in PHRASES.iter().filter(|phrase| words.contains(&format!(" {phrase} "))) {
             faults.push(format!("line {}: \"{phrase}\"", number + 1));
         }
-        let can_break =
-            !line.contains("](") && !line.contains("http") && !comment.starts_with("/// |");
-        if can_break && line.chars().count() > COMMENT_MAX {
+        let can_break = !is_code && !line.contains("](") && !line.contains("http");
+        let is_row = text.starts_with('|');
+        if can_break && !is_row && line.chars().count() > COMMENT_MAX {
             faults.push(format!("line {}: a comment over {COMMENT_MAX} letters", number + 1));
         }
     }

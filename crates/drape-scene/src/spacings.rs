@@ -36,8 +36,8 @@ impl Spacing {
 impl SceneSpec {
     /// Returns the spacing of the scene, then the spacings that panels and garments name.
     ///
-    /// The spacing of the scene is left out if it is the usual one and every panel and garment names
-    /// a spacing.
+    /// The spacing of the scene is left out if it is the usual one and every panel and garment
+    /// names a spacing.
     #[must_use]
     pub fn spacings(&self) -> Vec<Spacing> {
         let panels = self.panel.iter().map(|panel| panel.spacing).enumerate();

@@ -167,8 +167,8 @@ impl InitialGuess {
                 .extend(frictions.iter().map(|friction| self.column(&law(0.0, DEEP, *friction))));
             let Combination { residual_sum, coefficients: c, length } =
                 self.best(&columns, 2, form)?;
-            // The load is linear in the toe ratio r: 1 − r is that of the second backbone times its
-            // part.
+            // The load is linear in the toe ratio r: 1 − r belongs to the second backbone, times
+            // its part.
             let stiffness = c[0] + c[1];
             let ratio = 1.0 - (1.0 - DEEP) * c[1] / stiffness;
             let mut values = vec![stiffness, ratio.clamp(1.05 * TOE_RATIO_MIN, 0.98), toe * top];

@@ -94,7 +94,7 @@ fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabr
     let document = Document::new(checker.document().path(), fabric.to_toml());
     let fabric = document.with_settings(&settings);
     let fabric = fabric.and_then(|document| Fabric::from_document(&document));
-    // Lines would be those of a text that nobody sees.
+    // The lines are in a text that nobody sees.
     let unplaced = |mistake| Diagnostic { line: None, column: None, span: None, ..mistake };
     let fabric = fabric.map_err(|Diagnostics(mistakes)| {
         checker.extend(Diagnostics(mistakes.into_iter().map(unplaced).collect()));

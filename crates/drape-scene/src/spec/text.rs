@@ -308,7 +308,7 @@ fn wavefront(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> String {
         _ = writeln!(text, "v {x:?} {y:?} {z:?}");
     }
     for corners in triangles {
-        let [a, b, c] = corners.map(|corner| corner + 1);
+        let [a, b, c] = corners.map(|corner| u64::from(corner) + 1);
         _ = writeln!(text, "f {a} {b} {c}");
     }
     text
