@@ -35,8 +35,8 @@ pub(crate) struct Scene {
 
 /// What a scene is made of.
 enum Origin {
-    /// Text, with the documents that it names and that have no file.
-    Text { document: Document, others: Vec<Document> },
+    /// Text.
+    Text(Box<Document>),
     /// Spec that was made of keys.
     Spec(Box<PlacedSpec>),
 }
@@ -45,7 +45,7 @@ impl Origin {
     /// Checks the scene.
     fn check(&self) -> PyResult<drape::scene::Scene> {
         match self {
-            Self::Text { document, others } => drape::run::scene_of_documents(document, others),
+            Self::Text(document) => drape::run::scene_of(document),
             Self::Spec(placed) => drape::run::scene_of_spec(placed),
         }
         .map_err(of_scene)
@@ -230,7 +230,7 @@ impl Scene {
         FileKind::expect(&path, &[FileKind::Scene]).map_err(|mistakes| input(&mistakes))?;
         let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
         let document = document.allowing(&allow);
-        Self::new(Origin::Text { document, others: Vec::new() }, Some(path))
+        Self::new(Origin::Text(Box::new(document)), Some(path))
     }
 
     /// Makes a scene of a `text`, whose files are seen from `folder`.
@@ -242,7 +242,7 @@ impl Scene {
         allow: Vec<PathBuf>,
     ) -> PyResult<Self> {
         let document = Document::new(folder.join("<text>"), text).allowing(&allow);
-        py.detach(|| Self::new(Origin::Text { document, others: Vec::new() }, None))
+        py.detach(|| Self::new(Origin::Text(Box::new(document)), None))
     }
 
     /// Makes a scene of `keys`.
@@ -277,7 +277,7 @@ impl Scene {
 
     fn to_toml(&self) -> PyResult<String> {
         match &self.origin {
-            Origin::Text { document, .. } => Ok(document.text().to_owned()),
+            Origin::Text(document) => Ok(document.text().to_owned()),
             Origin::Spec(placed) => placed.spec.to_toml().map_err(|error| {
                 failure(Kind::Usage, format!("{error}, with SceneBuilder.save(path)"))
             }),
@@ -303,7 +303,7 @@ impl Scene {
         let file = match (&self.file, &self.origin) {
             (Some(file), _) => file.clone(),
             (None, Origin::Spec(_)) => PlacedSpec::stored_path(folder),
-            (None, Origin::Text { .. }) => PathBuf::from("-"),
+            (None, Origin::Text(_)) => PathBuf::from("-"),
         };
         let request = RunRequest {
             state_hash: settings.state_hash,
@@ -336,7 +336,7 @@ pub(crate) fn resume(
         None => {
             let path = &resumed.request.scene;
             let document = scene_document(path, &folder).map_err(|mistakes| input(&mistakes))?;
-            let origin = Origin::Text { document, others: Vec::new() };
+            let origin = Origin::Text(Box::new(document));
             Scene::new(origin, Some(path.clone()))?.take(resumed.request.until)?
         }
     };

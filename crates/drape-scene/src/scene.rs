@@ -71,7 +71,7 @@ use self::solver::SolverSettings;
 /// let text = text.replace("step = 0.005", "step = -1");
 /// let mistake = Scene::from_documents(&Document::new("towel.toml", text), &[fabric]);
 /// let message = mistake.expect_err("a step is positive").to_string();
-/// assert!(message.contains("towel.toml:6") && message.contains("-1 is not between"));
+/// assert!(message.contains("towel.toml:6") && message.contains("-1 s is not between"));
 /// # Ok::<(), drape_scene::Error>(())
 /// ```
 #[derive(Debug)]

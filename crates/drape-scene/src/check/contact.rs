@@ -40,7 +40,6 @@ pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> Conta
         activation_distance: spec.offset,
         stiffness: spec.stiffness.unwrap_or(ParticleSettings::default().stiffness),
         slip_speed: spec.slip_speed,
-        ..ParticleSettings::default()
     };
     check_stiffness(checker, &particles, bounds);
     if spec.pinch != Pinch::Error {

@@ -49,13 +49,16 @@ pub enum SaveError {
     },
 }
 
+/// Positions of the vertices of a mesh in each frame, in the unit of the mesh.
+type Frames = Vec<Vec<[f64; 3]>>;
+
 /// Things that a spec holds itself, by the names that stand for them in a text.
 #[derive(Debug, Default)]
 pub(crate) struct Held {
     fabrics: Vec<(String, Arc<Fabric>)>,
     patterns: Vec<(String, Arc<Pattern>)>,
     meshes: Vec<(String, Arc<Triangulation>)>,
-    motions: Vec<(String, Arc<Vec<Vec<[f64; 3]>>>)>,
+    motions: Vec<(String, Arc<Frames>)>,
 }
 
 impl Held {
