@@ -8,6 +8,8 @@ mod arguments;
 mod modules;
 #[path = "architecture/pages.rs"]
 mod pages;
+#[path = "architecture/public_names.rs"]
+mod public_names;
 #[path = "architecture/tokens.rs"]
 mod tokens;
 #[path = "architecture/words.rs"]
@@ -19,6 +21,7 @@ use std::process::Command;
 
 use arguments::functions_with_more_arguments;
 use modules::Modules;
+use public_names::Library;
 use serde_json::Value;
 
 /// Crates that do not keep all of these rules yet.
@@ -203,6 +206,40 @@ fn chapters_of_a_crate_use_only_those_before_them() {
         arrows.extend(up.into_iter().map(|arrow| format!("drape-{name}: {arrow}")));
     }
     assert!(arrows.is_empty(), "uses that run up:\n{}", arrows.join("\n"));
+}
+
+/// The lists of names show in a review what a change renames.
+/// `NAMES=write cargo test --release --test architecture` writes the lists anew.
+#[test]
+fn the_lists_of_public_names_are_those_of_the_sources() {
+    let folder = root().join("tests/architecture/public_names");
+    let is_written = std::env::var_os("NAMES").is_some_and(|value| value == "write");
+    let (mut stale, mut lists) = (Vec::new(), BTreeSet::new());
+    for package in packages() {
+        let (name, targets) = (name(&package), package["targets"].as_array().expect("a list"));
+        let library = targets.iter().find(|target| target["kind"][0] == "lib");
+        let Some(library) = library else { continue };
+
+        let source = Path::new(library["src_path"].as_str().expect("a path"));
+        let names: Vec<String> = Library::read(source).public_names().into_iter().collect();
+        assert!(!names.is_empty(), "{name} exports nothing");
+        let list = format!("{}\n", names.join("\n"));
+        let path = folder.join(format!("{name}.txt"));
+        if is_written {
+            std::fs::write(&path, &list).expect("it is written");
+        }
+        if std::fs::read_to_string(&path).unwrap_or_default() != list {
+            stale.push(name.clone());
+        }
+        lists.insert(path);
+    }
+    let remedy = "NAMES=write cargo test --release --test architecture";
+    assert!(stale.is_empty(), "stale lists of public names: {stale:?}: {remedy}");
+
+    let kept = std::fs::read_dir(&folder).expect("a folder can be read").flatten();
+    let alone: Vec<_> =
+        kept.map(|entry| entry.path()).filter(|path| !lists.contains(path)).collect();
+    assert!(alone.is_empty(), "lists without a crate: {alone:?}");
 }
 
 #[test]

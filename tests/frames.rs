@@ -11,6 +11,7 @@ use std::process::Output;
 
 use assert_cmd::Command;
 use drape::collide::{ContactDistances, Surface, SurfaceParts, intersections};
+use drape::frames::samples::{SampleFrame, SampleRun};
 use drape::frames::{Frame, Recording};
 use drape::verify::Verifier;
 use serde_json::Value;
@@ -312,7 +313,6 @@ fn two_tests_that_share_no_code_find_the_same_pairs() {
         ties: Vec::new(),
     };
     let mut places = Vec::new();
-    let mut text = String::new();
     for (k, (vertices, triangles)) in sheets.iter().enumerate() {
         parts
             .rest_positions
@@ -320,20 +320,21 @@ fn two_tests_that_share_no_code_find_the_same_pairs() {
         parts.triangles.extend(triangles.iter().map(|t| t.map(|v| v + 576 * k as u32)));
         places.extend(vertices.iter().flatten().copied());
     }
-    places.chunks(3).for_each(|p| text += &format!("v {:?} {:?} {:?}\n", p[0], p[1], p[2]));
-    parts.rest_positions.chunks(3).for_each(|p| text += &format!("vt {:?} {:?}\n", p[0], p[1]));
-    parts
-        .triangles
-        .iter()
-        .for_each(|t| text += &format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1));
     let panel =
         r#"{ "name": "", "vertices": 576, "triangles": 1058, "reach": 1e-3, "separation": 1e-4 }"#;
     let panels = [panel; 4].join(", ");
-    let manifest =
-        format!("{{ \"format\": 1, \"guarded\": true, \"panels\": [{panels}], \"bodies\": [] }}\n");
+    let points = places.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
+    let run = SampleRun {
+        manifest: format!(
+            "{{ \"format\": 2, \"guarded\": true, \"panels\": [{panels}], \"bodies\": [] }}"
+        ),
+        material: parts.rest_positions.chunks_exact(3).map(|p| [p[0], p[1]]).collect(),
+        triangles: parts.triangles.clone(),
+        body_triangles: Vec::new(),
+        frames: vec![SampleFrame { cloth: points.collect(), ..SampleFrame::default() }],
+    };
     let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("surfaces.json"), manifest).expect("writes");
-    std::fs::write(folder.path().join("frame-00000.obj"), text).expect("writes");
+    run.write(folder.path()).expect("writes");
     let verdict = Verifier::open(folder.path()).and_then(|verifier| verifier.verify(0));
     let verdict = verdict.expect("a right frame");
 

@@ -1,21 +1,11 @@
 //! Heap of a run: a step of the simulation, with all forces and contact, in steady state.
 
 use drape_dynamics::Simulation;
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
 
-const FABRIC: &str = r#"
-name = "plain weave"
-density = 0.2
-thickness = 0.0004
-shear = { stiffness = 50, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-[weft]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-"#;
+const FABRIC: &str = samples::PLAIN_WEAVE_WITH_FRICTION;
 
 /// Returns the simulation of a square that falls onto a ball, with more tables of the scene.
 fn falling(tables: &str) -> Simulation {

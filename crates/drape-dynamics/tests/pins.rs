@@ -2,14 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod samples;
-
 use drape_dynamics::Simulation;
-use drape_fabric::{Fabric, Law, drive};
+use drape_fabric::{Law, drive, samples};
 use drape_input::Document;
 use drape_scene::Scene;
-
-use samples::FABRIC;
 
 /// A strip of 4 × 5 cm whose upper edge moves, without weight and air.
 fn scene(motion: &str) -> Simulation {
@@ -39,7 +35,7 @@ tolerance = 1e-7
 integrator = "backward-euler"
 "#
     );
-    let fabric = Document::new("plain.toml", FABRIC);
+    let fabric = Document::new("plain.toml", samples::PLAIN_WEAVE_WITH_FRICTION);
     let scene = Scene::from_documents(&Document::new("strip.toml", &text), &[fabric]).unwrap();
     Simulation::new(scene).unwrap()
 }
@@ -49,7 +45,7 @@ fn a_strip_between_clamps_returns_the_law_of_its_yarns() {
     let mut simulation = scene(
         "[pin.motion]\ntimes = [0, 0.5, 1.0]\nshift = [[0, 0, 0], [0, 0.0015, 0], [0, 0, 0]]",
     );
-    let fabric = Fabric::from_document(&Document::new("plain.toml", FABRIC)).unwrap();
+    let fabric = samples::plain_weave_with_friction();
     let law = fabric.warp.traction;
     let (mut strains, mut tensions) = (Vec::new(), Vec::new());
     loop {
@@ -127,7 +123,7 @@ fn a_motion_that_is_none_is_refused_with_its_place() {
              fabric = \"plain\"\nrectangle = [0.1, 0.1]\n[[pin]]\npanel = \"p\"\nedge = \"top\"\n\
              [pin.motion]\n{motion}\n[time]\nstep = 0.01\nend = 1.0\n"
         );
-        let fabric = Document::new("plain.toml", FABRIC);
+        let fabric = Document::new("plain.toml", samples::PLAIN_WEAVE_WITH_FRICTION);
         let mistakes =
             Scene::from_documents(&Document::new("s.toml", &text), &[fabric]).unwrap_err();
         let message = mistakes.to_string();

@@ -2,13 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod samples;
-
 use drape_dynamics::{BodyTarget, Energy, Simulation};
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
-
-use samples::FABRIC;
 
 const STEP: f64 = 0.002;
 
@@ -28,7 +25,7 @@ turn = [-90, 0, 0]
 {tables}
 "#
     );
-    let fabric = Document::new("plain.toml", FABRIC);
+    let fabric = Document::new("plain.toml", samples::PLAIN_WEAVE_WITH_FRICTION);
     let scene = Scene::from_documents(&Document::new("scene.toml", &text), &[fabric]).unwrap();
     Simulation::new(scene).unwrap()
 }

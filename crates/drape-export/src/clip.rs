@@ -31,8 +31,7 @@ impl<'a> Clip<'a> {
     /// time the last is taken.
     ///
     /// # Errors
-    /// The first of `numbers` is above the last, the frames have no times and no `rate` is given,
-    /// or `rate` is out of range.
+    /// The first of `numbers` is above the last, a frame is missing, or `rate` is out of range.
     pub fn new(
         recording: &'a Recording,
         numbers: RangeInclusive<usize>,
@@ -48,15 +47,7 @@ impl<'a> Clip<'a> {
 
         let (mut frames, mut times) = (Vec::new(), Vec::new());
         for number in numbers {
-            let time = match (recording.read_time(number)?, rate) {
-                (Some(time), _) => time,
-                (None, Some(rate)) => number as f64 / rate,
-                (None, None) if first == last => 0.0,
-                (None, None) => {
-                    return Err(Error::NoTimes { folder: recording.folder().to_owned() });
-                }
-            };
-
+            let time = recording.time(number)?;
             if times.last().is_some_and(|last| *last >= time) {
                 frames.pop();
                 times.pop();

@@ -1,7 +1,6 @@
 //! Error of frames that cannot be written in a format.
 
 use std::io;
-use std::path::PathBuf;
 
 /// Reason why frames cannot be written in a format.
 #[derive(Debug, thiserror::Error)]
@@ -13,12 +12,6 @@ pub enum Error {
     /// The file cannot be written.
     #[error("{0}")]
     Write(#[from] io::Error),
-    /// The frames have no times, and no rate was given.
-    #[error("{} does not say when its frames were; give a number of frames per second", folder.display())]
-    NoTimes {
-        /// Folder of the frames.
-        folder: PathBuf,
-    },
     /// The rate is out of range.
     #[error("{rate} is no number of frames per second; give one above 0 and up to {limit}")]
     BadRate {

@@ -5,6 +5,7 @@ use std::io::Read;
 use base64::Engine;
 use drape_export::{Named, View};
 use drape_frames::Recording;
+use drape_frames::samples::{SampleFrame, SampleRun};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -15,21 +16,22 @@ const HOSTILE: &str = "</script><script>alert('x')</script>&amp;\"";
 fn run(frames: usize) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let manifest = serde_json::json!({
-        "format": 1, "guarded": false, "bodies": [],
+        "format": 2, "guarded": false, "bodies": [],
         "panels": [{ "name": HOSTILE, "vertices": 3, "triangles": 1 }],
     });
-    let write = |name: &str, text: String| {
-        std::fs::write(folder.path().join(name), text).expect("writes");
-    };
-    write("surfaces.json", format!("{manifest}\n"));
-    for number in 0..frames {
+    let frame = |number: usize| {
         let height = number as f64 / frames.saturating_sub(1).max(1) as f64;
-        let text = format!(
-            "# metres, y up; t = {} s\nv 0 {height} 0\nv 1.01 {height} 0\nv 0 {height} 2\nvt 0 0\nvt 1 0\nvt 0 2\nf 1 2 3\n",
-            0.1 * number as f64
-        );
-        write(&format!("frame-{number:05}.obj"), text);
-    }
+        let cloth = vec![[0.0, height, 0.0], [1.01, height, 0.0], [0.0, height, 2.0]];
+        SampleFrame { time: 0.1 * number as f64, cloth, bodies: Vec::new() }
+    };
+    let run = SampleRun {
+        manifest: manifest.to_string(),
+        material: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 2.0]],
+        triangles: vec![[0, 1, 2]],
+        body_triangles: Vec::new(),
+        frames: (0..frames).map(frame).collect(),
+    };
+    run.write(folder.path()).expect("writes");
     folder
 }
 
@@ -103,7 +105,7 @@ fn write_fabrics(folder: &TempDir, fabrics: &[(&str, Option<&str>)]) {
     };
     let panels: Vec<Value> = fabrics.iter().enumerate().map(panel).collect();
     let manifest =
-        serde_json::json!({ "format": 1, "guarded": false, "bodies": [], "panels": panels });
+        serde_json::json!({ "format": 2, "guarded": false, "bodies": [], "panels": panels });
     std::fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).expect("writes");
 }
 
@@ -142,7 +144,7 @@ fn each_fabric_has_its_colour() {
     let panel = |fabric: &str, n: usize| serde_json::json!({ "name": fabric, "vertices": n, "triangles": n / 3, "fabric": fabric });
     let panels = [panel("linen", 3), panel("wool", 0), panel("cotton", 0), panel("wool", 0)];
     let manifest =
-        serde_json::json!({ "format": 1, "guarded": false, "bodies": [], "panels": panels });
+        serde_json::json!({ "format": 2, "guarded": false, "bodies": [], "panels": panels });
     std::fs::write(folder.path().join("surfaces.json"), format!("{manifest}\n")).expect("writes");
     let meta = meta(&page(&folder, 20_000_000).html);
     let panels = meta["panels"].as_array().expect("a list").iter();

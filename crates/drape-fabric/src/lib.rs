@@ -10,6 +10,7 @@
 //! * `batch`: the laws for many connectors side by side, in vectorised loops.
 //! * `fabric`, `check`, `file`, `assumed`: the fabric, the admissible range of each number, the
 //!   TOML file, and the comments in the file.
+//! * [`samples`]: fabrics for examples and tests.
 //! * `breen`: the work curves of Breen, House & Wozny, derived from the laws.
 
 // The laws for one connector, and for many side by side.
@@ -24,6 +25,9 @@ mod file;
 
 // Work curves for another model of cloth.
 mod breen;
+
+// Fabrics for examples and tests.
+pub mod samples;
 
 pub use batch::batch_law::{BatchLaw, Responses};
 pub use batch::bending::BendingBatch;

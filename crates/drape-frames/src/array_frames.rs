@@ -1,4 +1,4 @@
-//! Files of format 2: arrays of positions, triangles and material coordinates.
+//! Files of frames: arrays of positions, triangles and material coordinates.
 
 use std::path::Path;
 

@@ -60,14 +60,14 @@ pub enum Error {
         /// Number of the last frame.
         last: usize,
     },
-    /// The folder was written by a newer version.
-    #[error("{} is of format {format}, and this version reads formats up to {known}; read it with the version that wrote it", path.display())]
+    /// The folder was written by another version.
+    #[error("{} is of format {format}, and this version reads format {known}; run the scene again, or read it with the version that wrote it", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,
         /// Its format.
         format: u64,
-        /// Newest format that is read here.
+        /// Format that is read here.
         known: u64,
     },
     /// Frames are missing.

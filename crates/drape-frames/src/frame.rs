@@ -9,7 +9,7 @@ pub struct Frame {
     pub number: usize,
     /// File of the cloth.
     pub file: PathBuf,
-    /// Time, in s. Some folders of format 1 give no time.
+    /// Time, in s. A recorded frame always has a time.
     pub time: Option<f64>,
     /// Growth fraction of the minimum separation, above 0 and at most 1.
     pub growth: f64,

@@ -8,18 +8,16 @@
 //! Layers, lowest first:
 //!
 //! * `error`.
-//! * `text`, `array` and `obj` read files.
+//! * `text` and `array` read files.
 //! * `manifest`, `topology`, `index` and `energy_table` are the data that all frames share.
-//! * `obj_frames` and `array_frames` read a frame of either format.
-//! * `recording` reads a folder in either format.
+//! * `array_frames` reads a frame, and `recording` a folder.
 //!
-//! `surface` measures surfaces of triangles.
+//! `surface` measures surfaces of triangles. [`samples`] writes runs for examples and tests.
 
 mod error;
 
 // Files.
 mod array;
-mod obj;
 mod text;
 
 // Data that all frames share.
@@ -34,8 +32,10 @@ mod surface;
 // Frames.
 mod array_frames;
 mod frame;
-mod obj_frames;
 mod recording;
+
+// Runs for examples and tests.
+pub mod samples;
 
 pub use energy_table::EnergyTable;
 pub use error::Error;

@@ -9,7 +9,7 @@ use crate::error::Error;
 /// Data that all frames of a run share: the content of `surfaces.json`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Manifest {
-    /// Format of the folder: 2 with arrays, 1 with OBJ files.
+    /// Format of the folder, 2.
     pub format: u64,
     /// Whether contact kept surfaces apart. If not, only particles collided with bodies, and no
     /// distance was promised.
@@ -48,7 +48,7 @@ pub struct SurfacePart {
     /// halves. 0 if no distance was promised.
     #[serde(rename = "separation", default)]
     pub half_min_separation: f64,
-    /// Name of the fabric of a panel, empty for a body and in format 1.
+    /// Name of the fabric of a panel, empty for a body.
     #[serde(default)]
     pub fabric: String,
     /// Direction of the weft in the coordinates of the panel, whose x is its width and y its
@@ -66,7 +66,7 @@ fn full_separation() -> f64 {
     1.0
 }
 
-/// Returns the default of `weft`, the direction of the weft of a body and of a panel in format 1.
+/// Returns the default of `weft`, the direction of the weft of a body and of a panel that states none.
 fn along_width() -> [f64; 2] {
     [1.0, 0.0]
 }
@@ -100,12 +100,12 @@ impl SurfacePart {
 impl Manifest {
     /// Parses and checks `text`, the content of the file `path`.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, Error> {
-        /// Newest format that this crate reads.
+        /// Format that this crate reads.
         const FORMAT: u64 = 2;
 
         let manifest: Manifest = serde_json::from_str(text)
             .map_err(|error| Error::malformed(path, error.line(), error.to_string()))?;
-        if !(1..=FORMAT).contains(&manifest.format) {
+        if manifest.format != FORMAT {
             let (format, known) = (manifest.format, FORMAT);
             return Err(Error::UnknownFormat { path: path.to_owned(), format, known });
         }

@@ -9,7 +9,7 @@ use crate::index::{self, IndexEntry};
 use crate::manifest::Manifest;
 use crate::text::read_text;
 use crate::topology::Topology;
-use crate::{array, array_frames, obj_frames};
+use crate::{array, array_frames};
 
 /// Folder of a run, whose frames are read one by one.
 ///
@@ -25,18 +25,10 @@ pub struct Recording {
     folder: PathBuf,
     manifest: Manifest,
     topology: Topology,
-    frames: FrameList,
+    /// Lines of `frames.csv`.
+    frames: Vec<IndexEntry>,
     /// Whether the summary says that the run has ended.
     ended: bool,
-}
-
-/// Frames of a folder, by the format of the folder.
-#[derive(Debug, Clone)]
-enum FrameList {
-    /// Number of OBJ files, in format 1.
-    Obj(usize),
-    /// Lines of `frames.csv`, in format 2.
-    Arrays(Vec<IndexEntry>),
 }
 
 impl Recording {
@@ -61,16 +53,8 @@ impl Recording {
         // A summary exists once the run has ended, and gives the number of its frames.
         let summary = folder.join("summary.json");
         let announced = if summary.exists() { announced_count(&summary)? } else { None };
-        let (frames, topology) = match manifest.format {
-            1 => (
-                FrameList::Obj(count_obj_frames(folder, announced)?),
-                obj_frames::topology(folder, &manifest)?,
-            ),
-            _ => (
-                FrameList::Arrays(list_array_frames(folder, announced)?),
-                array_frames::topology(folder, &manifest)?,
-            ),
-        };
+        let frames = list_frames(folder, announced)?;
+        let topology = array_frames::topology(folder, &manifest)?;
 
         let (folder, ended) = (folder.to_owned(), announced.is_some());
         Ok(Recording { folder, manifest, topology, frames, ended })
@@ -85,10 +69,7 @@ impl Recording {
     /// Returns the number of frames, which is at least 1.
     #[must_use]
     pub fn frame_count(&self) -> usize {
-        match &self.frames {
-            FrameList::Obj(count) => *count,
-            FrameList::Arrays(entries) => entries.len(),
-        }
+        self.frames.len()
     }
 
     /// Returns whether the summary says that the run has ended.
@@ -109,26 +90,12 @@ impl Recording {
         &self.topology
     }
 
-    /// Returns the time of frame `number` in s, or `None` if the time is only known after reading
-    /// the frame.
-    #[must_use]
-    pub fn time(&self, number: usize) -> Option<f64> {
-        match &self.frames {
-            FrameList::Obj(_) => None,
-            FrameList::Arrays(entries) => entries.get(number).map(|entry| entry.time),
-        }
-    }
-
-    /// Returns the time of frame `number` in s, or `None` if the files do not give it. The frame is
-    /// read if necessary.
+    /// Returns the time of frame `number` in s.
     ///
     /// # Errors
-    /// The errors of [`Recording::frame`].
-    pub fn read_time(&self, number: usize) -> Result<Option<f64>, Error> {
-        match self.time(number) {
-            Some(time) => Ok(Some(time)),
-            None => Ok(self.frame(number)?.time),
-        }
+    /// [`Error::NoFrame`] if there is no such frame.
+    pub fn time(&self, number: usize) -> Result<f64, Error> {
+        Ok(self.entry(number)?.time)
     }
 
     /// Reads frame `number`.
@@ -137,18 +104,8 @@ impl Recording {
     /// [`Error::NoFrame`] if there is no such frame. Another [`Error`] if a file is missing, or has
     /// content that no run writes.
     pub fn frame(&self, number: usize) -> Result<Frame, Error> {
-        if number >= self.frame_count() {
-            let (folder, last) = (self.folder.clone(), self.frame_count() - 1);
-            return Err(Error::NoFrame { folder, number, last });
-        }
-        let mut frame = match &self.frames {
-            FrameList::Obj(_) => {
-                obj_frames::read(&self.folder, &self.manifest, &self.topology, number)?
-            }
-            FrameList::Arrays(entries) => {
-                array_frames::read(&self.folder, &self.manifest, entries[number])?
-            }
-        };
+        let entry = *self.entry(number)?;
+        let mut frame = array_frames::read(&self.folder, &self.manifest, entry)?;
 
         // Older runs stored only the pressures of the last frame.
         let file = self.last_pressures();
@@ -162,10 +119,7 @@ impl Recording {
     /// Returns whether the pressure of contact was stored for at least one frame.
     #[must_use]
     pub fn has_pressures(&self) -> bool {
-        let in_list = match &self.frames {
-            FrameList::Obj(_) => false,
-            FrameList::Arrays(entries) => entries.iter().any(|entry| entry.touched.is_some()),
-        };
+        let in_list = self.frames.iter().any(|entry| entry.touched.is_some());
         in_list || self.last_pressures().exists()
     }
 
@@ -178,36 +132,26 @@ impl Recording {
         path.exists().then(|| EnergyTable::read(&path, self.frame_count())).transpose()
     }
 
+    /// Returns the line of frame `number`.
+    fn entry(&self, number: usize) -> Result<&IndexEntry, Error> {
+        self.frames.get(number).ok_or_else(|| {
+            let (folder, last) = (self.folder.clone(), self.frame_count() - 1);
+            Error::NoFrame { folder, number, last }
+        })
+    }
+
     /// Returns the file in which older runs stored the pressures of the last frame.
     fn last_pressures(&self) -> PathBuf {
         self.folder.join("pressure.npy")
     }
 }
 
-/// Returns the number of frames in `folder`, which has format 1. `announced` is the number of
-/// frames that the summary gives, if there is one.
+/// Returns the list of the frames in `folder`. `announced` is the number of frames that the summary
+/// gives, if there is one.
 ///
 /// # Errors
 /// [`Error::MissingFrame`] if a frame is missing.
-fn count_obj_frames(folder: &Path, announced: Option<usize>) -> Result<usize, Error> {
-    let numbers = obj_frames::numbers(folder)?;
-    let needed = announced.unwrap_or(0).max(numbers.last().map_or(1, |last| last + 1));
-    let missing = (0..needed).find(|number| numbers.binary_search(number).is_err());
-    match missing.map(obj_frames::name) {
-        None => Ok(needed),
-        Some(missing) => {
-            let (folder, found) = (folder.to_owned(), numbers.len());
-            Err(Error::MissingFrame { folder, missing, found, needed })
-        }
-    }
-}
-
-/// Returns the list of the frames in `folder`, which has format 2. `announced` is the number of
-/// frames that the summary gives, if there is one.
-///
-/// # Errors
-/// [`Error::MissingFrame`] if a frame is missing.
-fn list_array_frames(folder: &Path, announced: Option<usize>) -> Result<Vec<IndexEntry>, Error> {
+fn list_frames(folder: &Path, announced: Option<usize>) -> Result<Vec<IndexEntry>, Error> {
     let entries = index::read(&folder.join("frames.csv"))?;
     let needed = announced.unwrap_or(1).max(entries.len());
     let found = (0..entries.len())

@@ -1,4 +1,4 @@
-//! Files that were cut off, or changed in a byte, in both formats of a folder.
+//! Files that were cut off, or changed in a byte.
 
 use std::path::Path;
 
@@ -7,10 +7,7 @@ use npyz::WriterBuilder;
 use npyz::half::f16;
 use tempfile::TempDir;
 
-const FRAME: &str = "# metres, y up; t = 0.5 s\n# bodies: bodies-00000.obj\nv 0 2e-4 0\nv 0 2e-4 1\n\
-                     v 1 2e-4 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1/1 2/2 3/3\n";
 const ENERGY: &str = "number,time,kinetic,gravity\n0,0.5,0.25,-0.125\n";
-const BODIES: &str = "v 0 0 0\nv 0 0 1\nv 1 0 0\no b\nf 1 2 3\n";
 
 fn manifest(format: u8) -> String {
     format!(
@@ -34,15 +31,7 @@ fn array<T: npyz::AutoSerialize + Copy>(rows: u64, numbers: &[T]) -> Vec<u8> {
 /// Files of a folder by their names.
 type Files = Vec<(&'static str, Vec<u8>)>;
 
-fn old() -> Files {
-    vec![
-        ("surfaces.json", manifest(1).into()),
-        ("frame-00000.obj", FRAME.into()),
-        ("bodies-00000.obj", BODIES.into()),
-    ]
-}
-
-fn new() -> Files {
+fn files() -> Files {
     let corners = [0_u32, 1, 2];
     vec![
         ("surfaces.json", manifest(2).into()),
@@ -74,60 +63,72 @@ fn read(folder: &Path) -> Result<Frame, Error> {
 }
 
 #[test]
-fn both_formats_give_the_same_frame() {
-    let [old, new] = [folder(&old()), folder(&new())];
-    let [a, b] = [&old, &new].map(|folder| Recording::open(folder.path()).unwrap());
-    assert_eq!(a.topology(), b.topology());
-    let [one, two] = [a, b].map(|recording| recording.frame(0).unwrap());
-    assert_eq!((&one.cloth, &one.bodies), (&two.cloth, &two.bodies));
-    assert_eq!((one.time, one.growth), (two.time, two.growth));
-    assert_eq!((one.time, one.growth), (Some(0.5), 1.0));
+fn a_folder_gives_the_frame_that_its_files_hold() {
+    let folder = folder(&files());
+    let frame = read(folder.path()).unwrap();
+    assert_eq!(frame.cloth, [[0.0, 2e-4, 0.0], [0.0, 2e-4, 1.0], [1.0, 2e-4, 0.0]]);
+    assert_eq!(frame.bodies, [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    assert_eq!((frame.time, frame.growth), (Some(0.5), 1.0));
+}
+
+#[test]
+fn a_folder_of_another_format_is_refused_with_the_remedy() {
+    for format in [0, 1, 3] {
+        let folder = folder(&files());
+        write(folder.path(), "surfaces.json", manifest(format).as_bytes());
+        let error = Recording::open(folder.path()).unwrap_err();
+        assert!(matches!(error, Error::UnknownFormat { known: 2, .. }), "{error}");
+        let error = error.to_string();
+        assert!(error.contains(&format!("is of format {format}, ")), "{error}");
+        assert!(
+            error.contains("surfaces.json") && error.contains("run the scene again"),
+            "{error}"
+        );
+    }
 }
 
 #[test]
 fn a_file_cut_at_any_byte_is_an_error_that_names_it() {
-    for files in [old(), new()] {
-        let folder = folder(&files);
-        for (name, content) in &files {
-            for end in 0..content.len() {
-                write(folder.path(), name, &content[..end]);
-                let error = read(folder.path()).unwrap_err().to_string();
-                // The list of frames may end after any line; then its frames are missing.
-                let named = error.contains(name) || *name == "frames.csv";
-                assert!(named, "{name} cut at {end}: {error}");
-            }
-            write(folder.path(), name, content);
+    let files = files();
+    let folder = folder(&files);
+    for (name, content) in &files {
+        for end in 0..content.len() {
+            write(folder.path(), name, &content[..end]);
+            let error = read(folder.path()).unwrap_err().to_string();
+            // The list of frames may end after any line; then its frames are missing.
+            let named = error.contains(name) || *name == "frames.csv";
+            assert!(named, "{name} cut at {end}: {error}");
         }
-        assert!(read(folder.path()).is_ok());
+        write(folder.path(), name, content);
     }
+    assert!(read(folder.path()).is_ok());
 }
 
 #[test]
 fn a_changed_byte_is_an_error_or_another_state_and_never_a_panic() {
-    for files in [old(), new()] {
-        let folder = folder(&files);
-        let (mut errors, mut states) = (0, 0);
-        for (name, content) in &files {
-            for at in 0..content.len() {
-                for byte in [b'-', b'9', b'\n', 0xff] {
-                    let mut bytes = content.clone();
-                    bytes[at] = byte;
-                    write(folder.path(), name, &bytes);
-                    match read(folder.path()) {
-                        Ok(_) => states += 1,
-                        Err(_) => errors += 1,
-                    }
+    let files = files();
+    let folder = folder(&files);
+    let (mut errors, mut states) = (0, 0);
+    for (name, content) in &files {
+        for at in 0..content.len() {
+            for byte in [b'-', b'9', b'\n', 0xff] {
+                let mut bytes = content.clone();
+                bytes[at] = byte;
+                write(folder.path(), name, &bytes);
+                match read(folder.path()) {
+                    Ok(_) => states += 1,
+                    Err(_) => errors += 1,
                 }
             }
-            write(folder.path(), name, content);
         }
-        assert!(errors > 100 && states > 100, "{errors} errors, {states} states");
+        write(folder.path(), name, content);
     }
+    assert!(errors > 100 && states > 100, "{errors} errors, {states} states");
 }
 
 #[test]
 fn pressures_and_energy_are_those_of_their_frame() {
-    let folder = folder(&new());
+    let folder = folder(&files());
     write(folder.path(), "energy.csv", ENERGY.as_bytes());
     let recording = Recording::open(folder.path()).unwrap();
     assert!(recording.has_pressures());
@@ -156,32 +157,28 @@ fn pressures_and_energy_are_those_of_their_frame() {
 
 #[test]
 fn a_folder_of_an_older_version_has_the_pressures_of_its_last_frame() {
-    for files in [old(), new()] {
-        let folder = folder(&files);
-        write(folder.path(), "pressure.npy", &array(3, &[0.0, 0.1, 0.0]));
-        if files.iter().any(|(name, _)| *name == "frames.csv") {
-            let list = "number,time,growth,bodies\n0,0.4,1.0,0\n1,0.5,1.0,0\n";
-            write(folder.path(), "frames.csv", list.as_bytes());
-            write(folder.path(), "frame-00001.npy", &array(3, &[0.0; 9]));
-        }
-        let recording = Recording::open(folder.path()).unwrap();
-        let pressures = |number: usize| recording.frame(number).unwrap().pressures;
-        assert!(recording.has_pressures());
-        assert_eq!(pressures(recording.frame_count() - 1), Some(vec![0.0, 0.1, 0.0]));
-        assert!(recording.frame_count() == 1 || pressures(0).is_none());
-    }
+    let files = files();
+    let folder = folder(&files);
+    write(folder.path(), "pressure.npy", &array(3, &[0.0, 0.1, 0.0]));
+    let list = "number,time,growth,bodies\n0,0.4,1.0,0\n1,0.5,1.0,0\n";
+    write(folder.path(), "frames.csv", list.as_bytes());
+    write(folder.path(), "frame-00001.npy", &array(3, &[0.0; 9]));
+    let recording = Recording::open(folder.path()).unwrap();
+    let pressures = |number: usize| recording.frame(number).unwrap().pressures;
+    assert!(recording.has_pressures());
+    assert_eq!([pressures(0), pressures(1)], [None, Some(vec![0.0, 0.1, 0.0])]);
 }
 
 #[test]
 fn what_a_killed_run_listed_is_read() {
-    let folder = folder(&new());
+    let folder = folder(&files());
     let list = "number,time,growth,bodies\n0,0.5,1.0,0\n1,0.6,1.";
     write(folder.path(), "frames.csv", list.as_bytes());
     write(folder.path(), "frame-00001.npy", b"half");
     let recording = Recording::open(folder.path()).unwrap();
     assert_eq!(
         (recording.frame_count(), recording.ended(), recording.time(0)),
-        (1, false, Some(0.5))
+        (1, false, Ok(0.5))
     );
     assert!(matches!(recording.frame(1), Err(Error::NoFrame { last: 0, .. })));
     write(folder.path(), "summary.json", b"{ \"frames\": 2 }\n");
@@ -211,7 +208,7 @@ fn arrays_of_another_kind_are_refused_with_what_they_are() {
         ("energy.csv", b"time,kinetic\n0.5,0.0\n".to_vec(), "other columns than number, time"),
     ];
     for (name, content, words) in cases {
-        let folder = folder(&new());
+        let folder = folder(&files());
         write(folder.path(), name, &content);
         let error = read(folder.path()).unwrap_err().to_string();
         assert!(error.contains(name) && error.contains(words), "{error}");
@@ -225,7 +222,7 @@ fn arrays_of_another_kind_are_refused_with_what_they_are() {
         ("0,soon,1.0,0\n", "line 2"),
         ("", "has 0 of 1 frames"),
     ] {
-        let folder = folder(&new());
+        let folder = folder(&files());
         write(folder.path(), "frames.csv", format!("number,time,growth,bodies\n{list}").as_bytes());
         let error = read(folder.path()).unwrap_err().to_string();
         assert!(error.contains(words), "{list}: {error}");
@@ -234,21 +231,20 @@ fn arrays_of_another_kind_are_refused_with_what_they_are() {
 
 #[test]
 fn a_folder_without_a_manifest_is_no_run() {
-    for files in [old(), new()] {
-        let folder = folder(&files);
-        assert!(Recording::exists(folder.path()));
-        std::fs::remove_file(folder.path().join("surfaces.json")).unwrap();
-        assert!(!Recording::exists(folder.path()));
-        assert!(matches!(Recording::open(folder.path()), Err(Error::NotARun { .. })));
-    }
+    let files = files();
+    let folder = folder(&files);
+    assert!(Recording::exists(folder.path()));
+    std::fs::remove_file(folder.path().join("surfaces.json")).unwrap();
+    assert!(!Recording::exists(folder.path()));
+    assert!(matches!(Recording::open(folder.path()), Err(Error::NotARun { .. })));
 }
 
 #[test]
 fn a_frame_gives_the_fraction_to_which_its_separation_has_grown() {
-    let folder = folder(&old());
-    let with = |grown: &str| {
-        let frame = format!("# grown: {grown}\n{FRAME}");
-        write(folder.path(), "frame-00000.obj", frame.as_bytes());
+    let folder = folder(&files());
+    let with = |growth: &str| {
+        let list = format!("number,time,growth,bodies\n0,0.5,{growth},0\n");
+        write(folder.path(), "frames.csv", list.as_bytes());
         read(folder.path()).map(|frame| frame.growth)
     };
     assert_eq!(
@@ -257,15 +253,16 @@ fn a_frame_gives_the_fraction_to_which_its_separation_has_grown() {
     );
     for wrong in ["0", "-0.25", "1.5", "NaN", "half"] {
         let error = with(wrong).unwrap_err().to_string();
-        assert!(error.contains("line 1") && error.contains("no fraction"), "{wrong}: {error}");
+        assert!(error.contains("frames.csv, line 2"), "{wrong}: {error}");
+        assert!(error.contains("no fraction") || wrong == "half", "{wrong}: {error}");
     }
 }
 
 #[test]
 fn a_header_may_be_padded_up_to_its_largest_length() {
-    let folder = folder(&new());
+    let folder = folder(&files());
     let exact = read(folder.path()).unwrap();
-    let (name, content) = new().into_iter().find(|(name, _)| *name == "frame-00000.npy").unwrap();
+    let (name, content) = files().into_iter().find(|(name, _)| *name == "frame-00000.npy").unwrap();
     let numbers = content.len() - 9 * size_of::<f64>();
     let text = String::from_utf8(content[10..numbers].to_vec()).unwrap();
     // A header is the magic string and the version, in 8 bytes, its length in 2, and its text.

@@ -31,8 +31,8 @@ impl Recording {
     }
 
     fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let time = |number| Ok(self.0.read_time(number)?.unwrap_or(f64::NAN));
-        let times: Result<Vec<f64>, _> = (0..self.0.frame_count()).map(time).collect();
+        let numbers = 0..self.0.frame_count();
+        let times: Result<Vec<f64>, _> = numbers.map(|number| self.0.time(number)).collect();
         row(py, &times.map_err(of_frames)?)
     }
 

@@ -15,5 +15,5 @@ pub use folder::{
 };
 pub use scene_fabric::{
     NamedCurve, PlacedSpec, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of,
-    scene_of_documents, scene_of_spec, scene_or_refused,
+    scene_of_spec, scene_or_refused,
 };

@@ -37,19 +37,6 @@ pub fn scene_of(document: &Document) -> Result<Scene, drape_scene::Error> {
     Scene::from_document(document, &scene_fabric)
 }
 
-/// Returns the scene of a `document`, as [`scene_of`] does. Fabrics, patterns and meshes are taken
-/// from `others` where their paths match.
-///
-/// # Errors
-/// Errors of [`read_scene`].
-pub fn scene_of_documents(
-    document: &Document,
-    others: &[Document],
-) -> Result<Scene, drape_scene::Error> {
-    FileKind::expect_document(document, &[FileKind::Scene])?;
-    Scene::from_documents_with(document, others, &scene_fabric)
-}
-
 /// Spec of a scene that a program made, and where the files are that it names.
 #[derive(Debug, Clone)]
 pub struct PlacedSpec {

@@ -1,21 +1,8 @@
 //! Reads a scene from a TOML string and prints what it understood, in SI units.
 
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::{Error, Scene};
-
-const FABRIC: &str = r#"
-name = "plain weave"
-density = 0.12
-thickness = 0.0003
-surface_friction = 0.25
-shear.stiffness = 35
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending.rigidity = 1.2e-5
-[weft]
-traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending.rigidity = 0.8e-5
-"#;
 
 const SCENE: &str = r#"
 name = "cloth on a ball"
@@ -39,7 +26,7 @@ end = 5
 
 #[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Error> {
-    let fabric = Document::new("plain.toml", FABRIC);
+    let fabric = Document::new("plain.toml", samples::PLAIN_WEAVE);
     let scene =
         Scene::from_documents(&Document::new("ball.toml", SCENE), std::slice::from_ref(&fabric))?;
 

@@ -97,7 +97,7 @@ impl CurvatureMap {
 
 #[cfg(test)]
 mod tests {
-    use std::fmt::Write;
+    use drape_frames::samples::SampleRun;
 
     use super::*;
 
@@ -107,23 +107,11 @@ mod tests {
     /// Run of a sheet of 200 × 100 mm at a spacing of 10 mm, whose half beyond u = 100 mm is bent.
     fn run() -> tempfile::TempDir {
         let folder = tempfile::tempdir().expect("a folder");
-        let manifest = r#"{ "format": 1, "guarded": false, "panels": [
-            { "name": "sheet", "vertices": 231, "triangles": 400 } ], "bodies": [] }
-"#;
-        std::fs::write(folder.path().join("surfaces.json"), manifest).expect("it is written");
-        let mut text = String::from("# metres, y up; t = 0.5 s\n");
-        let points = (0..231).map(|k| [0.01 * f64::from(k % 21), 0.01 * f64::from(k / 21)]);
-        for [u, v] in points.clone() {
+        let sheet = SampleRun::grid([21, 11], 0.01, &[0.5], |[u, v], _| {
             let angle = (u - 0.1).max(0.0) / RADIUS;
-            let [x, y] = [u.min(0.1) + RADIUS * angle.sin(), RADIUS * (1.0 - angle.cos())];
-            writeln!(text, "v {x} {y} {v}").expect("it is written");
-        }
-        points.for_each(|[u, v]| writeln!(text, "vt {u} {v}").expect("it is written"));
-        for first in (0..210).filter(|k| k % 21 < 20).map(|k| k + 1) {
-            let [a, b, c, d] = [first, first + 1, first + 22, first + 21];
-            writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}").expect("it is written");
-        }
-        std::fs::write(folder.path().join("frame-00000.obj"), text).expect("it is written");
+            [u.min(0.1) + RADIUS * angle.sin(), RADIUS * (1.0 - angle.cos()), v]
+        });
+        sheet.write(folder.path()).expect("it is written");
         folder
     }
 

@@ -1,10 +1,11 @@
 //! Panels that start apart although their pattern has them cross, and girths that are girths.
 #![allow(clippy::unwrap_used)]
 
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
 
-const FABRIC: &str = include_str!("plain.toml");
+const FABRIC: &str = samples::PLAIN_WEAVE;
 
 /// Reads a garment of a pattern about a column, or returns what is said about it.
 fn read(pattern: &str, column: &str) -> Result<Scene, String> {

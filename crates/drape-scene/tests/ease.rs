@@ -3,10 +3,11 @@
 
 use std::f64::consts::PI;
 
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::{ClothPlaces, Figures, FoundBy, GirthPair, MeasuredGarment, NoGirth, Scene};
 
-const FABRIC: &str = include_str!("plain.toml");
+const FABRIC: &str = samples::PLAIN_WEAVE;
 
 /// Two panels of 400 mm × 300 mm in front of and behind a column of 200 mm across; `left` is an
 /// edge of the front, and sewn to that of the back.

@@ -1,21 +1,14 @@
 //! What a scene says is what is simulated, and what it says wrongly is answered at its place.
 #![allow(clippy::unwrap_used)]
 
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::{Error, Integrator, Method, Scene, View};
 
-const FABRIC: &str = r#"name = "plain"
-density = 0.12
-thickness = 0.0003
-surface_friction = 0.25
-shear = { stiffness = 35.0 }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending.rigidity = 1.2e-5
-[weft]
-traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending.rigidity = 0.8e-5
-"#;
+/// Returns the text of the fabric.
+fn fabric() -> String {
+    format!("surface_friction = 0.25\n{}", samples::PLAIN_WEAVE)
+}
 
 const LEAST: &str = r#"fabric.plain.file = "plain.toml"
 [[panel]]
@@ -28,7 +21,7 @@ end = 0.1
 "#;
 
 fn read(text: &str) -> Result<Scene, Error> {
-    let fabric = Document::new("plain.toml", FABRIC);
+    let fabric = Document::new("plain.toml", fabric());
     Scene::from_documents(&Document::new("towel.toml", text), &[fabric])
 }
 

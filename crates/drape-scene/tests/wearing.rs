@@ -1,10 +1,11 @@
 //! What a garment does not say rightly is answered, and the remedy of each answer works.
 #![allow(clippy::unwrap_used)]
 
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
 
-const FABRIC: &str = include_str!("plain.toml");
+const FABRIC: &str = samples::PLAIN_WEAVE;
 
 /// A skirt round a column of 200 mm across: a front, two halves of a back, and a band.
 const SKIRT: &str = r#"length = "mm"

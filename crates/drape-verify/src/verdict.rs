@@ -21,11 +21,8 @@ const LISTED_MAX: usize = 10;
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
-/// # std::fs::write(folder.path().join("surfaces.json"), r#"{ "format": 1, "guarded": true,
-/// #     "panels": [ { "name": "sheet", "vertices": 3, "triangles": 1 } ], "bodies": [] }
-/// # "#)?;
-/// # let frame = "v 0 0 0\nv 0 0 1\nv 1 0 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1 2 3\n";
-/// # std::fs::write(folder.path().join("frame-00000.obj"), frame)?;
+/// # let corners = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+/// # drape_frames::samples::SampleRun::triangle(corners).write(folder.path())?;
 /// let verdict = drape_verify::Verifier::open(folder.path())?.verify(0)?;
 /// assert!(verdict.holds());
 /// assert_eq!((verdict.triangles, verdict.pairs, verdict.intersections), (1, 0, 0));

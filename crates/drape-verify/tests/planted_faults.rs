@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::fmt::Write;
 use std::path::Path;
 
+use drape_frames::samples::{SampleFrame, SampleRun};
 use drape_verify::{Verdict, Verifier};
 
 type Point = [f64; 3];
@@ -66,23 +66,6 @@ impl Shape {
             vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
         Shape { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] }
     }
-
-    /// OBJ of the shape, with material coordinates if it has some.
-    fn text(&self, material: &[[f64; 2]]) -> String {
-        let mut text = String::new();
-        // All digits: the last bit counts.
-        for [x, y, z] in &self.vertices {
-            writeln!(text, "v {x:?} {y:?} {z:?}").unwrap();
-        }
-        for [u, v] in material {
-            writeln!(text, "vt {u} {v}").unwrap();
-        }
-        for corners in &self.triangles {
-            let [a, b, c] = corners.map(|corner| corner + 1);
-            writeln!(text, "f {a} {b} {c}").unwrap();
-        }
-        text
-    }
 }
 
 /// Frame with planted faults.
@@ -119,9 +102,8 @@ impl Planted {
         let (panels, bodies) = (panels.join(", "), bodies.join(", "));
         let Planted { twins, ties, .. } = self;
         let manifest = format!(
-            r#"{{ "format": 1, "guarded": true, "panels": [{panels}], "bodies": [{bodies}], "twins": [{twins}], "ties": [{ties}] }}"#
+            r#"{{ "format": 2, "guarded": true, "panels": [{panels}], "bodies": [{bodies}], "twins": [{twins}], "ties": [{ties}] }}"#
         );
-        std::fs::write(folder.join("surfaces.json"), manifest + "\n").unwrap();
         let mut all = Shape { vertices: Vec::new(), triangles: Vec::new() };
         for panel in &self.panels {
             let first = all.vertices.len();
@@ -130,16 +112,24 @@ impl Planted {
             all.triangles.extend(shifted);
         }
         let apart = |k: usize| [k as f64, (k * k) as f64];
-        let material = match self.material.is_empty() {
-            true => (0..all.vertices.len()).map(apart).collect(),
-            false => self.material.clone(),
+        let material = if self.material.is_empty() {
+            (0..all.vertices.len()).map(apart).collect()
+        } else {
+            self.material.clone()
         };
-        let mut frame = all.text(&material);
-        if let Some(body) = &self.body {
-            frame.insert_str(0, "# bodies: bodies-00000.obj\n");
-            std::fs::write(folder.join("bodies-00000.obj"), body.text(&[])).unwrap();
-        }
-        std::fs::write(folder.join("frame-00000.obj"), frame).unwrap();
+
+        let numbers = |shape: &Shape| -> Vec<[u32; 3]> {
+            shape.triangles.iter().map(|corners| corners.map(|k| k as u32)).collect()
+        };
+        let bodies = self.body.as_ref().map_or(Vec::new(), |body| body.vertices.clone());
+        let run = SampleRun {
+            manifest,
+            material,
+            triangles: numbers(&all),
+            body_triangles: self.body.as_ref().map_or(Vec::new(), numbers),
+            frames: vec![SampleFrame { time: 0.0, cloth: all.vertices, bodies }],
+        };
+        run.write(folder).unwrap();
     }
 }
 

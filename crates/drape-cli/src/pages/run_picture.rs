@@ -204,10 +204,9 @@ impl<'a> RunPictures<'a> {
         self.legend.clone()
     }
 
-    /// Returns the time of frame `number` as a caption, or the number if the time is unknown.
+    /// Returns the time of frame `number` as a caption.
     pub(crate) fn caption(&self, number: usize) -> Result<String, Failure> {
-        let time = self.recording.read_time(number)?;
-        Ok(time.map_or_else(|| format!("frame {number}"), |time| format!("{time:.2} s")))
+        Ok(format!("{:.2} s", self.recording.time(number)?))
     }
 
     /// Returns the view in `direction` at position `index` of the views. The widths of all columns

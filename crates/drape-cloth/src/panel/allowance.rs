@@ -65,30 +65,17 @@ impl Lattice {
 
 #[cfg(test)]
 mod tests {
-    use drape_fabric::Fabric;
-    use drape_input::Document;
+    use drape_fabric::{Fabric, samples};
 
     use super::*;
     use crate::{Cloth, Grain, Mesh};
-
-    const FABRIC: &str = r#"name = "plain"
-density = 0.2
-thickness = 0.0003
-shear.stiffness = 35
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.01 }
-bending.rigidity = 1.2e-5
-[weft]
-traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.02 }
-bending.rigidity = 0.8e-5
-"#;
 
     fn allowance(line: &[u32], width: f64) -> Allowance {
         Allowance { line: line.to_vec(), width }
     }
 
     fn masses(lattice: &Lattice) -> Vec<f64> {
-        let fabric = Fabric::from_document(&Document::new("plain.toml", FABRIC)).expect("right");
+        let fabric = Fabric { density: 0.2, ..samples::plain_weave() };
         let cloth = Cloth::new(&[(lattice, &fabric)]);
         assert!((cloth.areas().iter().sum::<f64>() / lattice.area() - 1.0).abs() < 1e-12);
         let areas = cloth.connector_areas();

@@ -24,20 +24,7 @@ use crate::state::State;
 ///
 /// ```
 /// use drape_cloth::{Cloth, Lattice, ReferenceCloth};
-/// # let text = r#"
-/// #     name = "plain"
-/// #     density = 0.12
-/// #     thickness = 0.0003
-/// #     shear.stiffness = 35
-/// #     [warp]
-/// #     traction.polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
-/// #     bending.rigidity = 1.2e-5
-/// #     [weft]
-/// #     traction.polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
-/// #     bending.rigidity = 0.8e-5
-/// # "#;
-/// # let document = drape_input::Document::new("plain.toml", text);
-/// # let fabric = drape_fabric::Fabric::from_document(&document)?;
+/// let fabric = drape_fabric::samples::plain_weave();
 /// let lattice = Lattice::rectangle(0.1, 0.1, 0.01)?;
 /// let panels = [(&lattice, &fabric)];
 /// let cloth = Cloth::new(&panels);

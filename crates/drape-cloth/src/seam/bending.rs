@@ -32,20 +32,7 @@ use crate::seam::description::Seam;
 ///
 /// ```
 /// use drape_cloth::{Cloth, Lattice, Seam, SeamBending};
-/// # let text = r#"
-/// #     name = "plain"
-/// #     density = 0.12
-/// #     thickness = 0.0003
-/// #     shear.stiffness = 35
-/// #     [warp]
-/// #     traction.polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
-/// #     bending.rigidity = 1.2e-5
-/// #     [weft]
-/// #     traction.polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
-/// #     bending.rigidity = 0.8e-5
-/// # "#;
-/// # let document = drape_input::Document::new("plain.toml", text);
-/// # let fabric = drape_fabric::Fabric::from_document(&document)?;
+/// let fabric = drape_fabric::samples::plain_weave();
 /// // Two squares of 3 × 3 particles: the right side of the first is sewn to the left side of the
 /// // second.
 /// let square = Lattice::rectangle(0.02, 0.02, 0.01)?;

@@ -45,10 +45,9 @@ const LIST_MAX: u64 = 1 << 26;
 /// the frame that was being written. Other files do not belong to the run, whatever their names.
 pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let single = SINGLE.into_iter().chain(ARRAYS).map(str::to_owned);
-    let numbered = numbers(folder)?.into_iter().flat_map(|number| {
-        let arrays = KINDS.into_iter().map(move |kind| format!("{kind}-{number:05}.npy"));
-        arrays.chain([format!("frame-{number:05}.obj")])
-    });
+    let numbered = numbers(folder)?
+        .into_iter()
+        .flat_map(|number| KINDS.into_iter().map(move |kind| format!("{kind}-{number:05}.npy")));
     let paths = single.chain(numbered).map(|name| folder.join(name));
     Ok(paths.filter(|path| fs::symlink_metadata(path).is_ok()).collect())
 }
@@ -84,11 +83,7 @@ fn numbers(folder: &Path) -> io::Result<Vec<u64>> {
     let path = folder.join(FRAMES);
     // A link or a pipe in place of the list is removed, not read.
     if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
-        // Older versions have no list.
-        let numbers = 0..;
-        return Ok(numbers
-            .take_while(|number| folder.join(format!("frame-{number:05}.obj")).is_file())
-            .collect());
+        return Ok(Vec::new());
     }
     let mut text = Vec::new();
     fs::File::open(&path)?.take(LIST_MAX).read_to_end(&mut text)?;

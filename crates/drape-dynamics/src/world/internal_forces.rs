@@ -296,26 +296,13 @@ impl InternalForces {
 #[cfg(test)]
 mod tests {
     use drape_cloth::Lattice;
-    use drape_fabric::Fabric;
-    use drape_input::Document;
+    use drape_fabric::samples;
 
     use super::*;
 
-    const FABRIC: &str = r#"name = "plain"
-density = 0.12
-thickness = 0.0003
-shear = { stiffness = 35.0 }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending.rigidity = 1.2e-5
-[weft]
-traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending.rigidity = 0.8e-5
-"#;
-
     #[test]
     fn a_pair_without_a_block_is_borne_by_its_particles_alone_and_more() {
-        let fabric = Fabric::from_document(&Document::new("plain.toml", FABRIC)).expect("right");
+        let fabric = samples::plain_weave();
         let lattice = Lattice::rectangle(0.04, 0.04, 0.01).expect("a sheet");
         let panels = [(&lattice, &fabric), (&lattice, &fabric)];
         let cloth = Cloth::new(&panels);

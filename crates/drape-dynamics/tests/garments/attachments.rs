@@ -1,22 +1,13 @@
 //! Pins that hold in some directions alone: what is held, what is free, and what that costs.
 
 use drape_dynamics::{Simulation, Status, Summary};
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::{Error, Scene};
 
 use crate::tube;
 
-const FABRIC: &str = r#"name = "plain"
-density = 0.15
-thickness = 0.0003
-shear = { stiffness = 35.0, growth = 4.0, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction.primed = { stiffness = 5000.0, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4.0 }] }
-[weft]
-traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4.0 }] }
-"#;
+const FABRIC: &str = samples::PLAIN_WEAVE_WITH_FRICTION;
 
 /// Weight of the band, in N.
 const WEIGHT: f64 = 2.0 * 0.16 * 0.04 * 0.15 * 9.81;

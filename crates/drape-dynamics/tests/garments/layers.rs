@@ -3,22 +3,13 @@
 use std::f64::consts::PI;
 
 use drape_dynamics::{Simulation, Status};
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::{Error, Scene};
 
 use crate::tube;
 
-pub(crate) const FABRIC: &str = r#"name = "plain"
-density = 0.15
-thickness = 0.0003
-shear = { stiffness = 35.0 }
-[warp]
-traction.primed = { stiffness = 5000.0, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending.rigidity = 1.2e-5
-[weft]
-traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending.rigidity = 0.8e-5
-"#;
+pub(crate) const FABRIC: &str = samples::PLAIN_WEAVE;
 
 /// Two tubes round a post on a plate, one of which is called inner and one outer, with more said of
 /// each.

@@ -322,11 +322,12 @@ fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
 
 #[cfg(test)]
 mod tests {
+    use drape_fabric::samples;
     use drape_input::Document;
 
     use super::*;
 
-    const FABRIC: &str = include_str!("../../tests/plain.toml");
+    const FABRIC: &str = samples::PLAIN_WEAVE;
 
     #[test]
     fn a_panel_within_30_degrees_of_the_vertical_stands_upright() {

@@ -12,7 +12,7 @@ use crate::say::say;
 
 /// Returns whether the folder `path` was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {
-    let files = ["frame-00000.obj", "frame-00000.npy", "summary.json"];
+    let files = ["frame-00000.npy", "summary.json"];
     Recording::exists(path) || files.iter().any(|name| path.join(name).exists())
 }
 

@@ -103,10 +103,7 @@ fn number(arguments: &PictureArguments, recording: &Recording) -> Result<usize, 
 
     let mut times = Vec::new();
     for number in 0..=last {
-        let time = recording.read_time(number)?;
-        times.push(time.ok_or_else(|| {
-            Failure::Usage(format!("--time {requested}: the frames have no times; give --frame"))
-        })?);
+        times.push(recording.time(number)?);
     }
     let (first, end) = (times[0], times[last]);
     if !(first..=end).contains(&requested) {
