@@ -66,7 +66,8 @@ fn full_separation() -> f64 {
     1.0
 }
 
-/// Returns the default of `weft`, the direction of the weft of a body and of a panel that states none.
+/// Returns the default of `weft`, the direction of the weft of a body and of a panel that states
+/// none.
 fn along_width() -> [f64; 2] {
     [1.0, 0.0]
 }

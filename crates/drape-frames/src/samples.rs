@@ -44,8 +44,8 @@ pub struct SampleFrame {
 }
 
 impl SampleRun {
-    /// Returns the run of a panel `name` with `material` coordinates, in m, and `triangles`, without
-    /// frames. The name has no quotes and no backslashes.
+    /// Returns the run of a panel `name` with `material` coordinates, in m, and `triangles`,
+    /// without frames. The name has no quotes and no backslashes.
     #[must_use]
     pub fn panel(name: &str, material: Vec<[f64; 2]>, triangles: Vec<[u32; 3]>) -> Self {
         let manifest = format!(
@@ -57,8 +57,8 @@ impl SampleRun {
         Self { manifest, material, triangles, body_triangles: Vec::new(), frames: Vec::new() }
     }
 
-    /// Returns the run of a panel of one triangle, 1 m wide and high, with the positions `cloth`, in
-    /// m, at the time 0.
+    /// Returns the run of a panel of one triangle, 1 m wide and high, with the positions `cloth`,
+    /// in m, at the time 0.
     #[must_use]
     pub fn triangle(cloth: [[f64; 3]; 3]) -> Self {
         let material = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
