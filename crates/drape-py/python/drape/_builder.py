@@ -170,8 +170,8 @@ class SceneBuilder:
         """
         path = Path(path)
         texts = {path: self.to_toml()}
-        for file, value in self._held.items():
-            texts |= {path.parent / name: text for name, text in _texts(file, value)}
+        for name, value in self._held.items():
+            texts |= {path.parent / file: text for file, text in _texts(name, value)}
         there = [str(file) for file in texts if file.exists()]
         if there and not replace:
             raise UsageError(f"{', '.join(there)} exists; save elsewhere, or with replace=True")
