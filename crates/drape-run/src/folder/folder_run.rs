@@ -143,13 +143,13 @@ impl FolderRun {
         if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
             summary.reason = Some(limit.to_owned());
         }
+        // The summary says that the run has ended, so it is written after the last frame: a run that
+        // is interrupted before this point repeats its last steps and reaches the same summary.
+        save_last(&folder)?;
         output.summary(&summary)?;
-        // A run that is interrupted before this point repeats its last steps and reaches the same
-        // summary.
         if matches!(summary.status, Status::Ok | Status::DidNotSettle) {
             writer.keep(&simulation.saved(), &recorded)?;
         }
-        save_last(&folder)?;
         let mut at_end = simulation.snapshot();
         if let Some(frame) = last {
             at_end.positions = frame.positions;
