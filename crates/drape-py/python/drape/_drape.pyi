@@ -10,6 +10,8 @@ _Triangles: TypeAlias = npt.NDArray[np.uint32]
 __all__ = [
     "Fabric",
     "Fit",
+    "Mesh",
+    "MeshFrames",
     "Recording",
     "Scene",
     "Sheet",
