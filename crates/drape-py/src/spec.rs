@@ -1,7 +1,6 @@
 //! Specs of scenes made of Python objects, without a text.
 
 use std::collections::HashMap;
-use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -42,14 +41,15 @@ impl Mesh {
 
     /// Returns the mesh in the format of Wavefront.
     fn to_obj(&self) -> String {
-        wavefront(&self.0.vertices, &self.0.triangles)
+        self.0.to_obj()
     }
 
     /// Returns the mesh with the vertices of the frame `number` of `frames` in this format.
     fn frame_to_obj(&self, frames: &MeshFrames, number: usize) -> PyResult<String> {
         let vertices =
             frames.0.get(number).ok_or_else(|| PyValueError::new_err("no such frame"))?;
-        Ok(wavefront(vertices, &self.0.triangles))
+        let triangles = self.0.triangles.clone();
+        Ok(Triangulation { vertices: vertices.clone(), triangles }.to_obj())
     }
 }
 
@@ -70,19 +70,6 @@ impl MeshFrames {
 /// Returns `numbers`, three for each point, as points.
 fn points(numbers: &[f64]) -> Vec<[f64; 3]> {
     numbers.as_chunks::<3>().0.to_vec()
-}
-
-/// Returns a mesh in the format of Wavefront, whose numbers are read to the same bits.
-fn wavefront(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> String {
-    let mut text = String::new();
-    for [x, y, z] in vertices {
-        _ = writeln!(text, "v {x:?} {y:?} {z:?}");
-    }
-    for corners in triangles {
-        let [a, b, c] = corners.map(|corner| u64::from(corner) + 1);
-        _ = writeln!(text, "f {a} {b} {c}");
-    }
-    text
 }
 
 /// Things that a scene holds in memory, by the names that its keys have for them.

@@ -133,7 +133,7 @@ pub(crate) fn check(
     let panels: Vec<Panel> = placed.into_iter().map(|placed| placed.panel).collect();
     let bodies = with_friction(bodies, &materials);
     let content = Content {
-        spec,
+        text: hash::text(spec),
         materials: &materials,
         positions: &positions,
         bodies: &bodies,

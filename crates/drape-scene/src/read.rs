@@ -40,15 +40,13 @@ impl SceneSpec {
     /// All mistakes that could be found, each with its key, its value and a remedy; with them the
     /// triangles that cross at the start, if some do. A name of a file is a mistake.
     pub fn build(&self) -> Result<Scene, Error> {
-        let mistakes: Vec<_> = self
-            .named_files()
-            .into_iter()
-            .map(|key| {
-                let message = "names a file, and there is no folder to find it in";
-                let help = "hold the thing itself, or build with the sources of files";
-                Document::new("", "").at(&key, message).help(help)
-            })
-            .collect();
+        let message = "names a file, and there is no folder to find it in";
+        let help = "hold the thing itself, or build with the sources of files";
+        let nowhere = Document::new("", "");
+        // A name that is empty is a mistake of its own.
+        let mut spec = self.clone();
+        let files = spec.files_mut().into_iter().filter(|file| !file.name.is_empty());
+        let mistakes = files.map(|file| nowhere.at(&file.key, message).help(help)).collect();
         Diagnostics::check(mistakes)?;
         self.build_with(&Sources::new(Path::new("")))
     }
@@ -105,21 +103,6 @@ impl SceneSpec {
             })
         });
         scenes.collect()
-    }
-
-    /// Returns the keys whose values name files.
-    fn named_files(&self) -> Vec<String> {
-        let named = |file: Option<&str>| file.is_some_and(|name| !name.is_empty());
-        let fabrics = self.fabric.iter().filter(|(_, fabric)| named(fabric.file.file()));
-        let fabrics =
-            fabrics.map(|(name, _)| format!("fabric.{}.file", drape_input::toml_key(name)));
-        let garments = self.garment.iter().enumerate();
-        let garments = garments.filter(|(_, garment)| named(garment.pattern.file()));
-        let garments = garments.map(|(index, _)| format!("garment[{index}].pattern"));
-        let meshes = self.collider.mesh.iter().enumerate();
-        let meshes = meshes.filter(|(_, mesh)| named(mesh.file.file()));
-        let meshes = meshes.map(|(index, _)| format!("collider.mesh[{index}].file"));
-        fabrics.chain(garments).chain(meshes).collect()
     }
 }
 

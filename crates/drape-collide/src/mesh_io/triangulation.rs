@@ -1,5 +1,7 @@
 //! Vertices and triangles, as files and bodies give them to pictures and to surfaces.
 
+use std::fmt::Write;
+
 use crate::vector::{Vector, add, cross, norm, scale, subtract};
 
 /// Triangle mesh: vertices and triangles.
@@ -12,6 +14,21 @@ pub struct Triangulation {
 }
 
 impl Triangulation {
+    /// Returns the mesh in the format of Wavefront (OBJ). [`parse_mesh`](crate::parse_mesh) reads
+    /// the numbers to the same bits.
+    #[must_use]
+    pub fn to_obj(&self) -> String {
+        let mut text = String::new();
+        for [x, y, z] in &self.vertices {
+            _ = writeln!(text, "v {x:?} {y:?} {z:?}");
+        }
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| u64::from(corner) + 1);
+            _ = writeln!(text, "f {a} {b} {c}");
+        }
+        text
+    }
+
     /// Returns the mesh with coordinates multiplied by `factor`, such as m per unit of a file.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Triangulation {

@@ -13,11 +13,11 @@ use crate::scene::panel::Panel;
 use crate::scene::{MovingBody, SourcePart};
 use crate::spec::SceneSpec;
 use crate::spec::body::MeshMotion;
-use crate::spec::file_or::FileOr;
 
 /// Content of a scene that makes its hash.
 pub(crate) struct Content<'a> {
-    pub(crate) spec: &'a SceneSpec,
+    /// The spec, as [`text`] returns it.
+    pub(crate) text: String,
     pub(crate) materials: &'a [Material],
     pub(crate) positions: &'a [f64],
     pub(crate) bodies: &'a [MovingBody],
@@ -29,7 +29,7 @@ impl Content<'_> {
     /// Returns the hash.
     pub(crate) fn hash(&self) -> String {
         let mut hasher = blake3::Hasher::new();
-        hasher.update(self.text().as_bytes());
+        hasher.update(self.text.as_bytes());
         for material in self.materials {
             hasher.update(material.fabric.to_toml().as_bytes());
         }
@@ -44,26 +44,11 @@ impl Content<'_> {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns the spec as a text, without the names of files: their content counts.
-    fn text(&self) -> String {
-        let mut spec = self.spec.in_metres().without_held();
-        spec.fabric.values_mut().for_each(|fabric| fabric.file = FileOr::default());
-        spec.garment.iter_mut().for_each(|garment| garment.pattern = FileOr::default());
-        for mesh in &mut spec.collider.mesh {
-            mesh.file = FileOr::default();
-            mesh.frames = None;
-            if let Some(MeshMotion::File(name)) = &mut mesh.motion {
-                name.clear();
-            }
-        }
-        spec.text()
-    }
-
     /// Returns the digests of the spec, of each fabric, of the cloth at its start and of each
     /// body.
     pub(crate) fn parts(&self) -> Vec<SourcePart> {
         let part = |name: String, digest: blake3::Hash| SourcePart { name, digest: digest.into() };
-        let mut parts = vec![part("the scene".into(), blake3::hash(self.text().as_bytes()))];
+        let mut parts = vec![part("the scene".into(), blake3::hash(self.text.as_bytes()))];
         for Material { name, fabric, .. } in self.materials {
             let digest = blake3::hash(fabric.to_toml().as_bytes());
             parts.push(part(format!("the fabric \"{name}\""), digest));
@@ -83,6 +68,18 @@ impl Content<'_> {
         }
         parts
     }
+}
+
+/// Returns `spec` as a text without the names of files: their content counts, and what a spec holds
+/// itself has no name.
+pub(crate) fn text(spec: &SceneSpec) -> String {
+    let mut spec = spec.in_metres().without_held();
+    for mesh in &mut spec.collider.mesh {
+        mesh.frames = None;
+        mesh.motion.take_if(|motion| matches!(motion, MeshMotion::File(_)));
+    }
+    spec.files_mut().into_iter().for_each(|file| file.name.clear());
+    spec.text()
 }
 
 /// Calls with the numbers of the files of a body.

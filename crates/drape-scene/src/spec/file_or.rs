@@ -30,6 +30,14 @@ impl<T> FileOr<T> {
         }
     }
 
+    /// Returns the name of the file, to be changed, or `None` if the thing itself is held.
+    pub(crate) fn file_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::File(name) => Some(name),
+            Self::Value(_) => None,
+        }
+    }
+
     /// Returns the thing, or `None` if only a file with it is named.
     #[must_use]
     pub fn value(&self) -> Option<&Arc<T>> {

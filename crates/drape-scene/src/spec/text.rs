@@ -1,12 +1,11 @@
 //! Spec as a text, and what a spec holds in memory beside the text.
 
-use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
 use drape_collide::Triangulation;
 use drape_fabric::Fabric;
-use drape_input::{Diagnostic, Diagnostics, Document, Faults, Setting};
+use drape_input::{Diagnostic, Diagnostics, Document, Faults, Setting, toml_key};
 use drape_pattern::Pattern;
 use toml::Value;
 
@@ -51,6 +50,18 @@ pub enum SaveError {
 
 /// Positions of the vertices of a mesh in each frame, in the unit of the mesh.
 type Frames = Vec<Vec<[f64; 3]>>;
+
+/// Name of a file, or of a folder, in a spec.
+pub(crate) struct NamedFile<'a> {
+    /// Key path of the name.
+    pub(crate) key: String,
+    pub(crate) name: &'a mut String,
+}
+
+/// Returns the file at `key` whose name is `name`, if there is one.
+fn named(key: String, name: Option<&mut String>) -> Option<NamedFile<'_>> {
+    name.map(|name| NamedFile { key, name })
+}
 
 /// Things that a spec holds itself, by the names that stand for them in a text.
 #[derive(Debug, Default)]
@@ -222,12 +233,14 @@ impl SceneSpec {
         for (number, mesh) in spec.collider.mesh.iter_mut().enumerate() {
             let name = format!("body-{}.obj", number + 1);
             let FileOr::Value(outline) = mesh.file.clone() else { continue };
-            write(&name, &wavefront(&outline.vertices, &outline.triangles))?;
+            write(&name, &outline.to_obj())?;
             mesh.file = name.into();
             if let Some(MeshMotion::Frames(frames)) = &mesh.motion {
                 for (frame, vertices) in frames.iter().enumerate() {
                     let name = format!("body-{}-frame-{frame:05}.obj", number + 1);
-                    write(&name, &wavefront(vertices, &outline.triangles))?;
+                    let triangles = outline.triangles.clone();
+                    let posed = Triangulation { vertices: vertices.clone(), triangles };
+                    write(&name, &posed.to_obj())?;
                 }
                 mesh.frames = Some(format!("body-{}-frame-*.obj", number + 1));
                 mesh.motion = None;
@@ -241,21 +254,34 @@ impl SceneSpec {
     #[must_use]
     pub fn with_whole_paths(&self, folder: &Path) -> Self {
         let mut spec = self.clone();
-        for fabric in spec.fabric.values_mut() {
-            make_whole(&mut fabric.file, folder);
+        for NamedFile { name, .. } in spec.files_mut() {
+            *name = whole_path(name, folder);
         }
-        for garment in &mut spec.garment {
-            make_whole(&mut garment.pattern, folder);
-        }
-        for mesh in &mut spec.collider.mesh {
-            make_whole(&mut mesh.file, folder);
-            if let Some(MeshMotion::File(name)) = &mut mesh.motion {
-                *name = whole_path(name, folder);
-            }
-            mesh.frames.iter_mut().for_each(|name| *name = whole_path(name, folder));
-        }
-        spec.grading.iter_mut().for_each(|grading| grading.run = whole_path(&grading.run, folder));
         spec
+    }
+
+    /// Returns all names of files in the spec, with the keys that name them.
+    pub(crate) fn files_mut(&mut self) -> Vec<NamedFile<'_>> {
+        let mut files = Vec::new();
+        for (name, fabric) in &mut self.fabric {
+            files.extend(named(format!("fabric.{}.file", toml_key(name)), fabric.file.file_mut()));
+        }
+        for (index, garment) in self.garment.iter_mut().enumerate() {
+            files.extend(named(format!("garment[{index}].pattern"), garment.pattern.file_mut()));
+        }
+        for (index, mesh) in self.collider.mesh.iter_mut().enumerate() {
+            let key = format!("collider.mesh[{index}]");
+            files.extend(named(format!("{key}.file"), mesh.file.file_mut()));
+            files.extend(named(format!("{key}.frames"), mesh.frames.as_mut()));
+            if let Some(MeshMotion::File(name)) = &mut mesh.motion {
+                files.extend(named(format!("{key}.motion"), Some(name)));
+            }
+        }
+        files.extend(named(
+            "grading.run".into(),
+            self.grading.as_mut().map(|grading| &mut grading.run),
+        ));
+        files
     }
 
     /// Returns the spec with what it holds itself replaced by names that no file has.
@@ -289,30 +315,10 @@ impl SceneSpec {
     }
 }
 
-/// Replaces the name of a file in `place`, which is seen from `folder`, by its whole path.
-fn make_whole<T>(place: &mut FileOr<T>, folder: &Path) {
-    if let FileOr::File(name) = place {
-        *name = whole_path(name, folder);
-    }
-}
-
 /// Returns the path of the file `name`, which is seen from `folder`, from the root of the file
 /// system.
 fn whole_path(name: &str, folder: &Path) -> String {
     let path = folder.join(name);
     let whole = std::path::absolute(&path).unwrap_or(path);
     whole.to_string_lossy().replace('\\', "/")
-}
-
-/// Returns a mesh as a text in the format of Wavefront, whose numbers are read to the same bits.
-fn wavefront(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> String {
-    let mut text = String::new();
-    for [x, y, z] in vertices {
-        _ = writeln!(text, "v {x:?} {y:?} {z:?}");
-    }
-    for corners in triangles {
-        let [a, b, c] = corners.map(|corner| u64::from(corner) + 1);
-        _ = writeln!(text, "f {a} {b} {c}");
-    }
-    text
 }
