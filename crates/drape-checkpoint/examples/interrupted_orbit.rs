@@ -71,11 +71,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::write(&second, &bytes[..bytes.len() / 2])?;
 
     // The program starts again and takes the newest intact checkpoint.
-    let found = store.read()?;
-    for damaged in &found.damaged {
+    let stored = store.read()?;
+    for damaged in &stored.damaged {
         println!("left out: {damaged:?}");
     }
-    let checkpoint = found.newest.ok_or("no checkpoint is intact")?;
+    let checkpoint = stored.newest.ok_or("no checkpoint is intact")?;
     assert_eq!(identity.changes(checkpoint.identity()), Vec::<String>::new());
     let orbit = Orbit::restore(&checkpoint)?;
     println!("continued after {} steps", orbit.steps);

@@ -41,8 +41,9 @@ pub use decode::Faults;
 pub use diagnostic::edit::{Edit, EditError, apply_edits};
 pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use document::Document;
+pub use document::similar_file::{missing_file_help, similar_file};
 pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
-pub use document::{Document, missing_file_help, similar_file};
 pub use figure::{
     Notation, brief, counted, duration_in_words, excerpt, figure, figure_above, figure_below,
     figure_in_decimals, figure_in_digits, figure_in_range, figures, percent, round_decimals,

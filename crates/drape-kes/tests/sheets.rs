@@ -270,8 +270,8 @@ fn a_sheet_may_ask_for_a_law() {
         assert_eq!(sheet.model, Some(law));
         assert_eq!(sheet.warnings(), []);
     }
-    let found = finding("name = \"x\"\nmodel = \"two-element\"", "");
-    assert_eq!(help(&found), "did you mean \"two-elements\"?");
+    let mistake = finding("name = \"x\"\nmodel = \"two-element\"", "");
+    assert_eq!(help(&mistake), "did you mean \"two-elements\"?");
 }
 
 #[test]

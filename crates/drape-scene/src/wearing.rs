@@ -21,8 +21,8 @@ use self::solids::{GarmentPlace, Solids};
 pub struct GarmentPlacement {
     /// Place at the start.
     pub place: GarmentPlace,
-    /// Shift that brings the garment about a body, in m: what is to be added to its `center`.
-    /// `None` if no place was found at which the garment fits and is clear of all bodies.
+    /// Shift that brings the garment about a body, in m. The shift is added to the `center` of the
+    /// garment. `None` if no place was found at which the garment fits and is clear of all bodies.
     pub shift: Option<[f64; 3]>,
 }
 

@@ -10,7 +10,7 @@ use drape_scene::{ClothPlaces, Figures, FoundBy, GirthPair, MeasuredGarment, NoG
 const FABRIC: &str = samples::PLAIN_WEAVE;
 
 /// Two panels of 400 mm × 300 mm in front of and behind a column of 200 mm across; `left` is an
-/// edge of the front, and sewn to that of the back.
+/// edge of the front, and sewn to the upper edge of the back.
 const TUBE: &str = r#"length = "mm"
 [panel.front]
 grain = 0

@@ -143,8 +143,8 @@ impl FolderRun {
         if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
             summary.reason = Some(limit.to_owned());
         }
-        // The summary says that the run has ended, so it is written after the last frame: a run that
-        // is interrupted before this point repeats its last steps and reaches the same summary.
+        // The summary says that the run has ended, so the summary is written after the last frame.
+        // A run that is interrupted before repeats its last steps and reaches the same summary.
         save_last(&folder)?;
         output.summary(&summary)?;
         if matches!(summary.status, Status::Ok | Status::DidNotSettle) {
