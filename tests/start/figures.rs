@@ -162,6 +162,7 @@ fn programs_get_what_a_mistake_speaks_of_and_its_remedy_as_an_edit() {
         panic!("{found}")
     };
     assert_eq!(mistake["subject"], serde_json::json!({ "seam": "other" }));
+    assert_eq!(mistake["key"], "seam.other.sides[0][0]");
     let [edit] = &mistake["edits"].as_array().expect("a list")[..] else { panic!("{found}") };
     let word = |key: &str| edit[key].as_str().expect("text").to_owned();
     assert_eq!([word("file"), word("key")], ["tube.toml", "seam.other.sides[0][0]"]);

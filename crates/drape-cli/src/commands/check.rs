@@ -222,7 +222,8 @@ impl CheckReport {
 
 /// Returns `mistake` as JSON, for editors.
 fn as_json(mistake: &Diagnostic) -> Value {
-    let Diagnostic { file, line, column, message, help, subject, edits, .. } = mistake;
+    let Diagnostic { file, key, line, column, message, help, subject, edits, .. } = mistake;
+    let key = key.as_ref().map(ToString::to_string);
     let subject = subject.iter().flat_map(Subject::names);
     let subject: Map<String, Value> =
         subject.map(|(kind, name)| (kind.to_owned(), name.into())).collect();
@@ -233,7 +234,7 @@ fn as_json(mistake: &Diagnostic) -> Value {
         })
         .collect();
     json!({
-        "file": file, "line": line, "column": column, "message": message, "help": help,
-        "subject": subject, "edits": edits,
+        "file": file, "key": key, "line": line, "column": column, "message": message,
+        "help": help, "subject": subject, "edits": edits,
     })
 }
