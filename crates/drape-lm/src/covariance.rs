@@ -108,7 +108,7 @@ impl Covariance {
     /// [`minimise`]: crate::minimise()
     #[must_use]
     pub fn new(
-        problem: &impl Problem,
+        problem: &(impl Problem + ?Sized),
         parameters: &[Parameter],
         report: &Report,
         loss: Loss,

@@ -46,7 +46,7 @@ impl Difference {
     /// The difference is one-sided at a bound, and where the residuals on one side are not finite.
     pub(crate) fn jacobian(
         self,
-        problem: &impl Problem,
+        problem: &(impl Problem + ?Sized),
         parameters: &[Parameter],
         point: Evaluated<'_>,
         out: &mut DMatrix<f64>,
@@ -95,7 +95,7 @@ impl Difference {
 }
 
 /// Evaluations of the residuals on either side of a point.
-struct Sides<'a, P> {
+struct Sides<'a, P: ?Sized> {
     problem: &'a P,
     point: Evaluated<'a>,
     /// Values of the parameters. Between two evaluations they are the values of `point`.
@@ -103,7 +103,7 @@ struct Sides<'a, P> {
     evaluations: usize,
 }
 
-impl<P: Problem> Sides<'_, P> {
+impl<P: Problem + ?Sized> Sides<'_, P> {
     /// Writes the residuals with parameter `j` at `end` into `residuals` and returns `end`.
     ///
     /// If these residuals are not finite, or if `end` is the value of the parameter at the point,

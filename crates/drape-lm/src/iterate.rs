@@ -11,7 +11,7 @@ use crate::problem::{Parameter, Problem};
 use crate::trust_region::TrustRegion;
 
 /// Current point, its residuals and their linear model.
-pub(crate) struct Iterate<'a, P> {
+pub(crate) struct Iterate<'a, P: ?Sized> {
     problem: &'a P,
     parameters: &'a [Parameter],
     loss: Loss,
@@ -50,7 +50,7 @@ pub(crate) struct Trial {
     pub(crate) residuals: DVector<f64>,
 }
 
-impl<'a, P: Problem> Iterate<'a, P> {
+impl<'a, P: Problem + ?Sized> Iterate<'a, P> {
     /// Creates the iterate of `problem` at the values `start`, without a linear model yet.
     pub(crate) fn new(
         problem: &'a P,

@@ -36,12 +36,12 @@ type Rule<'a> = Box<dyn Fn(&[f64]) -> f64 + Sync + 'a>;
 /// let values = linked.complete(&report.parameters);
 /// assert!((values[0] - 4.0).abs() < 1e-12 && (values[1] - 2.0).abs() < 1e-12);
 /// ```
-pub struct Linked<'a, P> {
+pub struct Linked<'a, P: ?Sized> {
     problem: &'a P,
     links: Vec<(usize, Rule<'a>)>,
 }
 
-impl<'a, P: Problem> Linked<'a, P> {
+impl<'a, P: Problem + ?Sized> Linked<'a, P> {
     /// Wraps `problem` without any links.
     #[must_use]
     pub fn new(problem: &'a P) -> Self {
@@ -69,7 +69,9 @@ impl<'a, P: Problem> Linked<'a, P> {
         let mut parameters = parameters.to_vec();
         for (target, _) in &self.links {
             if let Some(parameter) = parameters.get_mut(*target) {
-                *parameter = Parameter::new(starts[*target]).fixed();
+                // The entry itself is ignored, and must be a number even where the rule has none.
+                let value = Some(starts[*target]).filter(|value| value.is_finite());
+                *parameter = Parameter::new(value.unwrap_or(0.0)).fixed();
             }
         }
         parameters
@@ -112,7 +114,7 @@ impl<'a, P: Problem> Linked<'a, P> {
     }
 }
 
-impl<P: Problem> Problem for Linked<'_, P> {
+impl<P: Problem + ?Sized> Problem for Linked<'_, P> {
     fn residual_count(&self) -> usize {
         self.problem.residual_count()
     }

@@ -3,6 +3,9 @@
 //! [`minimise`] is the entry point of the crate. `iterate` holds the current point and computes the
 //! steps.
 
+use std::ops::ControlFlow;
+
+use crate::check::{InvalidInput, refusal};
 use crate::difference::Difference;
 use crate::iterate::Iterate;
 use crate::loss::Loss;
@@ -111,6 +114,15 @@ pub enum Stop {
     NotFinite,
     /// Problem without parameters or without residuals.
     Empty,
+    /// Refusal of the input, before the residuals were evaluated.
+    Invalid {
+        /// Index of the parameter that is refused, or `None` if weights are refused.
+        parameter: Option<usize>,
+        /// Reason of the refusal.
+        reason: InvalidInput,
+    },
+    /// Request by the function that watches the iterations.
+    Interrupted,
 }
 
 impl Stop {
@@ -120,6 +132,19 @@ impl Stop {
     pub fn converged(self) -> bool {
         matches!(self, Self::Reduction | Self::Step | Self::Gradient | Self::Exact)
     }
+}
+
+/// State of a minimisation before a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Iteration<'a> {
+    /// Number of steps so far, accepted or rejected.
+    pub number: usize,
+    /// Best parameters so far.
+    pub parameters: &'a [f64],
+    /// Sum of the losses at `parameters`.
+    pub sum: f64,
+    /// Number of evaluations of the residuals so far.
+    pub evaluations: usize,
 }
 
 /// Result of a minimisation.
@@ -181,10 +206,44 @@ pub struct Report {
 /// ```
 #[must_use]
 pub fn minimise(
-    problem: &impl Problem,
+    problem: &(impl Problem + ?Sized),
     parameters: &[Parameter],
     settings: &MinimiserSettings,
 ) -> Report {
+    minimise_watched(problem, parameters, settings, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Minimises as [`minimise`] does, and calls `watch` before each step. The minimisation ends with
+/// [`Stop::Interrupted`] and the best parameters so far when `watch` returns
+/// [`ControlFlow::Break`].
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use drape_lm::{MinimiserSettings, Parameter, ResidualFunction, Stop, minimise_watched};
+///
+/// let root_of_two = ResidualFunction::new(1, |p, residuals| residuals[0] = p[0] * p[0] - 2.0);
+/// let start = [Parameter::new(100.0)];
+/// let settings = MinimiserSettings::default();
+/// let report = minimise_watched(&root_of_two, &start, &settings, &mut |iteration| {
+///     // One per cent is good enough here.
+///     if iteration.sum < 1e-4 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// });
+/// assert_eq!(report.stop, Stop::Interrupted);
+/// assert!((report.parameters[0] - 2.0f64.sqrt()).abs() < 0.01);
+/// ```
+#[must_use]
+pub fn minimise_watched(
+    problem: &(impl Problem + ?Sized),
+    parameters: &[Parameter],
+    settings: &MinimiserSettings,
+    watch: &mut dyn FnMut(Iteration<'_>) -> ControlFlow<()>,
+) -> Report {
+    if let Some(stop) = refusal(problem, parameters) {
+        let parameters = parameters.iter().map(|parameter| parameter.start).collect();
+        let (rms, sum) = (f64::NAN, f64::NAN);
+        return Report { parameters, rms, sum, iterations: 0, evaluations: 0, stop };
+    }
     let start: Vec<f64> = parameters.iter().map(|p| p.clamp(p.start)).collect();
     let mut iterate = Iterate::new(problem, parameters, &start, settings.loss);
     if parameters.is_empty() || iterate.residuals.is_empty() {
@@ -201,6 +260,15 @@ pub fn minimise(
     for iteration in 0..settings.iterations {
         if iterate.sum == 0.0 {
             return report(&iterate, iteration, Stop::Exact);
+        }
+        let state = Iteration {
+            number: iteration,
+            parameters: &iterate.values,
+            sum: iterate.sum,
+            evaluations: iterate.evaluations,
+        };
+        if watch(state).is_break() {
+            return report(&iterate, iteration, Stop::Interrupted);
         }
         if !iterate.is_linearised() {
             return report(&iterate, iteration, Stop::NotFinite);
@@ -273,7 +341,11 @@ pub fn minimise(
 
 /// Returns the damped `step` with its second-order correction, or `None` if the correction is too
 /// large or is not finite. An undamped `step` is returned without a correction.
-fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) -> Option<Vec<f64>> {
+fn corrected(
+    iterate: &mut Iterate<impl Problem + ?Sized>,
+    step: &[f64],
+    damping: f64,
+) -> Option<Vec<f64>> {
     if damping == 0.0 {
         return Some(step.to_vec());
     }
@@ -290,7 +362,7 @@ fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) ->
 /// Returns the report for an `iterate` that no step can improve. The reason is [`Stop::Step`], or
 /// [`Stop::Stalled`] if both the gradient and the residuals are too large for a minimum.
 fn no_step(
-    iterate: Iterate<impl Problem>,
+    iterate: Iterate<impl Problem + ?Sized>,
     settings: &MinimiserSettings,
     iterations: usize,
 ) -> Report {
@@ -304,7 +376,7 @@ fn no_step(
 /// Returns the report of `iterate` after undamped steps, if the `settings` ask for them. The steps
 /// go on as long as they shrink and the sum rises by no more than rounding.
 fn polish(
-    mut iterate: Iterate<impl Problem>,
+    mut iterate: Iterate<impl Problem + ?Sized>,
     settings: &MinimiserSettings,
     iterations: usize,
     stop: Stop,
@@ -342,7 +414,7 @@ fn polish(
 }
 
 /// Returns the report of the current point of `iterate`.
-fn report(iterate: &Iterate<impl Problem>, iterations: usize, stop: Stop) -> Report {
+fn report(iterate: &Iterate<impl Problem + ?Sized>, iterations: usize, stop: Stop) -> Report {
     let count = iterate.residuals.len().max(1) as f64;
     Report {
         parameters: iterate.values.clone(),

@@ -41,14 +41,15 @@ pub trait Problem {
         false
     }
 
-    /// Returns the weight of each squared residual. The default, an empty slice, means that every
-    /// weight is one.
+    /// Returns the weight of each squared residual, not negative. The default, an empty slice, means
+    /// that every weight is one.
     fn weights(&self) -> &[f64] {
         &[]
     }
 }
 
-/// Start, bounds and scale of one parameter.
+/// Start, bounds and scale of one parameter. A minimisation refuses a parameter that is no number,
+/// and names it.
 ///
 /// ```
 /// use drape_lm::Parameter;
@@ -77,7 +78,8 @@ impl Parameter {
         Self { start, lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
     }
 
-    /// Returns the parameter with the bounds `lower` and `upper`.
+    /// Returns the parameter with the bounds `lower` and `upper`. A minimisation refuses bounds of
+    /// which `lower` is above `upper`.
     #[must_use]
     pub fn between(self, lower: f64, upper: f64) -> Self {
         Self { lower, upper, ..self }

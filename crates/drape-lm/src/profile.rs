@@ -110,7 +110,7 @@ impl Interval {
 /// An entry of the result is [`Undetermined`], with the reason, if the parameter has no interval.
 #[must_use]
 pub fn profile(
-    problem: &(impl Problem + Sync),
+    problem: &(impl Problem + Sync + ?Sized),
     parameters: &[Parameter],
     report: &Report,
     settings: &ProfileSettings,
@@ -135,7 +135,7 @@ pub fn profile(
 }
 
 /// Fit whose parameters are profiled.
-struct Profile<'a, P> {
+struct Profile<'a, P: ?Sized> {
     problem: &'a P,
     parameters: &'a [Parameter],
     /// Report of the fit.
@@ -158,7 +158,7 @@ struct Point {
     excess: f64,
 }
 
-impl<P: Problem> Profile<'_, P> {
+impl<P: Problem + ?Sized> Profile<'_, P> {
     /// Returns the interval of parameter `j`, or the reason why it has none.
     fn interval(&self, j: usize) -> Result<Interval, Undetermined> {
         match self.covariance.undetermined(j) {

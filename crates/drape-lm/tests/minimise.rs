@@ -1,30 +1,13 @@
 //! The minimiser against problems whose minima are known by other means.
 
-use drape_lm::{MinimiserSettings, Parameter, Problem, Stop, minimise};
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
+use drape_lm::{
+    InvalidInput, MinimiserSettings, Parameter, Problem, ResidualFunction, Stop, minimise,
+    minimise_watched,
+};
 use nalgebra::{DMatrix, DVector};
-
-/// Problem from a function of the parameters.
-struct Model<F> {
-    count: usize,
-    weights: Vec<f64>,
-    residuals: F,
-}
-
-impl<F: Fn(&[f64], &mut [f64])> Problem for Model<F> {
-    fn residual_count(&self) -> usize {
-        self.count
-    }
-    fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
-        (self.residuals)(parameters, out);
-    }
-    fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-}
-
-fn model<F: Fn(&[f64], &mut [f64])>(count: usize, residuals: F) -> Model<F> {
-    Model { count, weights: Vec::new(), residuals }
-}
 
 fn starts(values: &[f64]) -> Vec<Parameter> {
     values.iter().map(|&value| Parameter::new(value)).collect()
@@ -32,7 +15,7 @@ fn starts(values: &[f64]) -> Vec<Parameter> {
 
 #[test]
 fn rosenbrocks_valley_is_followed_to_its_end() {
-    let valley = model(2, |p, r| {
+    let valley = ResidualFunction::new(2, |p, r| {
         r[0] = 10.0 * (p[1] - p[0] * p[0]);
         r[1] = 1.0 - p[0];
     });
@@ -47,7 +30,7 @@ fn rosenbrocks_valley_is_followed_to_its_end() {
 fn powells_singular_problem_is_solved_as_far_as_its_singularity_allows() {
     // The Jacobian loses rank at the minimum (0, 0, 0, 0): convergence there is linear, not
     // quadratic.
-    let singular = model(4, |p, r| {
+    let singular = ResidualFunction::new(4, |p, r| {
         r[0] = p[0] + 10.0 * p[1];
         r[1] = 5f64.sqrt() * (p[2] - p[3]);
         r[2] = (p[1] - 2.0 * p[2]).powi(2);
@@ -65,15 +48,12 @@ fn a_linear_fit_with_weights_solves_the_normal_equations() {
     let y: Vec<f64> =
         x.iter().enumerate().map(|(i, x)| 3.0 - 2.0 * x + ((i * 7) % 5) as f64).collect();
     let weights: Vec<f64> = (0..20).map(|i| 1.0 + f64::from(i % 3)).collect();
-    let line = Model {
-        count: 20,
-        weights: weights.clone(),
-        residuals: |p: &[f64], r: &mut [f64]| {
-            for ((r, x), y) in r.iter_mut().zip(&x).zip(&y) {
-                *r = p[0] + p[1] * x - y;
-            }
-        },
-    };
+    let line = ResidualFunction::new(20, |p, r| {
+        for ((r, x), y) in r.iter_mut().zip(&x).zip(&y) {
+            *r = p[0] + p[1] * x - y;
+        }
+    })
+    .with_weights(weights.clone());
     let report = minimise(&line, &starts(&[0.0, 0.0]), &MinimiserSettings::default());
     let a = DMatrix::from_fn(20, 2, |i, j| if j == 0 { 1.0 } else { x[i] });
     let w = DMatrix::from_diagonal(&DVector::from_vec(weights));
@@ -89,7 +69,7 @@ fn a_linear_fit_with_weights_solves_the_normal_equations() {
 fn a_bound_holds_and_the_others_still_reach_their_conditional_minimum() {
     // Least squares of (p − 3, p + q − 5, q − 4): p = 7/3, q = 10/3; with p ≤ 2, q = (5 − 2 + 4)/2
     // = 3.5.
-    let plane = model(3, |p, r| {
+    let plane = ResidualFunction::new(3, |p, r| {
         r[0] = p[0] - 3.0;
         r[1] = p[0] + p[1] - 5.0;
         r[2] = p[1] - 4.0;
@@ -105,7 +85,7 @@ fn a_bound_holds_and_the_others_still_reach_their_conditional_minimum() {
 
 #[test]
 fn a_start_at_a_bound_leaves_it_when_the_minimum_is_inside() {
-    let decay = model(30, |p, r| {
+    let decay = ResidualFunction::new(30, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
             let t = i as f64 / 10.0;
             *r = p[0] * (-t / p[1]).exp() - 2.0 * (-t / 0.7).exp();
@@ -120,7 +100,7 @@ fn a_start_at_a_bound_leaves_it_when_the_minimum_is_inside() {
 #[test]
 fn units_of_the_parameters_do_not_matter() {
     let solve = |unit: f64| {
-        let power = model(20, move |p, r| {
+        let power = ResidualFunction::new(20, move |p, r| {
             for (i, r) in r.iter_mut().enumerate() {
                 let x = 1.0 + i as f64 / 5.0;
                 *r = p[0] * x.powf(p[1] * unit) - 3.0 * x.powf(0.6);
@@ -139,7 +119,7 @@ fn units_of_the_parameters_do_not_matter() {
 #[test]
 fn a_trial_without_a_value_is_refused_and_the_search_goes_on() {
     // The full first step from 0.1 would take the logarithm of a negative number.
-    let log = model(1, |p, r| r[0] = p[0].ln());
+    let log = ResidualFunction::new(1, |p, r| r[0] = p[0].ln());
     let report = minimise(&log, &starts(&[4.0]), &MinimiserSettings::default());
     assert!((report.parameters[0] - 1.0).abs() < 1e-9, "{report:?}");
     let report = minimise(&log, &starts(&[-1.0]), &MinimiserSettings::default());
@@ -150,7 +130,7 @@ fn a_trial_without_a_value_is_refused_and_the_search_goes_on() {
 fn a_minimum_at_a_jump_is_no_convergence() {
     // The residual jumps at its minimum: no step, however short, achieves the predicted
     // reduction.
-    let jump = model(1, |p, r| r[0] = if p[0] > 0.3 { 1.0 + p[0] } else { 5.0 });
+    let jump = ResidualFunction::new(1, |p, r| r[0] = if p[0] > 0.3 { 1.0 + p[0] } else { 5.0 });
     let report = minimise(&jump, &starts(&[2.0]), &MinimiserSettings::default());
     assert_eq!(report.stop, Stop::Stalled, "{report:?}");
     assert!(!report.stop.converged());
@@ -160,7 +140,7 @@ fn a_minimum_at_a_jump_is_no_convergence() {
 
 #[test]
 fn a_parameter_without_effect_stays_where_it_started() {
-    let first = model(2, |p, r| {
+    let first = ResidualFunction::new(2, |p, r| {
         r[0] = p[0] - 1.0;
         r[1] = 2.0 * p[0] - 2.0;
     });
@@ -196,7 +176,7 @@ fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
 #[test]
 fn a_lower_bound_holds_as_an_upper_one_does() {
     // The plane of the upper bound with the sign of p changed.
-    let plane = model(3, |p, r| {
+    let plane = ResidualFunction::new(3, |p, r| {
         r[0] = p[0] + 3.0;
         r[1] = p[1] - p[0] - 5.0;
         r[2] = p[1] - 4.0;
@@ -210,8 +190,8 @@ fn a_lower_bound_holds_as_an_upper_one_does() {
 
 /// Distance of the parabola's points (t, t²) from (0, 3/4): least at t = ±1/2, where undamped steps
 /// gain a factor of two each.
-fn parabola() -> Model<impl Fn(&[f64], &mut [f64])> {
-    model(2, |p, r| {
+fn parabola() -> ResidualFunction<impl Fn(&[f64], &mut [f64])> {
+    ResidualFunction::new(2, |p, r| {
         r[0] = p[0];
         r[1] = p[0] * p[0] - 0.75;
     })
@@ -256,7 +236,7 @@ fn the_number_of_steps_is_the_smallest_limit_with_which_the_fit_converges() {
     // The last step is accepted: it gains little.
     check_steps(&parabola(), 1e-6);
     // The last step is rejected: what it gains is below the rounding of the sum.
-    let floor = model(2, |p, r| {
+    let floor = ResidualFunction::new(2, |p, r| {
         r[0] = p[0].exp() - 2.0;
         r[1] = 1.0;
     });
@@ -267,7 +247,7 @@ fn the_number_of_steps_is_the_smallest_limit_with_which_the_fit_converges() {
 fn a_step_uphill_of_forward_differences_is_tried_again_with_central_ones() {
     // The scale makes the forward step 0.15, and a slope over it has the wrong sign at the start;
     // the central formula has the slope of a quadratic exactly.
-    let bowl = model(2, |p, r| {
+    let bowl = ResidualFunction::new(2, |p, r| {
         r[0] = 1.0 + 0.25 * p[0] * p[0];
         r[1] = p[0];
     });
@@ -275,4 +255,91 @@ fn a_step_uphill_of_forward_differences_is_tried_again_with_central_ones() {
     let report = minimise(&bowl, &start, &MinimiserSettings::default());
     assert!(report.stop.converged(), "{report:?}");
     assert!(report.parameters[0].abs() < 1e-9, "{report:?}");
+}
+
+#[test]
+fn problems_of_several_kinds_are_minimised_through_one_pointer() {
+    let line = ResidualFunction::new(2, |p, r| r.copy_from_slice(&[p[0] - 3.0, p[0] - 3.0]));
+    let problems: [Box<dyn Problem>; 2] = [Box::new(line), Box::new(parabola())];
+    let minima = problems.map(|problem| {
+        minimise(&*problem, &starts(&[1.0]), &MinimiserSettings::default()).parameters[0]
+    });
+    assert!((minima[0] - 3.0).abs() < 1e-12 && (minima[1] - 0.5).abs() < 1e-6, "{minima:?}");
+}
+
+#[test]
+fn a_watcher_sees_the_sum_fall_and_ends_the_minimisation() {
+    let calls = Cell::new(0);
+    let valley = ResidualFunction::new(2, |p, r| {
+        calls.set(calls.get() + 1);
+        r.copy_from_slice(&[10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]);
+    });
+    let (start, settings) = (starts(&[-1.2, 1.0]), MinimiserSettings::default());
+    let whole = minimise(&valley, &start, &settings);
+
+    // A watcher that only looks changes nothing.
+    let mut sums = Vec::new();
+    calls.set(0);
+    let watched = minimise_watched(&valley, &start, &settings, &mut |iteration| {
+        assert_eq!(iteration.number, sums.len());
+        assert!(iteration.evaluations <= calls.get());
+        sums.push(iteration.sum);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(watched, whole);
+    assert!(sums.windows(2).all(|pair| pair[1] <= pair[0]) && sums.len() > 5, "{sums:?}");
+
+    // A watcher that stops gets the best point that it saw.
+    let mut seen = Vec::new();
+    let stopped = minimise_watched(&valley, &start, &settings, &mut |iteration| {
+        seen = iteration.parameters.to_vec();
+        if iteration.number == 4 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert_eq!((stopped.stop, stopped.iterations), (Stop::Interrupted, 4));
+    assert_eq!((stopped.parameters, stopped.sum), (seen, sums[4]));
+}
+
+#[test]
+fn input_that_is_no_number_is_refused_with_the_parameter_and_the_reason() {
+    let good = Parameter::new(1.0);
+    let (inf, nan) = (f64::INFINITY, f64::NAN);
+    let cases = [
+        (good.between(5.0, 2.0), InvalidInput::ReversedBounds),
+        (good.between(nan, 2.0), InvalidInput::BoundNotANumber),
+        (good.between(0.0, nan), InvalidInput::BoundNotANumber),
+        (good.between(inf, inf), InvalidInput::BoundNotANumber),
+        (good.between(-inf, -inf), InvalidInput::BoundNotANumber),
+        (Parameter::new(nan), InvalidInput::StartNotFinite),
+        (Parameter::new(nan).with_scale(1.0).between(0.0, 2.0), InvalidInput::StartNotFinite),
+        (Parameter::new(inf), InvalidInput::StartNotFinite),
+        (Parameter::new(-inf).between(-inf, 3.0), InvalidInput::StartNotFinite),
+        (good.with_scale(0.0), InvalidInput::ScaleNotPositive),
+        (good.with_scale(-1.0), InvalidInput::ScaleNotPositive),
+        (good.with_scale(nan), InvalidInput::ScaleNotPositive),
+        (good.with_scale(inf), InvalidInput::ScaleNotPositive),
+    ];
+    let never = ResidualFunction::new(2, |_, _| panic!("the input is refused before"));
+    for (parameter, reason) in cases {
+        let report = minimise(&never, &[good, parameter], &MinimiserSettings::default());
+        assert_eq!(report.stop, Stop::Invalid { parameter: Some(1), reason }, "{parameter:?}");
+        assert!(!report.stop.converged() && report.evaluations == 0 && report.sum.is_nan());
+        assert_eq!(report.parameters.len(), 2);
+    }
+
+    let line = ResidualFunction::new(2, |p, r| r.copy_from_slice(&[p[0] - 1.0, p[0] + 1.0]));
+    let weighted = |weights: &[f64]| {
+        let line = line.clone().with_weights(weights.to_vec());
+        minimise(&line, &[good], &MinimiserSettings::default()).stop
+    };
+    let refused = |reason| Stop::Invalid { parameter: None, reason };
+    assert_eq!(weighted(&[1.0]), refused(InvalidInput::WeightCount));
+    assert_eq!(weighted(&[1.0; 3]), refused(InvalidInput::WeightCount));
+    assert_eq!(weighted(&[1.0, -1.0]), refused(InvalidInput::WeightNotFinite));
+    assert_eq!(weighted(&[nan, 1.0]), refused(InvalidInput::WeightNotFinite));
+    assert_eq!(weighted(&[inf, 1.0]), refused(InvalidInput::WeightNotFinite));
+    assert!(weighted(&[0.0, 1.0]).converged());
+
+    // An infinite start with finite bounds begins at a bound.
+    let bounded = Parameter::new(inf).with_scale(1.0).between(-2.0, 0.5);
+    assert!(minimise(&line, &[bounded], &MinimiserSettings::default()).stop.converged());
 }

@@ -1,12 +1,12 @@
 //! Standard errors and correlations against the normal equations.
 
 use drape_lm::{
-    Covariance, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings, Undetermined,
-    minimise, profile,
+    Covariance, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings, ResidualFunction,
+    Undetermined, minimise, profile,
 };
 use nalgebra::{DMatrix, DVector};
 
-use crate::{line, model, scatter, starts};
+use crate::{line, scatter, starts};
 
 #[test]
 fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
@@ -42,7 +42,7 @@ fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
 
 #[test]
 fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
-    let product = model(20, |p, r| {
+    let product = ResidualFunction::new(20, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
             *r = p[0] + p[1] * p[3] * i as f64 - (1.0 + 6.0 * i as f64 + scatter(i));
         }
@@ -75,7 +75,7 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
 
 #[test]
 fn as_many_parameters_as_residuals_leave_no_error_to_estimate() {
-    let exact = model(2, |p, r| {
+    let exact = ResidualFunction::new(2, |p, r| {
         r[0] = p[0] - 1.0;
         r[1] = p[0] + p[1] - 3.0;
     });

@@ -1,9 +1,9 @@
 //! Linked parameters against the same problems without links.
 
-use drape_lm::{Covariance, Linked, Loss, MinimiserSettings, Problem, minimise};
+use drape_lm::{Covariance, Linked, Loss, MinimiserSettings, Problem, ResidualFunction, minimise};
 use nalgebra::DMatrix;
 
-use crate::{line, model, starts};
+use crate::{line, starts};
 
 #[test]
 fn linked_parameters_follow_and_pass_their_errors_on() {
@@ -14,7 +14,7 @@ fn linked_parameters_follow_and_pass_their_errors_on() {
     assert_eq!(parameters[1].start, -0.2);
     let settings = MinimiserSettings::default();
     let report = minimise(&linked, &parameters, &settings);
-    let written = model(22, |p: &[f64], r: &mut [f64]| {
+    let written = ResidualFunction::new(22, |p: &[f64], r: &mut [f64]| {
         line(&[]).residuals(&[p[0], -p[0] * p[0] / 20.0], r);
     });
     let other = minimise(&written, &starts(&[2.0]), &settings);

@@ -1,12 +1,14 @@
 //! Losses with and without outliers.
 
-use drape_lm::{Covariance, Loss, MinimiserSettings, ProfileSettings, minimise, profile};
+use drape_lm::{
+    Covariance, Loss, MinimiserSettings, ProfileSettings, ResidualFunction, minimise, profile,
+};
 
-use crate::{line, model, scatter, starts};
+use crate::{line, scatter, starts};
 
 #[test]
 fn robust_losses_hardly_see_outliers_that_spoil_least_squares() {
-    let spoilt = model(22, |p, r| {
+    let spoilt = ResidualFunction::new(22, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
             let outlier = if i % 7 == 3 { 40.0 } else { 0.0 };
             *r = p[0] + p[1] * i as f64 - (3.0 - 0.5 * i as f64 + 0.1 * scatter(i) + outlier);

@@ -6,30 +6,7 @@ mod loss;
 mod nonsense;
 mod profile;
 
-use drape_lm::{Parameter, Problem};
-
-/// Problem from a function of the parameters.
-struct Model<F> {
-    count: usize,
-    weights: Vec<f64>,
-    residuals: F,
-}
-
-impl<F: Fn(&[f64], &mut [f64])> Problem for Model<F> {
-    fn residual_count(&self) -> usize {
-        self.count
-    }
-    fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
-        (self.residuals)(parameters, out);
-    }
-    fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-}
-
-fn model<F: Fn(&[f64], &mut [f64])>(count: usize, residuals: F) -> Model<F> {
-    Model { count, weights: Vec::new(), residuals }
-}
+use drape_lm::{Parameter, ResidualFunction};
 
 fn starts(values: &[f64]) -> Vec<Parameter> {
     values.iter().map(|&value| Parameter::new(value)).collect()
@@ -41,14 +18,11 @@ fn scatter(i: usize) -> f64 {
 }
 
 /// Straight line through scattered points, with weights.
-fn line(weights: &[f64]) -> Model<impl Fn(&[f64], &mut [f64]) + use<>> {
-    Model {
-        count: 22,
-        weights: weights.to_vec(),
-        residuals: |p: &[f64], r: &mut [f64]| {
-            for (i, r) in r.iter_mut().enumerate() {
-                *r = p[0] + p[1] * i as f64 - (3.0 - 0.5 * i as f64 + scatter(i));
-            }
-        },
-    }
+fn line(weights: &[f64]) -> ResidualFunction<impl Fn(&[f64], &mut [f64]) + use<>> {
+    let line = ResidualFunction::new(22, |p, r| {
+        for (i, r) in r.iter_mut().enumerate() {
+            *r = p[0] + p[1] * i as f64 - (3.0 - 0.5 * i as f64 + scatter(i));
+        }
+    });
+    line.with_weights(weights.to_vec())
 }

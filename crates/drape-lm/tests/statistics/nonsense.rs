@@ -1,15 +1,16 @@
 //! Problems that cannot be fitted.
 
 use drape_lm::{
-    Covariance, MinimiserSettings, Parameter, ProfileSettings, Stop, minimise, profile,
+    Covariance, InvalidInput, MinimiserSettings, Parameter, ProfileSettings, ResidualFunction,
+    Stop, minimise, profile,
 };
 
-use crate::{Model, starts};
+use crate::starts;
 
 #[test]
 fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
     let settings = MinimiserSettings::default();
-    type Plain = Model<fn(&[f64], &mut [f64])>;
+    type Plain = ResidualFunction<fn(&[f64], &mut [f64])>;
     let all = |problem: &Plain, parameters: &[Parameter]| {
         let report = minimise(problem, parameters, &settings);
         let covariance = Covariance::new(problem, parameters, &report, settings.loss);
@@ -25,7 +26,7 @@ fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
         }
         report.stop
     };
-    let make = |count, residuals| Plain { count, weights: Vec::new(), residuals };
+    let make = Plain::new;
     let ones = starts(&[1.0, 1.0]);
     let never = make(3, |_, r| r.fill(f64::NAN));
     assert_eq!(all(&never, &ones), Stop::NotFinite);
@@ -40,7 +41,10 @@ fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
     let line = make(3, |p, r| {
         r.copy_from_slice(&[p[0] - 1.0, p[0] + p[1], p[1]]);
     });
-    assert_eq!(all(&line, &starts(&[f64::NAN, 1.0])), Stop::NotFinite);
-    let weighted = Model { weights: vec![-1.0, f64::NAN, 1.0, 1.0, 1.0], ..line };
-    assert_eq!(all(&weighted, &ones), Stop::NotFinite);
+    let reason = InvalidInput::StartNotFinite;
+    let refused = Stop::Invalid { parameter: Some(0), reason };
+    assert_eq!(all(&line, &starts(&[f64::NAN, 1.0])), refused);
+    let reason = InvalidInput::WeightNotFinite;
+    let weighted = line.with_weights(vec![-1.0, f64::NAN, 1.0]);
+    assert_eq!(all(&weighted, &ones), Stop::Invalid { parameter: None, reason });
 }

@@ -2,11 +2,11 @@
 
 use drape_lm::{
     Covariance, End, Interval, Loss, MinimiserSettings, Parameter, Problem, ProfileSettings,
-    Undetermined, minimise, profile, student_quantile,
+    ResidualFunction, Undetermined, minimise, profile, student_quantile,
 };
 use nalgebra::DMatrix;
 
-use crate::{Model, line, model, scatter, starts};
+use crate::{line, scatter, starts};
 
 #[test]
 fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
@@ -39,8 +39,8 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
 
 /// Decay measured until it is hardly half over: its rate is determined, with an asymmetric
 /// interval.
-fn decay() -> Model<impl Fn(&[f64], &mut [f64])> {
-    model(14, |p, r| {
+fn decay() -> ResidualFunction<impl Fn(&[f64], &mut [f64])> {
+    ResidualFunction::new(14, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
             let t = i as f64 / 10.0;
             *r = p[0] * (-t / p[1]).exp() - (2.0 * (-t / 1.8).exp() + 0.15 * scatter(i));
@@ -112,7 +112,7 @@ fn a_parameter_at_its_bound_has_a_one_sided_interval_and_no_error() {
 #[test]
 fn an_interval_without_an_end_says_so() {
     // All points but the first are on the plateau: any faster rise fits as well.
-    let rise = model(12, |p, r| {
+    let rise = ResidualFunction::new(12, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
             let t = i as f64;
             *r = p[0] * (1.0 - (-p[1] * t).exp()) - (5.0 * f64::from(i > 0) + 0.1 * scatter(i));
@@ -140,7 +140,7 @@ fn an_interval_without_an_end_says_so() {
 fn a_false_minimum_is_found_out_by_its_profile() {
     // Minima near all whole numbers, deeper towards −3; the maxima between them are within the
     // noise of the other residuals.
-    let valleys = model(22, |p, r| {
+    let valleys = ResidualFunction::new(22, |p, r| {
         r[0] = 0.8 * (std::f64::consts::PI * p[0]).sin();
         r[1] = 0.3 * (p[0] + 3.0);
         for (i, r) in r.iter_mut().enumerate().skip(2) {
@@ -180,7 +180,7 @@ fn a_model_that_ends_beyond_its_interval_has_both_ends_in_any_unit() {
     // above.
     let quantile = student_quantile(0.95, 21);
     for unit in [1e-3, 1.0, 1e3] {
-        let bent = model(22, move |p, r| {
+        let bent = ResidualFunction::new(22, move |p, r| {
             r.fill(0.5 / quantile);
             r[0] = ((1.0 + p[0] / unit).powf(1.5) - 1.0) / 1.5;
         });
@@ -229,7 +229,7 @@ fn a_parameter_at_its_bound_has_the_end_of_its_parabola_in_any_unit() {
 #[test]
 fn an_exact_fit_has_an_interval_as_narrow_as_its_rounding() {
     // Near a million numbers are 1.2e-10 apart: a shorter move of the parameter changes nothing.
-    let exact = model(3, |p, r| r.fill((1e6 + p[0]) - 1_000_001.0));
+    let exact = ResidualFunction::new(3, |p, r| r.fill((1e6 + p[0]) - 1_000_001.0));
     let found = interval(&exact, Parameter::new(2.0));
     for end in [&found.lower, &found.upper] {
         let End::At(value) = end else { panic!("{found:?}") };

@@ -192,5 +192,7 @@ fn stop(stop: Stop) -> &'static str {
         Stop::Iterations => "the limit on iterations was reached",
         Stop::NotFinite => "the starting values give no finite load",
         Stop::Empty => "there is nothing to fit",
+        Stop::Invalid { .. } => "a start, a bound or a weight is invalid",
+        Stop::Interrupted => "the search was interrupted",
     }
 }
