@@ -32,6 +32,16 @@ pub enum Error {
         /// Name of the curve.
         name: String,
     },
+    /// Curve with fewer points than any law needs: measure more points.
+    #[error("{name}: a law needs {needed} points, and there are {points}; measure more points")]
+    TooFewPoints {
+        /// Name of the curve.
+        name: String,
+        /// Number of points of the curve.
+        points: usize,
+        /// Number of points that the law with the fewest parameters needs.
+        needed: usize,
+    },
     /// Curve without a later cycle that goes further than the cycles before it: measure such a
     /// cycle.
     #[error(

@@ -1,7 +1,10 @@
 //! A fabric from values alone, with a note on everything that the sheet does not have.
 
 use drape_fabric::{BendingBackbone, Fabric, Law, drive};
-use drape_fit::{FitSettings, FrictionOrder, LoopModel, identify, identify_with};
+use drape_fit::{
+    Error, FitSettings, FrictionOrder, LoopModel, identify, identify_bending, identify_shear,
+    identify_tensile, identify_with,
+};
 use drape_kes::{BendingPoints, Curve, Direction, Model, ShearPoints, Sheet, Test, Values};
 
 const STEPS: usize = 4000;
@@ -251,4 +254,40 @@ fn a_sheet_asks_for_a_law_and_the_settings_overrule_it() {
     let fit = identify_with(&sheet, &FitSettings { bending: model, ..FitSettings::default() });
     let bending = fit.expect("identified").fabric.warp.bending;
     assert!(matches!(bending.backbone, BendingBackbone::Linear { .. }), "{bending:?}");
+}
+
+#[test]
+fn a_curve_of_few_points_gives_a_law_of_few_parameters_or_an_error() {
+    let settings = FitSettings::default();
+    let tests = [Test::Tensile, Test::Bending, Test::Shear];
+    for (test, points) in tests.into_iter().flat_map(|test| (2_u32..9).map(move |n| (test, n))) {
+        // A rise that is curved, so that no law of two parameters meets it exactly.
+        let deformation: Vec<f64> = (0..points).map(|i| 0.01 * f64::from(i)).collect();
+        let load = deformation.iter().map(|q| 30.0 * q + 400.0 * q * q).collect();
+        let Ok(curve) = Curve::new(test, Direction::Warp, deformation, load) else {
+            continue;
+        };
+        let parameters = match test {
+            Test::Tensile => identify_tensile(&curve, &settings).map(|law| law.fit.parameters),
+            Test::Bending => identify_bending(&curve, &settings).map(|law| law.fit.parameters),
+            _ => identify_shear(&curve, &settings).map(|law| law.fit.parameters),
+        };
+        let needed = match parameters {
+            Ok(parameters) => {
+                assert!(points >= 4 && parameters.len() <= points as usize, "{test:?}: {points}");
+                continue;
+            }
+            Err(Error::TooFewPoints { points: counted, needed, .. }) => {
+                assert_eq!(counted, points as usize);
+                needed
+            }
+            Err(other) => panic!("{test:?} of {points} points: {other}"),
+        };
+        assert!(needed == 4 && points < 4, "{test:?} of {points} points");
+    }
+
+    let two = Curve::new(Test::Bending, Direction::Warp, vec![0.0, 1.0], vec![0.0, 1e-5]);
+    let refused = identify_bending(&two.expect("a curve"), &settings).map(|law| law.law);
+    let text = refused.expect_err("two points").to_string();
+    assert!(text.contains(": a law needs 4 points, and there are 2;"), "{text}");
 }

@@ -46,7 +46,8 @@ use crate::values::of_law::bending_values;
 /// ```
 ///
 /// # Errors
-/// The curve is of another test, has no load, or does not rise.
+/// The curve is of another test, has no load, does not rise, or has fewer points than the law has
+/// parameters.
 pub fn identify_bending(
     curve: &Curve,
     settings: &FitSettings,

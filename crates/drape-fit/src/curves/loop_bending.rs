@@ -56,7 +56,8 @@ const PER_STRIP: usize = 3;
 /// Each curve is returned with its fit, in the given order. The law is equal in all.
 ///
 /// # Errors
-/// A curve is of another test, has no load or no gauge, or its strip is hardly bent.
+/// A curve is of another test, has no load or no gauge, its strip is hardly bent, or all curves
+/// together have fewer points than the law has parameters.
 pub fn identify_loop_bending(
     curves: &[&Curve],
     settings: &FitSettings,
@@ -67,6 +68,7 @@ pub fn identify_loop_bending(
     if problem.0.is_empty() {
         return Ok(Vec::new());
     }
+    problem.check_point_count()?;
     let result = refine(&problem, multistart(&problem, &problem.starts()));
     let p = &result.report.parameters;
     let end = FitEnd { parameters: &result.parameters, report: &result.report, unweighted: p };
@@ -198,6 +200,16 @@ impl<'a> Strip<'a> {
 struct Strips<'a>(Vec<Strip<'a>>);
 
 impl Strips<'_> {
+    /// Checks that there are at least as many points as parameters.
+    fn check_point_count(&self) -> Result<(), Error> {
+        let (points, needed) = (self.residual_count(), SHARED + PER_STRIP * self.0.len());
+        if points < needed {
+            let name = self.0[0].curve.name.clone();
+            return Err(Error::TooFewPoints { name, points, needed });
+        }
+        Ok(())
+    }
+
     /// Returns the initial guesses of all parameters, for several friction lengths.
     fn starts(&self) -> Vec<Vec<NamedParameter>> {
         let rigidity = self.mean(|strip| strip.rigidity());

@@ -47,7 +47,7 @@ pub(crate) fn fit_loop(
     let measured = MeasuredLoop::new(compared, family.stiffness, &compared_history)?;
     let models: Vec<CandidateModel<'_>> =
         family.forms.iter().map(|(form, name)| measured.model(*form, name.clone())).collect();
-    let selection = select(compared, &models);
+    let selection = select(compared, &models)?;
 
     // The selected form is fitted to all points.
     let options = FitOptions {

@@ -40,7 +40,7 @@ pub(crate) fn fit_first_branch(
     let weights = settings.weighting.weights(&first, 0.0);
     let functionals = Vec::new();
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
-    let mut fit = fit_curve(&first, select(&first, &[model]), |_| forward(), options);
+    let mut fit = fit_curve(&first, select(&first, &[model])?, |_| forward(), options);
 
     // The fitted law is continued along the whole curve.
     let points = curve.load().len();

@@ -26,7 +26,8 @@ use crate::values::of_law::shear_values;
 /// where the curve ends.
 ///
 /// # Errors
-/// The curve is of another test, has no load, or does not rise.
+/// The curve is of another test, has no load, does not rise, or has fewer points than the law has
+/// parameters.
 pub fn identify_shear(
     curve: &Curve,
     settings: &FitSettings,

@@ -32,7 +32,8 @@ use crate::values::of_law::tensile_values;
 /// may then miss the third cycle by more.
 ///
 /// # Errors
-/// The curve is of another test, has no load, or does not rise.
+/// The curve is of another test, has no load, does not rise, or has fewer points than the law has
+/// parameters.
 pub fn identify_tensile(
     curve: &Curve,
     settings: &FitSettings,
@@ -56,8 +57,12 @@ pub fn identify_tensile(
     let weights = settings.weighting.weights(curve, guess.zero.strain);
     let functionals = tensile_functionals(curve);
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
-    let fit =
-        fit_curve(curve, select(compared, &models), |chosen| forms[chosen].forward(curve), options);
+    let fit = fit_curve(
+        curve,
+        select(compared, &models)?,
+        |chosen| forms[chosen].forward(curve),
+        options,
+    );
     let form = forms[fit.chosen];
     let fit = with_values(curve, fit, form, settings);
     let fit = with_scatter(curve, fit, |repeat| identify_form(repeat, form, settings));
@@ -89,7 +94,7 @@ fn identify_form(
     let functionals = tensile_functionals(curve);
     let options = FitOptions { weights, functionals, intervals: settings.intervals };
     let models = [guess.model(form, compared)];
-    let fit = fit_curve(curve, select(compared, &models), |_| form.forward(curve), options);
+    let fit = fit_curve(curve, select(compared, &models)?, |_| form.forward(curve), options);
     Ok(with_values(curve, fit, form, settings))
 }
 
@@ -162,8 +167,8 @@ mod tests {
 
     #[test]
     fn a_strip_in_compression_is_refused() {
-        let strain = vec![-0.03, -0.02, -0.01];
-        let load = vec![-3.0, -2.0, -1.0];
+        let strain = vec![-0.04, -0.03, -0.02, -0.01];
+        let load = vec![-4.0, -3.0, -2.0, -1.0];
         let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
         let result = identify_tensile(&curve, &primed());
         assert!(matches!(result, Err(Error::FallingLoad { .. })), "{result:?}");

@@ -79,8 +79,18 @@ struct Combination {
 }
 
 impl InitialGuess {
-    /// Returns the features of `curve`. Fails if its load does not rise.
+    /// Returns the features of `curve`. Fails if its load does not rise, or if it has too few
+    /// points for the lines through its parts.
     pub(crate) fn new(curve: &Curve) -> Result<Self, Error> {
+        /// Number of points that give a line through the start of a loading branch and a line
+        /// through its end.
+        const POINTS_MIN: usize = 4;
+
+        let points = curve.load().len();
+        if points < POINTS_MIN {
+            let name = curve.name.clone();
+            return Err(Error::TooFewPoints { name, points, needed: POINTS_MIN });
+        }
         let (strain, load) = (curve.deformation(), curve.load());
         let branches = curve.branches();
         let loading = branches.first().filter(|branch| branch.rising);

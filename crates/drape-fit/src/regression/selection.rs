@@ -6,6 +6,7 @@ use drape_kes::Curve;
 use drape_lm::{Report, akaike};
 use rayon::prelude::*;
 
+use crate::error::Error;
 use crate::regression::candidate::{Candidate, Choice};
 use crate::regression::noise::load_noise;
 use crate::regression::residuals::{ForwardModel, NamedParameter, Residuals};
@@ -44,8 +45,12 @@ pub(crate) struct Selection {
 /// the first such law among laws that predict better than all laws before them. Another law
 /// replaces it if its misfit is less than [`Candidate::SMALLER`] times the misfit of the selected
 /// law and larger than the noise, unless that law predicts worse. A law that does not follow the
-/// curve gives way to the first law that does, with the same exception.
-pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection {
+/// curve gives way to the first law that does, with the same exception. A law with more parameters
+/// than the curve has points is never selected.
+///
+/// # Errors
+/// [`Error::TooFewPoints`] if every law has more parameters than `curve` has points.
+pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Result<Selection, Error> {
     let points = curve.load().len();
     let mut results: Vec<SearchResult> = models
         .par_iter()
@@ -108,9 +113,25 @@ pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection 
     if let Some(first) = first_that_follows(&candidates, chosen) {
         (chosen, choice) = (first, Choice::Follows);
     }
+    if candidates[chosen].parameters > points {
+        chosen = determined(&candidates, curve)?;
+    }
     let all: usize = results.iter().map(|result| result.evaluations).sum();
     let result = results.swap_remove(chosen);
-    Selection { candidates, chosen, choice, evaluations: all - result.evaluations, result }
+    Ok(Selection { candidates, chosen, choice, evaluations: all - result.evaluations, result })
+}
+
+/// Returns the first of `candidates` with at most one parameter for each point of `curve`.
+///
+/// # Errors
+/// [`Error::TooFewPoints`] if there is none.
+fn determined(candidates: &[Candidate], curve: &Curve) -> Result<usize, Error> {
+    let points = curve.load().len();
+    let fewest = candidates.iter().map(|candidate| candidate.parameters).min().unwrap_or(0);
+    candidates
+        .iter()
+        .position(|candidate| candidate.parameters <= points)
+        .ok_or_else(|| Error::TooFewPoints { name: curve.name.clone(), points, needed: fewest })
 }
 
 /// Returns the first law that certainly follows the curve closer than the law `chosen`; `None` if
@@ -204,7 +225,7 @@ mod tests {
         for (quadratic, told_apart) in [(0.13, false), (1.0, true)] {
             let curve = wavy(0.02, quadratic, 0.0);
             let models = models(&curve);
-            let selection = select(&curve, &models);
+            let selection = select(&curve, &models).expect("points");
             let misfits = [0, 1].map(|i| selection.candidates[i].misfit);
             assert!(misfits[1] < Candidate::SMALLER * misfits[0], "{misfits:?}");
             let criteria = [0, 1].map(|i| selection.candidates[i].criterion.expect("one"));
@@ -218,7 +239,7 @@ mod tests {
         // A wave of which a parabola takes a twentieth off the misfit.
         let curve = wavy(0.02, -0.01, 0.0);
         let models = models(&curve);
-        let selection = select(&curve, &models);
+        let selection = select(&curve, &models).expect("points");
         let misfits = [0, 1].map(|i| selection.candidates[i].misfit);
         // Were all residuals independent, the parabola would be selected.
         let lead = 2.0 * POINTS as f64 * (misfits[0] / misfits[1]).ln();
@@ -231,11 +252,11 @@ mod tests {
     fn within_the_noise_the_criterion_alone_decides() {
         // A quadratic part of a twentieth of the noise, which no misfit shows.
         let curve = wavy(0.0, 0.001, 0.02);
-        assert_eq!(select(&curve, &models(&curve)).chosen, 0);
+        assert_eq!(select(&curve, &models(&curve)).expect("points").chosen, 0);
         // One that the criterion finds although it takes less than a fifth off the misfit.
         let curve = wavy(0.0, 0.1, 0.02);
         let models = models(&curve);
-        let selection = select(&curve, &models);
+        let selection = select(&curve, &models).expect("points");
         let misfits = [0, 1].map(|i| selection.candidates[i].misfit);
         assert!(misfits[1] > Candidate::SMALLER * misfits[0], "{misfits:?}");
         assert_eq!(selection.chosen, 1, "{misfits:?}");
@@ -249,7 +270,7 @@ mod tests {
             for (model, prediction) in models.iter_mut().zip(predictions) {
                 model.prediction = Some(prediction);
             }
-            assert_eq!(select(&curve, &models).chosen, wanted, "{predictions:?}");
+            assert_eq!(select(&curve, &models).expect("points").chosen, wanted, "{predictions:?}");
         }
     }
 }
