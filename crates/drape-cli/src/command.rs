@@ -27,6 +27,7 @@ use crate::commands::validate::{self, ValidateArguments};
 use crate::console::{Console, ProgressKind};
 use crate::failure::Failure;
 use crate::input;
+use drape::input::FileAccess;
 
 /// Exit codes of the program. The long help ends with this text.
 const EXIT_CODES: &str = "\
@@ -141,8 +142,7 @@ impl CommandLine {
     pub(crate) fn execute(&self) -> Result<(), Failure> {
         let Options { threads, quiet, verbose, progress, ref allow_path, raise_limits } =
             self.options;
-        input::allow(allow_path);
-        drape::input::raise_size_limits(raise_limits);
+        input::set_access(FileAccess { allowed: allow_path.clone(), size_factor: raise_limits });
         Console { quiet, verbose, progress }.install();
 
         // A benchmark is timed on one thread unless the user asks for another number.
@@ -196,7 +196,7 @@ fn expect_convertible(from: &Path) -> Result<(), Failure> {
         FileKind::Workbook,
         FileKind::Archive,
     ];
-    match FileKind::of(from) {
+    match input::kind(from) {
         // A folder of exports may have its sheet already.
         Some(FileKind::Sheet) if from.is_dir() => Ok(()),
         _ => Ok(input::expect(from, &convertible)?),

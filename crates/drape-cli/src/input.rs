@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use drape::input::{Diagnostic, Diagnostics, Document, Setting, SizeLimit, size_limit_factor};
+use drape::input::{Diagnostic, Diagnostics, Document, FileAccess, Setting, SizeLimit};
 use drape::run::file::FileKind;
 
 /// Name of standard input in messages.
@@ -24,29 +24,28 @@ pub(crate) const SHEET_FILE: &str = "sheet.toml";
 /// Text of standard input, or the reason why it cannot be read.
 static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
 
-/// Files and folders that `--allow-path` lets input name, beside the folder of the input itself.
-static ALLOWED: OnceLock<Vec<PathBuf>> = OnceLock::new();
+/// Access to files that `--allow-path` and `--raise-limits` give.
+static ACCESS: OnceLock<FileAccess> = OnceLock::new();
 
-/// Lets input name the files in `paths`, and the files in the folders in `paths`. Only the first
-/// call has an effect.
-pub(crate) fn allow(paths: &[PathBuf]) {
-    let _ = ALLOWED.set(paths.to_vec());
+/// Gives all input of the command the access `access` to files. Only the first call has an effect.
+pub(crate) fn set_access(access: FileAccess) {
+    let _ = ACCESS.set(access);
 }
 
-/// Returns the `paths` of [`allow`].
-pub(crate) fn allowed() -> &'static [PathBuf] {
-    ALLOWED.get().map_or(&[], Vec::as_slice)
+/// Returns the access of [`set_access`].
+pub(crate) fn access() -> &'static FileAccess {
+    ACCESS.get().unwrap_or_else(FileAccess::usual)
 }
 
 /// Returns the command-line options `--allow-path` and `--raise-limits` of this process, for a
 /// worker process that reads the same input.
 pub(crate) fn options() -> Vec<OsString> {
-    let paths = allowed().iter().map(|path| {
+    let FileAccess { allowed, size_factor: factor } = access();
+    let paths = allowed.iter().map(|path| {
         let absolute = std::path::absolute(path).unwrap_or_else(|_| path.clone());
         ["--allow-path".into(), absolute.into_os_string()]
     });
-    let factor = size_limit_factor();
-    let raised = (factor > 1).then(|| ["--raise-limits".into(), factor.to_string().into()]);
+    let raised = (*factor > 1).then(|| ["--raise-limits".into(), factor.to_string().into()]);
     paths.chain(raised).flatten().collect()
 }
 
@@ -57,6 +56,11 @@ static SETTINGS: OnceLock<Vec<Setting>> = OnceLock::new();
 /// effect.
 pub(crate) fn set_values(settings: &[Setting]) {
     let _ = SETTINGS.set(settings.to_vec());
+}
+
+/// Returns the kind of the file or folder at `path`, `None` if it has no known kind.
+pub(crate) fn kind(path: &Path) -> Option<FileKind> {
+    FileKind::of(path, access())
 }
 
 /// Returns whether `path` is `-`, which stands for standard input or output.
@@ -87,10 +91,10 @@ pub(crate) fn document_of_kind(path: &Path, wanted: &[FileKind]) -> Result<Docum
 pub(crate) fn document(path: &Path) -> Result<Document, Diagnostics> {
     let settings = SETTINGS.get().map_or(&[][..], Vec::as_slice);
     if !is_standard(path) {
-        return Document::read(path)?.allowing(allowed()).with_settings(settings);
+        return Document::read_with(path, access())?.with_settings(settings);
     }
     match TEXT.get_or_init(read) {
-        Ok(text) => Document::new(NAME, text).allowing(allowed()).with_settings(settings),
+        Ok(text) => Document::new(NAME, text).with_access(access()).with_settings(settings),
         Err(message) => {
             let help = "pipe a file in UTF-8 into it, or name the file in place of -";
             Err(Diagnostic::new(NAME, message).help(help).into())
@@ -101,7 +105,7 @@ pub(crate) fn document(path: &Path) -> Result<Document, Diagnostics> {
 /// Reads standard input to its end, at most [`LIMIT`].
 fn read() -> Result<String, String> {
     let mut bytes = Vec::new();
-    let limit = LIMIT.bytes();
+    let limit = LIMIT.bytes(access());
     let result = std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes);
     result.map_err(|error| format!("cannot be read: {error}"))?;
     if bytes.len() as u64 > limit {
@@ -123,7 +127,7 @@ pub(crate) fn source(path: &Path) -> Option<Cow<'static, str>> {
 /// Parses `text` as the document at `path` and applies the settings of [`set_values`].
 pub(crate) fn with_settings(path: &Path, text: &str) -> Result<Document, Diagnostics> {
     let settings = SETTINGS.get().map_or(&[][..], Vec::as_slice);
-    Document::new(path, text).allowing(allowed()).with_settings(settings)
+    Document::new(path, text).with_access(access()).with_settings(settings)
 }
 
 /// Returns the name of the file at `path` in messages.

@@ -12,12 +12,13 @@ use std::sync::OnceLock;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
-use crate::allowed_folders::{AllowedFolders, ForbiddenPath};
 use crate::decode::{Change, Decoded, Fault, Faults, decode};
 use crate::diagnostic::edit::Edit;
 use crate::diagnostic::subject::Subject;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::figure::cut;
+use crate::file_access::FileAccess;
+use crate::file_access::allowed_folders::{AllowedFolders, ForbiddenPath};
 use crate::grammar::{GrammarMistake, grammar_mistakes};
 use crate::node::key_path::{KeyPart, KeyPath, key_parts};
 use crate::node::{Node, Value};
@@ -41,8 +42,8 @@ const LIMIT: SizeLimit = SizeLimit::new("TOML files", 1 << 20);
 pub struct Document {
     path: PathBuf,
     text: String,
-    /// Files and folders that the document may name outside its folder and the working folder.
-    allowed: Vec<PathBuf>,
+    /// Files that the document may name, and how large they may be.
+    access: FileAccess,
     /// Values that replace values of the text.
     settings: Vec<Setting>,
     /// Values of the text with the settings, once the text has been parsed.
@@ -59,7 +60,8 @@ impl Document {
         let text: String = text.into();
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         let (content, lines) = (OnceLock::new(), OnceLock::new());
-        Self { path: path.into(), text, allowed: Vec::new(), settings: Vec::new(), content, lines }
+        let (access, settings) = (FileAccess::default(), Vec::new());
+        Self { path: path.into(), text, access, settings, content, lines }
     }
 
     /// Creates a document of `table`, values that a program made, without a text. Mistakes in the
@@ -75,14 +77,21 @@ impl Document {
     /// Returns the document, which may also name the files and folders `allowed`.
     #[must_use]
     pub fn allowing(mut self, allowed: &[PathBuf]) -> Self {
-        self.allowed = allowed.to_vec();
+        self.access.allowed = allowed.to_vec();
         self
     }
 
-    /// Returns the files and folders that were given to [`allowing`](Self::allowing).
+    /// Returns the document, whose files are read with the given `access`.
     #[must_use]
-    pub fn allowed(&self) -> &[PathBuf] {
-        &self.allowed
+    pub fn with_access(mut self, access: &FileAccess) -> Self {
+        self.access = access.clone();
+        self
+    }
+
+    /// Returns the access to the files that the document names.
+    #[must_use]
+    pub fn access(&self) -> &FileAccess {
+        &self.access
     }
 
     /// Returns the document after `settings` have replaced values of its text, one after the other.
@@ -148,7 +157,7 @@ impl Document {
     /// # Errors
     /// [`ForbiddenPath`], as in [`beside`](Self::beside).
     pub fn permit(&self, path: &Path) -> Result<(), ForbiddenPath> {
-        AllowedFolders::new(self.folder(), &self.allowed).check(path)
+        AllowedFolders::new(self.folder(), &self.access.allowed).check(path)
     }
 
     /// Returns the folder of the document.
@@ -159,9 +168,17 @@ impl Document {
     /// Reads the file `path`.
     ///
     /// # Errors
-    /// A mistake if the file is missing, is larger than one mebibyte (unless limits are raised), or
-    /// is not UTF-8.
+    /// A mistake if the file is missing, is larger than one mebibyte, or is not UTF-8.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+        Self::read_with(path, FileAccess::usual())
+    }
+
+    /// Reads the file `path`. The limit on its size is raised by the factor in `access`, and the
+    /// files that the document names are read with the same `access`.
+    ///
+    /// # Errors
+    /// The errors of [`read`](Self::read), with the raised limit.
+    pub fn read_with(path: impl AsRef<Path>, access: &FileAccess) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
         let metadata = std::fs::metadata(path).map_err(|error| {
             let message = format!("cannot open the file: {error}");
@@ -171,7 +188,7 @@ impl Document {
             let mistake = Diagnostic::new(path, "this is not a file").help("name a TOML file");
             return Err(mistake.into());
         }
-        if let Err(refused) = LIMIT.check(metadata.len()) {
+        if let Err(refused) = LIMIT.check(metadata.len(), access) {
             let mistake = Diagnostic::new(path, refused.to_string()).help(refused.help());
             return Err(mistake.into());
         }
@@ -180,7 +197,7 @@ impl Document {
             let message = format!("cannot read the file: {error}");
             Diagnostic::new(path, message).help("save it as UTF-8")
         })?;
-        Ok(Self::new(path, text))
+        Ok(Self::new(path, text).with_access(access))
     }
 
     /// Returns the path that was given to [`new`](Self::new) or [`read`](Self::read).

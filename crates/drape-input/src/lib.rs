@@ -14,18 +14,19 @@
 //!   makes such changes.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt word.
 //! * `setting`: [`Setting`], a value that replaces a value of a text, such as on a command line.
-//! * `allowed_folders`: [`AllowedFolders`], the folders with the files that a document may name.
+//! * `file_access`: [`FileAccess`], what a reader of a document allows its files, and
+//!   [`AllowedFolders`], the folders with the files that a document may name.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML, and [`xml_text`], texts
 //!   as XML.
 //! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
 //! * `figure`: [`figure`](fn@figure), [`Notation`], [`excerpt`] and others, numbers and texts in
 //!   messages, on pages and in tables.
 
-mod allowed_folders;
 mod decode;
 mod diagnostic;
 mod document;
 mod figure;
+mod file_access;
 mod given;
 mod grammar;
 mod node;
@@ -36,19 +37,20 @@ mod setting;
 mod spelling;
 mod unit;
 
-pub use allowed_folders::{AllowedFolders, ForbiddenPath};
 pub use decode::Faults;
 pub use diagnostic::edit::{Edit, EditError, apply_edits};
 pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Document;
 pub use document::similar_file::{missing_file_help, similar_file};
-pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
+pub use document::size_limit::{SizeLimit, TooLarge};
 pub use figure::{
     Notation, brief, counted, duration_in_words, excerpt, figure, figure_above, figure_below,
     figure_in_decimals, figure_in_digits, figure_in_range, figures, percent, round_decimals,
     round_digits, signed_percent, significant, size_in_words, tidy, typeset, with_error,
 };
+pub use file_access::FileAccess;
+pub use file_access::allowed_folders::{AllowedFolders, ForbiddenPath};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, Metres, MomentPerWidth, PressurePerDistance, Ratio,

@@ -4,7 +4,6 @@
 
 use std::fmt;
 
-use crate::minimise::Stop;
 use crate::problem::{Parameter, Problem};
 
 /// Reason why an input is refused.
@@ -38,16 +37,27 @@ impl fmt::Display for InvalidInput {
     }
 }
 
-/// Returns the stop with the first mistake in `parameters` and in the weights of `problem`, or
-/// `None` if there is none.
-pub(crate) fn refusal(problem: &(impl Problem + ?Sized), parameters: &[Parameter]) -> Option<Stop> {
+/// Input that is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Refusal {
+    /// Index of the parameter that is refused, or `None` if weights are refused.
+    pub(crate) parameter: Option<usize>,
+    pub(crate) reason: InvalidInput,
+}
+
+/// Returns the first mistake in `parameters` and in the weights of `problem`, or `None` if there is
+/// none.
+pub(crate) fn refusal(
+    problem: &(impl Problem + ?Sized),
+    parameters: &[Parameter],
+) -> Option<Refusal> {
     for (index, parameter) in parameters.iter().enumerate() {
         if let Some(reason) = parameter_mistake(parameter) {
-            return Some(Stop::Invalid { parameter: Some(index), reason });
+            return Some(Refusal { parameter: Some(index), reason });
         }
     }
     let reason = weight_mistake(problem.weights(), problem.residual_count())?;
-    Some(Stop::Invalid { parameter: None, reason })
+    Some(Refusal { parameter: None, reason })
 }
 
 /// Returns what is wrong with `parameter`, if anything is.

@@ -5,7 +5,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::check::{InvalidInput, refusal};
+use crate::check::{InvalidInput, Refusal, refusal};
 use crate::difference::Difference;
 use crate::iterate::Iterate;
 use crate::loss::Loss;
@@ -239,7 +239,8 @@ pub fn minimise_watched(
     settings: &MinimiserSettings,
     watch: &mut dyn FnMut(Iteration<'_>) -> ControlFlow<()>,
 ) -> Report {
-    if let Some(stop) = refusal(problem, parameters) {
+    if let Some(Refusal { parameter, reason }) = refusal(problem, parameters) {
+        let stop = Stop::Invalid { parameter, reason };
         let parameters = parameters.iter().map(|parameter| parameter.start).collect();
         let (rms, sum) = (f64::NAN, f64::NAN);
         return Report { parameters, rms, sum, iterations: 0, evaluations: 0, stop };

@@ -41,8 +41,8 @@ pub trait Problem {
         false
     }
 
-    /// Returns the weight of each squared residual, not negative. The default, an empty slice, means
-    /// that every weight is one.
+    /// Returns the weight of each squared residual, not negative. The default, an empty slice,
+    /// means that every weight is one.
     fn weights(&self) -> &[f64] {
         &[]
     }

@@ -1,7 +1,7 @@
 //! Problem whose residuals are a function.
 //!
-//! [`ResidualFunction`] implements [`Problem`], so that a closure is enough where a type with a name
-//! would say no more.
+//! [`ResidualFunction`] implements [`Problem`], so that a closure is enough where a type with a
+//! name would say no more.
 
 use crate::problem::Problem;
 

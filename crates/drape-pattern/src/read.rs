@@ -26,7 +26,7 @@ mod unit;
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, Document, SizeLimit};
+use drape_input::{Diagnostic, Diagnostics, Document, FileAccess, SizeLimit};
 use serde_json::Value;
 
 use crate::error::Error;
@@ -65,8 +65,8 @@ impl Pattern {
             return Err(Diagnostics::from(diagnostic).into());
         }
         let document = match ending(&request.path).as_str() {
-            "json" | "svg" | "dxf" => document(&request.path)?,
-            _ => Document::read(&request.path)?,
+            "json" | "svg" | "dxf" => document(&request.path, &request.access)?,
+            _ => Document::read_with(&request.path, &request.access)?,
         };
         Ok(parse(&document, request)?)
     }
@@ -119,11 +119,13 @@ impl Sketch {
         sketch
     }
 
-    /// Returns the lines of the pattern in the file `path`, in spite of its mistakes; an empty
-    /// sketch if the file cannot be read.
+    /// Returns the lines of the pattern in the file of `request`, in spite of its mistakes. The
+    /// sketch is empty if the file cannot be read.
     #[must_use]
-    pub fn read(path: &Path) -> Self {
-        document(path).map(|document| Self::parse(&document)).unwrap_or_default()
+    pub fn read(request: &Request) -> Self {
+        document(&request.path, &request.access)
+            .map(|document| Self::parse(&document))
+            .unwrap_or_default()
     }
 }
 
@@ -188,9 +190,8 @@ fn check_format(document: &Document, request: &Request, format: &str) -> Result<
 fn parse_toml(document: &Document, sketch: &mut Sketch) -> Result<Pattern, Diagnostics> {
     let file = toml_file::decode(document)?;
     let base = match file.base_request() {
-        Ok(Some(from)) => {
-            self::document(&from.path).and_then(|base| parse_into(&base, &from, sketch))
-        }
+        Ok(Some(from)) => self::document(&from.path, &from.access)
+            .and_then(|base| parse_into(&base, &from, sketch)),
         Ok(None) => return file.pattern(None, sketch),
         Err(mistakes) => Err(mistakes),
     };
@@ -242,13 +243,13 @@ fn ending(path: &Path) -> String {
 
 /// Returns the document of the file `path`. Programs write patterns, so that the file may be larger
 /// than a file that a person writes.
-fn document(path: &Path) -> Result<Document, Diagnostics> {
+fn document(path: &Path, access: &FileAccess) -> Result<Document, Diagnostics> {
     let size = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map(|m| m.len());
     let Some(size) = size else {
         // `Document::read` says what is missing.
-        return Document::read(path);
+        return Document::read_with(path, access);
     };
-    if let Err(refused) = LIMIT.check(size) {
+    if let Err(refused) = LIMIT.check(size, access) {
         return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
     }
     let bytes = std::fs::read(path).map_err(|error| {
@@ -256,12 +257,12 @@ fn document(path: &Path) -> Result<Document, Diagnostics> {
     })?;
 
     match String::from_utf8(bytes) {
-        Ok(text) => Ok(Document::new(path, text)),
+        Ok(text) => Ok(Document::new(path, text).with_access(access)),
         // Older programs write DXF in the code page of their country; only names can have such
         // letters.
         Err(error) if ending(path) == "dxf" => {
             let text: String = error.into_bytes().into_iter().map(char::from).collect();
-            Ok(Document::new(path, text))
+            Ok(Document::new(path, text).with_access(access))
         }
         Err(_) => {
             let message = "the file is not UTF-8";

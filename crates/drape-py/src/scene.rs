@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
-use drape::input::Document;
+use drape::input::{Document, FileAccess};
 use drape::run::file::FileKind;
 use drape::run::{
     FolderRun, Goal, Limits, PlacedSpec, ResumableRun, RunOptions, RunRequest, Watcher, end_at,
@@ -248,12 +248,13 @@ impl Scene {
     /// Makes a scene of `keys`.
     #[staticmethod]
     fn from_keys(py: Python<'_>, keys: SceneKeys<'_>) -> PyResult<Self> {
-        let SceneKeys { table, held, folder, allow } = keys;
+        let SceneKeys { table, held, folder, allow: allowed } = keys;
+        let access = FileAccess { allowed, ..FileAccess::default() };
         let document = spec::document(Path::new(""), &table)?;
         let decoded = SceneSpec::with_faults(&document);
         let (mut spec, faults) = decoded.map_err(|mistakes| input(&mistakes))?;
         spec::hold(py, &mut spec, &held)?;
-        let placed = PlacedSpec { spec, faults, folder, allowed: allow };
+        let placed = PlacedSpec { spec, faults, folder, access };
         py.detach(|| Self::new(Origin::Spec(Box::new(placed)), None))
     }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use drape_fabric::Fabric;
 use drape_fit::{FitSettings, LoopModel, identify_with};
-use drape_input::{Diagnostic, Diagnostics, Document, Faults};
+use drape_input::{Diagnostic, Diagnostics, Document, Faults, FileAccess};
 use drape_kes::Sheet;
 use drape_scene::{FabricRequest, Model, Refused, Scene, SceneSpec, Sources, is_fabric};
 
@@ -46,8 +46,8 @@ pub struct PlacedSpec {
     pub faults: Faults,
     /// Folder from which names of files are seen.
     pub folder: PathBuf,
-    /// Files and folders outside of `folder` that the spec may name.
-    pub allowed: Vec<PathBuf>,
+    /// Access to the files that the spec names.
+    pub access: FileAccess,
 }
 
 /// Returns the scene of `placed`, as [`scene_of`] does for a text.
@@ -55,16 +55,16 @@ pub struct PlacedSpec {
 /// # Errors
 /// Errors of [`read_scene`].
 pub fn scene_of_spec(placed: &PlacedSpec) -> Result<Scene, drape_scene::Error> {
-    let PlacedSpec { spec, faults, folder, allowed } = placed;
-    let sources = Sources { allowed, fabrics: &scene_fabric, ..Sources::new(folder) };
+    let PlacedSpec { spec, faults, folder, access } = placed;
+    let sources = Sources { access, fabrics: &scene_fabric, ..Sources::new(folder) };
     spec.build_or_refused(&sources, faults.clone()).map_err(|refused| refused.error)
 }
 
 /// Returns the scene of a `document`, as [`scene_of`] does. A refusal contains the mistakes, and
 /// the scene if it could be created, to be shown.
 ///
-/// Errors of [`read_scene`].
-/// As for [`read_scene`].
+/// # Errors
+/// The errors of [`read_scene`].
 pub fn scene_or_refused(document: &Document) -> Result<Scene, Box<Refused>> {
     Scene::from_documents_or_refused(document, &[], &scene_fabric)
 }
@@ -78,7 +78,7 @@ pub fn scene_or_refused(document: &Document) -> Result<Scene, Box<Refused>> {
 /// The mistakes of the file, or the reason why a sheet gives no fabric.
 pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
     FileKind::expect(request.file, &FABRICS)?;
-    fabric_of(&Document::read(request.file)?.allowing(request.allowed), request.model)
+    fabric_of(&Document::read_with(request.file, request.access)?, request.model)
 }
 
 /// Returns the fabric of a `document`: a `fabric.toml`, or a `sheet.toml` to which it is fitted for

@@ -1,8 +1,8 @@
 //! Scenes from specs, and from files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use drape_input::{Diagnostics, Document, Faults, figure};
+use drape_input::{Diagnostics, Document, Faults, FileAccess, figure};
 
 use crate::check::check;
 use crate::check::documents::Documents;
@@ -17,8 +17,8 @@ use crate::spec::SceneSpec;
 pub struct Sources<'a> {
     /// Folder from which names of files are seen.
     pub folder: &'a Path,
-    /// Files and folders outside of this folder and of the working folder that may be named.
-    pub allowed: &'a [PathBuf],
+    /// Access to the files that the spec names.
+    pub access: &'a FileAccess,
     /// Documents that take the place of the files with their paths.
     pub documents: &'a [Document],
     /// Function that makes a fabric of a file, such as a sheet that is fitted.
@@ -29,7 +29,7 @@ impl<'a> Sources<'a> {
     /// Returns the sources in `folder`, where fabrics are in files of fabrics.
     #[must_use]
     pub fn new(folder: &'a Path) -> Self {
-        Self { folder, allowed: &[], documents: &[], fabrics: &read_fabric }
+        Self { folder, access: FileAccess::usual(), documents: &[], fabrics: &read_fabric }
     }
 }
 
@@ -75,7 +75,7 @@ impl SceneSpec {
 
         let path = sources.folder.join(NO_FILE);
         let text = self.without_held().text();
-        let implied = Document::new(&path, text).allowing(sources.allowed);
+        let implied = Document::new(&path, text).with_access(sources.access);
         let documents =
             Documents { scene: &implied, others: sources.documents, fabrics: sources.fabrics };
         self.scene(&documents, faults).map_err(|refused| refused.without_file(&path))

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Setting, SettingError, UnitError, closest, excerpt, toml_key,
+    Diagnostic, Diagnostics, Document, FileAccess, Setting, SettingError, UnitError, closest,
+    excerpt, toml_key,
 };
 
 use crate::axes::{Axis, Group, Reader, level_value};
@@ -47,8 +48,8 @@ impl Study {
     ///
     /// # Errors
     /// All mistakes of the study, or the mistakes of grammar of its base.
-    pub fn read(path: impl AsRef<Path>, allowed: &[PathBuf]) -> Result<Self, Error> {
-        Self::from_document(&Document::read(path)?.allowing(allowed))
+    pub fn read(path: impl AsRef<Path>, access: &FileAccess) -> Result<Self, Error> {
+        Self::from_document(&Document::read_with(path, access)?)
     }
 
     /// Reads the study in `document`. The names of files are relative to the folder of its path.
@@ -216,7 +217,7 @@ impl Study {
     fn read_other_base(&self, level: &str) -> Result<Document, Error> {
         let name = level_value(level).as_str().map(str::to_owned).unwrap_or_default();
         let folder = self.file.parent().unwrap_or(Path::new(""));
-        let document = Document::read(folder.join(name))?.allowing(self.document.allowed());
+        let document = Document::read_with(folder.join(name), self.document.access())?;
         Ok(document.with_settings(&self.fixed)?)
     }
 }
@@ -226,11 +227,11 @@ fn read_base(document: &Document, base: Base, name: &Path) -> Result<Document, E
     let path = document.beside(name).map_err(|misplaced| {
         document.at(base.key(), misplaced.to_string()).help(misplaced.help())
     })?;
-    let base_document = Document::read(&path).map_err(|Diagnostics(mistakes)| {
+    let read = Document::read_with(&path, document.access());
+    let base_document = read.map_err(|Diagnostics(mistakes)| {
         let message = mistakes.into_iter().map(|mistake| mistake.message).collect::<String>();
         document.at(base.key(), message).help("name a file of TOML, relative to the study")
     })?;
-    let base_document = base_document.allowing(document.allowed());
     base_document.decode::<toml::Table>()?;
     Ok(base_document)
 }

@@ -153,7 +153,8 @@ fn check_location(path: &Path, scene: &Path, arguments: &RunArguments) -> Result
     if arguments.output.is_some() {
         return Ok(());
     }
-    let folders = AllowedFolders::new(scene.parent().unwrap_or(Path::new("")), input::allowed());
+    let folders =
+        AllowedFolders::new(scene.parent().unwrap_or(Path::new("")), &input::access().allowed);
     folders.check(path).map_err(|misplaced| {
         let (path, help) = (path.display(), misplaced.help());
         Failure::Usage(format!("{path}: {misplaced}; {help}, or name a folder with -o"))

@@ -41,7 +41,7 @@ pub(crate) fn find_sheets(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 
 /// Refuses a `path` that is neither a sheet nor an export of an instrument.
 fn expect_sheet_or_export(path: &Path) -> Result<(), Diagnostics> {
-    match FileKind::of(path) {
+    match input::kind(path) {
         Some(FileKind::Table | FileKind::Workbook | FileKind::Archive) => Ok(()),
         _ => input::expect(path, &[FileKind::Sheet]),
     }
@@ -75,7 +75,7 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// sheet in it or below.
 pub(crate) fn holds_tables(path: &Path) -> bool {
     let kinds = [FileKind::Table, FileKind::Workbook, FileKind::Archive];
-    if FileKind::of(path).is_some_and(|kind| !kinds.contains(&kind)) {
+    if input::kind(path).is_some_and(|kind| !kinds.contains(&kind)) {
         return false;
     }
     if path.is_dir() {

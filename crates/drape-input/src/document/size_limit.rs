@@ -1,19 +1,17 @@
 //! Limits on the sizes of input files.
 
 use std::fmt;
-use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Factor by which all limits in this process are raised.
-static FACTOR: AtomicU32 = AtomicU32::new(1);
+use crate::file_access::FileAccess;
 
 /// Largest size of a kind of input file. The limit keeps a wrong path from filling the memory.
 ///
 /// ```
-/// use drape_input::SizeLimit;
+/// use drape_input::{FileAccess, SizeLimit};
 ///
-/// let limit = SizeLimit::new("tables", 1 << 20);
-/// assert!(limit.check(1 << 20).is_ok());
-/// let refused = limit.check(1 + (1 << 20)).unwrap_err();
+/// let (limit, usual) = (SizeLimit::new("tables", 1 << 20), FileAccess::default());
+/// assert!(limit.check(1 << 20, &usual).is_ok());
+/// let refused = limit.check(1 + (1 << 20), &usual).unwrap_err();
 /// assert_eq!(refused.to_string(), "the file has 1048577 bytes, more than 1048576");
 /// assert!(refused.help().ends_with("--raise-limits 2 reads it"));
 /// ```
@@ -29,7 +27,7 @@ pub struct TooLarge {
     kind: &'static str,
     bytes: u64,
     limit: u64,
-    /// Limit without the factor of the process, in bytes.
+    /// Limit without the factor of the access, in bytes.
     usual: u64,
 }
 
@@ -40,32 +38,21 @@ impl SizeLimit {
         Self { kind, bytes }
     }
 
-    /// Returns the limit times the factor [`size_limit_factor`], in bytes.
+    /// Returns the limit times the factor in `access`, in bytes.
     #[must_use]
-    pub fn bytes(self) -> u64 {
-        self.bytes.saturating_mul(u64::from(size_limit_factor()))
+    pub fn bytes(self, access: &FileAccess) -> u64 {
+        self.bytes.saturating_mul(u64::from(access.size_factor.max(1)))
     }
 
-    /// Checks that a file of `bytes` bytes is not larger than the limit.
+    /// Checks that a file of `bytes` bytes is not larger than the limit with the given `access`.
     ///
     /// # Errors
     /// [`TooLarge`] if the file is larger.
-    pub fn check(self, bytes: u64) -> Result<(), TooLarge> {
+    pub fn check(self, bytes: u64, access: &FileAccess) -> Result<(), TooLarge> {
         let Self { kind, bytes: usual } = self;
-        let limit = self.bytes();
+        let limit = self.bytes(access);
         if bytes <= limit { Ok(()) } else { Err(TooLarge { kind, bytes, limit, usual }) }
     }
-}
-
-/// Multiplies all limits in this process by `factor`, or by 1 if `factor` is 0, for a user who asks
-/// for larger limits.
-pub fn raise_size_limits(factor: u32) {
-    FACTOR.store(factor.max(1), Ordering::Relaxed);
-}
-
-/// Returns the factor by which [`raise_size_limits`] has raised all limits in this process.
-pub fn size_limit_factor() -> u32 {
-    FACTOR.load(Ordering::Relaxed)
 }
 
 impl TooLarge {
@@ -91,16 +78,19 @@ impl std::error::Error for TooLarge {}
 
 #[cfg(test)]
 mod tests {
-    use crate::Document;
+    use crate::{Document, FileAccess};
 
     #[test]
     fn a_file_larger_than_its_kind_is_answered_with_its_size_and_the_limit() {
         let path = std::env::temp_dir().join(format!("drape-large-{}.toml", std::process::id()));
         std::fs::write(&path, "#".repeat((1 << 20) + 1)).expect("written");
         let read = Document::read(&path);
+        let twice = FileAccess { size_factor: 2, ..FileAccess::default() };
+        let raised = Document::read_with(&path, &twice);
         std::fs::remove_file(&path).expect("it was just written");
         let mistake = read.expect_err("it is too large").0.remove(0);
         assert_eq!(mistake.message, "the file has 1048577 bytes, more than 1048576");
         assert!(mistake.help.is_some_and(|help| help.ends_with("--raise-limits 2 reads it")));
+        assert_eq!(raised.map(|document| document.text().len()), Ok((1 << 20) + 1));
     }
 }

@@ -67,8 +67,8 @@ impl FileContents {
     /// Reads all `files`.
     pub(crate) fn from_files(files: &Files) -> Self {
         let mut parts = Self::default();
-        files.files.iter().for_each(|(path, name)| parts.add(path, name, &files.folder));
-        parts.join_repeats(&files.folder);
+        files.files.iter().for_each(|(path, name)| parts.add(path, name, files));
+        parts.join_repeats(files);
         parts
     }
 
@@ -78,14 +78,14 @@ impl FileContents {
         curves == [0; 3] && self.values.is_empty()
     }
 
-    /// Adds the contents of the file `path` with the given `name`. Its curves are verified in
-    /// `folder`.
-    fn add(&mut self, path: &Path, name: &str, folder: &Path) {
+    /// Adds the contents of the file `path` with the given `name`, one of `files`. Its curves are
+    /// verified in the folder of `files`.
+    fn add(&mut self, path: &Path, name: &str, files: &Files) {
         if holds_no_table(path) {
             self.unread.push((name.to_owned(), "no table, by its ending".into()));
             return;
         }
-        let file = match file::read(path, &Layout::default()) {
+        let file = match file::read(path, &Layout::default(), &files.access) {
             Ok(file) => file,
             Err(mistakes) => {
                 let words: Vec<String> = mistakes.0.iter().map(describe_mistake).collect();
@@ -94,7 +94,7 @@ impl FileContents {
             }
         };
 
-        let export = Export { path, name: name.to_owned(), file: &file, folder };
+        let export = Export { path, name: name.to_owned(), file: &file, files };
         let drafts = export.drafts();
         let before = self.count();
         self.curves.extend(drafts.good);
@@ -176,17 +176,17 @@ impl FileContents {
 
     /// Joins curves of several files that are repeats of one test. Arches are never joined, because
     /// they may buckle up or down.
-    fn join_repeats(&mut self, folder: &Path) {
+    fn join_repeats(&mut self, files: &Files) {
         let mut joined: Vec<CurveDraft> = Vec::new();
         for curve in std::mem::take(&mut self.curves) {
-            let is_repeat = |other: &&mut CurveDraft| are_alike(other, &curve, folder);
+            let is_repeat = |other: &&mut CurveDraft| are_alike(other, &curve, files);
             if let Some(first) = joined.iter_mut().find(is_repeat) {
                 let mut both = first.clone();
                 both.files.extend(curve.files.clone());
                 if both.layout != curve.layout {
                     both.layout.retain(|key| !FILE_KEYS.contains(&key.name));
                 }
-                if both.read(folder).is_ok() {
+                if both.read(files).is_ok() {
                     *first = both;
                     continue;
                 }
@@ -226,7 +226,7 @@ const FILE_KEYS: [&str; 2] = ["header", "decimal"];
 
 /// Returns whether two drafts are repeats of one test: their keys agree, and their gauges are
 /// equal.
-fn are_alike(first: &CurveDraft, second: &CurveDraft, folder: &Path) -> bool {
+fn are_alike(first: &CurveDraft, second: &CurveDraft, files: &Files) -> bool {
     /// Relative difference of the gauges of two curves above which the curves are no repeats.
     const REPEAT_GAUGE: f64 = 0.1;
 
@@ -240,7 +240,7 @@ fn are_alike(first: &CurveDraft, second: &CurveDraft, folder: &Path) -> bool {
     // The files are read only if the keys agree, because reading takes time.
     have_one_layout && {
         let [gauge, other_gauge] =
-            [first, second].map(|curve| curve.read(folder).ok()?.first()?.gauge);
+            [first, second].map(|curve| curve.read(files).ok()?.first()?.gauge);
         gauge.zip(other_gauge).is_none_or(|(a, b)| (a / b - 1.0).abs() < REPEAT_GAUGE)
     }
 }

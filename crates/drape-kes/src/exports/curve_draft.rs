@@ -1,12 +1,11 @@
 //! Draft of a `[[curve]]`: keys with their reasons, verified by the reader of sheets.
 
-use std::path::Path;
-
 use drape_input::{Diagnostics, Document, toml_string};
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::exports::evidence::Reasoned;
+use crate::exports::files::Files;
 use crate::sheets::sheet::Sheet;
 use crate::test::{Direction, Test};
 
@@ -90,9 +89,9 @@ impl CurveDraft {
         self.files.iter().cloned().chain(keys).chain(reasons).collect()
     }
 
-    /// Reads the section as the section of a sheet in `folder`.
-    pub(crate) fn read(&self, folder: &Path) -> Result<Vec<Curve>, Diagnostics> {
-        read(&self.to_toml(), folder).map(|sheet| sheet.curves)
+    /// Reads the section as the section of a sheet beside `files`.
+    pub(crate) fn read(&self, files: &Files) -> Result<Vec<Curve>, Diagnostics> {
+        read(&self.to_toml(), files).map(|sheet| sheet.curves)
     }
 
     /// Returns the section as a comment.
@@ -106,10 +105,11 @@ pub(crate) fn comment_out(text: &str) -> String {
     text.lines().map(|line| format!("# {line}\n")).collect()
 }
 
-/// Reads `text` as a part of a sheet in `folder`.
-pub(crate) fn read(text: &str, folder: &Path) -> Result<Sheet, Diagnostics> {
+/// Reads `text` as a part of a sheet beside `files`.
+pub(crate) fn read(text: &str, files: &Files) -> Result<Sheet, Diagnostics> {
     let text = format!("name = \"draft\"\n{text}");
-    let document = Document::new(folder.join("sheet.toml"), text);
+    let document = Document::new(files.folder.join("sheet.toml"), text);
+    let document = document.with_access(&files.access);
     Sheet::from_document(&document).map_err(|error| match error {
         Error::Input(mistakes) => mistakes,
         error => document.at("curve", error.to_string()).into(),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostic, Document, toml_string};
+use drape_input::{Diagnostic, Document, FileAccess, toml_string};
 
 use crate::error::Error;
 use crate::exports::contents::FileContents;
@@ -50,23 +50,18 @@ pub struct SheetDraft {
     pub notes: Vec<String>,
     /// Folder of the files, which the sheet may name.
     folder: PathBuf,
+    /// Access to the files.
+    access: FileAccess,
 }
 
-/// Folder of the files, and the path to it from the folder of the sheet.
-struct Folders<'a> {
-    folder: &'a Path,
-    path: String,
-}
-
-impl Folders<'_> {
-    /// Returns `draft` with the names of its files relative to the folder of the sheet.
-    fn with_paths(&self, draft: &CurveDraft) -> CurveDraft {
-        let mut draft = draft.clone();
-        if !self.path.is_empty() {
-            draft.files.iter_mut().for_each(|file| *file = format!("{}/{file}", self.path));
-        }
-        draft
+/// Returns `draft` with the names of its files relative to the folder of the sheet. `folder` is the
+/// path from there to the files.
+fn with_paths(draft: &CurveDraft, folder: &str) -> CurveDraft {
+    let mut draft = draft.clone();
+    if !folder.is_empty() {
+        draft.files.iter_mut().for_each(|file| *file = format!("{folder}/{file}"));
     }
+    draft
 }
 
 impl SheetDraft {
@@ -78,14 +73,23 @@ impl SheetDraft {
     /// The file or the folder cannot be read, or no file holds a curve or a value. The error names
     /// each file with the reason.
     pub fn of(path: &Path, beside: &Path) -> Result<Vec<Self>, Error> {
-        let files = Files::from_path(path)?;
+        Self::of_with(path, beside, FileAccess::usual())
+    }
+
+    /// Drafts the sheets of the files at `path` as [`of`](Self::of) does. The files are read with
+    /// the given `access`.
+    ///
+    /// # Errors
+    /// The errors of [`of`](Self::of).
+    pub fn of_with(path: &Path, beside: &Path, access: &FileAccess) -> Result<Vec<Self>, Error> {
+        let files = Files::from_path(path, access)?;
         let contents = FileContents::from_files(&files);
         if contents.is_empty() {
             return Err(contents.nothing(path).into());
         }
-        let folders = Folders { folder: &files.folder, path: relative(&files.folder, beside) };
+        let folder = relative(&files.folder, beside);
         let fabrics = by_fabric(contents);
-        Ok(fabrics.into_iter().map(|fabric| Self::draft_fabric(fabric, &files, &folders)).collect())
+        Ok(fabrics.into_iter().map(|fabric| Self::draft_fabric(fabric, &files, &folder)).collect())
     }
 
     /// Drafts the sheet of the exports of one fabric in `folder` and its subfolders, in the manner
@@ -158,7 +162,7 @@ impl SheetDraft {
     /// The errors of [`Sheet::from_document`].
     pub fn read(&self, beside: &Path) -> Result<Sheet, Error> {
         let document = Document::new(beside.join("sheet.toml"), self.text.clone());
-        self.read_document(document)
+        self.read_document(document.with_access(&self.access))
     }
 
     /// Reads a `document` with the text of the draft, in the manner of [`read`](Self::read). Values
@@ -167,9 +171,9 @@ impl SheetDraft {
     /// # Errors
     /// The errors of [`Sheet::from_document`].
     pub fn read_document(&self, document: Document) -> Result<Sheet, Error> {
-        let allowed: Vec<PathBuf> =
-            document.allowed().iter().cloned().chain([self.whole_folder()]).collect();
-        let mut sheet = Sheet::from_document(&document.allowing(&allowed))?;
+        let mut access = document.access().clone();
+        access.allowed.push(self.whole_folder());
+        let mut sheet = Sheet::from_document(&document.with_access(&access))?;
         sheet.add_readings(&self.readings, &self.notes);
         Ok(sheet)
     }
@@ -179,13 +183,15 @@ impl SheetDraft {
         if self.folder.as_os_str().is_empty() { PathBuf::from(".") } else { self.folder.clone() }
     }
 
-    /// Drafts the sheet of one `fabric` from `files`.
-    fn draft_fabric(fabric: FabricContents, files: &Files, folders: &Folders<'_>) -> Self {
+    /// Drafts the sheet of one `fabric` from `files`. `folder` is the path from the folder of the
+    /// sheet to the files.
+    fn draft_fabric(fabric: FabricContents, files: &Files, folder: &str) -> Self {
         let FabricContents { name, values, contents } = fabric;
         let name = name.unwrap_or_else(|| files.name.clone());
-        let mut draft = Self { folder: files.folder.clone(), ..Self::default() };
+        let mut draft =
+            Self { folder: files.folder.clone(), access: files.access.clone(), ..Self::default() };
 
-        let value_lines = value_lines(&convert(values), folders.folder);
+        let value_lines = value_lines(&convert(values), files);
         let head = format!(
             "# Sheet of {}, drafted by drape. Everything detected is a key\n\
              # with its reason: correct what is wrong. `drape check` reads it, `drape fit` fits it.\n\
@@ -197,7 +203,7 @@ impl SheetDraft {
         draft.text = head + &value_lines.text;
         (draft.values, draft.readings) = (value_lines.values, value_lines.readings);
         draft.notes.extend(value_lines.notes);
-        draft.add_curves(&contents, folders);
+        draft.add_curves(&contents, folder);
 
         draft.notes.extend(contents.notes.iter().cloned());
         if !contents.notes.is_empty() {
@@ -226,9 +232,9 @@ impl SheetDraft {
 
     /// Writes the curves of `contents`. Curves that a person has to complete, and curves on the
     /// bias, are written as comments.
-    fn add_curves(&mut self, contents: &FileContents, folders: &Folders<'_>) {
+    fn add_curves(&mut self, contents: &FileContents, folder: &str) {
         for curve in &contents.curves {
-            self.text += &format!("\n{}", folders.with_paths(curve).to_toml());
+            self.text += &format!("\n{}", with_paths(curve, folder).to_toml());
             let keys = curve.layout.iter().chain(curve.axes.iter().flatten());
 
             let file = curve.files.join(", ");
@@ -245,7 +251,7 @@ impl SheetDraft {
         for OpenDraft { draft: curve, reason } in &contents.open {
             let reason = single_line(reason);
             self.text += &format!("\n# Not taken: {reason}.\n# Correct and uncomment:\n");
-            self.text += &folders.with_paths(curve).to_comment();
+            self.text += &with_paths(curve, folder).to_comment();
             self.notes.push(format!("{} is not taken: {reason}", curve.files.join(", ")));
             self.add_remarks(curve);
         }
@@ -255,7 +261,7 @@ impl SheetDraft {
             self.text += &format!(
                 "\n# Left out: {files}, since {reason}.\n# If it was cut along a yarn, correct and uncomment:\n"
             );
-            self.text += &folders.with_paths(curve).to_comment();
+            self.text += &with_paths(curve, folder).to_comment();
             self.notes.push(format!("{files} is left out: {reason}"));
         }
     }

@@ -8,6 +8,7 @@ use drape_input::{Diagnostic, Quantity, parse_unit, toml_string};
 use crate::curves::curve::Curve;
 use crate::exports::curve_draft::{CurveDraft, Key};
 use crate::exports::evidence::{Evidence, Reasoned};
+use crate::exports::files::Files;
 use crate::sheets::axis::{AxisKeys, deformation_quantities, load_quantities};
 use crate::tables::file::TableFile;
 use crate::tables::find::{Request, decimal_sign, find_all, is_repeat};
@@ -30,8 +31,8 @@ pub(crate) struct Export<'a> {
     /// Name of the file relative to the folder of the sheet.
     pub(crate) name: String,
     pub(crate) file: &'a TableFile,
-    /// Folder of the sheet.
-    pub(crate) folder: &'a Path,
+    /// Files of the sheet, of which this is one.
+    pub(crate) files: &'a Files,
 }
 
 /// Drafts of the curves of a file.
@@ -206,7 +207,7 @@ impl Export<'_> {
         draft.axes = size_keys.axis_keys;
 
         self.add_slack(&mut draft);
-        match draft.read(self.folder) {
+        match draft.read(self.files) {
             Ok(curves) => draft = self.with_detected_keys(draft, group, &curves),
             Err(mistakes) if reasons.is_empty() => {
                 reasons.extend(mistakes.0.iter().map(describe_mistake));
@@ -235,7 +236,7 @@ impl Export<'_> {
         let mut slack = draft.clone();
         let why = "at the start the clamps are nearer than the strip is long";
         slack.layout.push(Key::new("slack", "true", why));
-        let is_slack = slack.read(self.folder).is_ok_and(|curves| {
+        let is_slack = slack.read(self.files).is_ok_and(|curves| {
             curves.iter().all(|curve| curve.deformation().first().is_some_and(|q| *q < -SLACK_MIN))
         });
         if draft.test.value == Test::Tensile && is_slack {
@@ -270,7 +271,7 @@ impl Export<'_> {
         }
         candidates.push(whole);
         let reads_same =
-            |draft: &CurveDraft| draft.read(self.folder).is_ok_and(|read| read == curves);
+            |draft: &CurveDraft| draft.read(self.files).is_ok_and(|read| read == curves);
         candidates.into_iter().find(reads_same).unwrap_or(draft)
     }
 

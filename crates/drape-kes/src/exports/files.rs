@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, FileAccess};
 
 use crate::tables::file::archive;
 
@@ -32,11 +32,15 @@ pub(crate) struct Files {
     pub(crate) title: String,
     /// Path and name of each file.
     pub(crate) files: Vec<(PathBuf, String)>,
+    /// Access to the files.
+    pub(crate) access: FileAccess,
 }
 
 impl Files {
-    /// Finds the files at `path`: a folder with its subfolders, an archive, or one file.
-    pub(crate) fn from_path(path: &Path) -> Result<Self, Diagnostics> {
+    /// Finds the files at `path`: a folder with its subfolders, an archive, or one file. They are
+    /// read with the given `access`.
+    pub(crate) fn from_path(path: &Path, access: &FileAccess) -> Result<Self, Diagnostics> {
+        let access = access.clone();
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         if path.is_dir() {
             let mut paths = Vec::new();
@@ -46,7 +50,7 @@ impl Files {
                 paths.into_iter().map(|file| (file.clone(), relative(&file, path))).collect();
             let name = name_or_fabric(whole.file_name());
             let title = format!("the exports in the folder {name}");
-            return Ok(Self { folder: path.to_owned(), name, title, files });
+            return Ok(Self { folder: path.to_owned(), name, title, files, access });
         }
         if let Err(error) = std::fs::metadata(path) {
             let finding = Diagnostic::new(path, format!("cannot open the file: {error}"));
@@ -65,7 +69,7 @@ impl Files {
             vec![(path.to_owned(), title.clone())]
         };
 
-        Ok(Self { folder, name, title, files })
+        Ok(Self { folder, name, title, files, access })
     }
 }
 

@@ -2,12 +2,12 @@
 //! refuses is written as a comment.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use drape_input::{Quantity, figure, toml_string};
 
 use crate::exports::curve_draft::{comment_out, line, read, single_line};
 use crate::exports::file_curves::describe_mistake;
+use crate::exports::files::Files;
 use crate::results::item::Item;
 use crate::results::sheet_value::{ConvertedValues, DraftValue};
 use crate::test::Direction;
@@ -29,8 +29,8 @@ pub(crate) struct ValueLines {
     pub(crate) notes: Vec<String>,
 }
 
-/// Writes the values `converted` of a fabric whose sheet lies in `folder`.
-pub(crate) fn value_lines(converted: &ConvertedValues, folder: &Path) -> ValueLines {
+/// Writes the values `converted` of a fabric whose sheet lies beside `files`.
+pub(crate) fn value_lines(converted: &ConvertedValues, files: &Files) -> ValueLines {
     let mut lines = ValueLines { notes: converted.notes.clone(), ..ValueLines::default() };
     let mut groups: BTreeMap<Option<Direction>, Vec<&DraftValue>> = BTreeMap::new();
     for value in &converted.values {
@@ -43,7 +43,7 @@ pub(crate) fn value_lines(converted: &ConvertedValues, folder: &Path) -> ValueLi
         lines.text += &head;
         let mut taken: Vec<&DraftValue> = Vec::new();
         for value in values {
-            lines.add(value, &head, folder, &mut taken);
+            lines.add(value, &head, files, &mut taken);
         }
 
         if direction.is_none() {
@@ -75,11 +75,11 @@ impl ValueLines {
         &mut self,
         value: &'v DraftValue,
         head: &str,
-        folder: &Path,
+        files: &Files,
         taken: &mut Vec<&'v DraftValue>,
     ) {
         let value_line = line(value.key, &value.written(), &value.why);
-        match read(&format!("{head}{value_line}"), folder) {
+        match read(&format!("{head}{value_line}"), files) {
             Ok(_) => {
                 taken.push(value);
                 self.text += &value_line;

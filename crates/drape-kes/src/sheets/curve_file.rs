@@ -207,7 +207,8 @@ impl CurveKeys {
     /// Reads the curves of `file`, and adds a reading. Returns `None` after reporting a mistake.
     fn read_curves(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
         let path = self.path_of(file, findings)?;
-        let table_file = findings.collect(file::read(&path, &self.layout))?;
+        let read = file::read(&path, &self.layout, findings.document.access());
+        let table_file = findings.collect(read)?;
         let request = Request {
             test: self.test,
             direction: self.direction,

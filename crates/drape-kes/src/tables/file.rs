@@ -5,7 +5,7 @@ pub(crate) mod archive;
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, SizeLimit};
+use drape_input::{Diagnostic, Diagnostics, FileAccess, SizeLimit};
 use encoding_rs::Encoding;
 
 use crate::tables::channel_rows;
@@ -35,10 +35,15 @@ pub(crate) fn is_there(path: &Path) -> bool {
         })
 }
 
-/// Reads the file, or the member of an archive, at `path`.
-pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostics> {
+/// Reads the file, or the member of an archive, at `path`. The limit on its size is raised by the
+/// factor in `access`.
+pub(crate) fn read(
+    path: &Path,
+    layout: &Layout,
+    access: &FileAccess,
+) -> Result<TableFile, Diagnostics> {
     if let Some((archive, name)) = archive::split_member(path) {
-        let bytes = archive::read(&archive, &name, LIMIT.bytes()).map_err(|reason| {
+        let bytes = archive::read(&archive, &name, LIMIT.bytes(access)).map_err(|reason| {
             Diagnostic::new(&archive, format!("the archive cannot be read: {reason}"))
                 .help("pack it again as .zip without a password, or name the folder of its files")
         })?;
@@ -49,7 +54,7 @@ pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostic
     if !metadata.is_file() {
         return Err(Diagnostic::new(path, "this is not a file").help("name a table").into());
     }
-    if let Err(refused) = LIMIT.check(metadata.len()) {
+    if let Err(refused) = LIMIT.check(metadata.len(), access) {
         return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
     }
     let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use drape_input::{Document, Edit};
+use drape_input::{Document, Edit, FileAccess};
 
 use super::unit::Unit;
 
@@ -17,13 +17,21 @@ pub struct Request {
     pub size: Option<String>,
     /// Pattern whose table `[from]` makes the request. Remedies are edits of it.
     pub from: Option<Document>,
+    /// Access to the file.
+    pub access: FileAccess,
 }
 
 impl Request {
     /// Returns the request for the file `path` without choices.
     #[must_use]
     pub fn new(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into(), unit: None, size: None, from: None }
+        Self {
+            path: path.into(),
+            unit: None,
+            size: None,
+            from: None,
+            access: FileAccess::default(),
+        }
     }
 
     /// Returns the edit that sets `key` of the request to `value`, in TOML.

@@ -103,8 +103,8 @@ impl PatternFile<'_> {
                 }
             },
         };
-        let (size, from) = (from.size.clone(), Some(self.document.clone()));
-        Ok(Some(Request { path, unit, size, from }))
+        let (size, access) = (from.size.clone(), self.document.access().clone());
+        Ok(Some(Request { path, unit, size, from: Some(self.document.clone()), access }))
     }
 
     /// Removes keys that do not fit `pattern`, whose drawing was changed: panels and edges that it

@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::Path;
 
 use drape_frames::Recording;
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, FileAccess};
 use drape_pattern::Pattern;
 use toml::{Table, Value};
 
@@ -69,10 +69,10 @@ const STUDY_KEYS: [&str; 3] = ["scene", "fit", "test"];
 const STUDY_TABLES: [&str; 4] = ["axis", "sample", "covariance", "measure"];
 
 impl FileKind {
-    /// Returns the kind of the file or folder at `path`. Returns `None` if it cannot be read or has
-    /// no known kind.
+    /// Returns the kind of the file or folder at `path`, which is read with the given `access`.
+    /// Returns `None` if it cannot be read or has no known kind.
     #[must_use]
-    pub fn of(path: &Path) -> Option<Self> {
+    pub fn of(path: &Path, access: &FileAccess) -> Option<Self> {
         if path.is_dir() {
             return Self::of_folder(path);
         }
@@ -82,7 +82,7 @@ impl FileKind {
         let kind = match ending.as_str() {
             "json" | "npy" if is_of_run() => Self::Run,
             "svg" | "dxf" => Self::Drawing,
-            "json" if holds_panels(path) => Self::Drawing,
+            "json" if holds_panels(path, access) => Self::Drawing,
             "json" => return None,
             "obj" | "stl" | "ply" => Self::Body,
             "csv" | "tsv" | "txt" | "dat" | "asc" | "npy" => Self::Table,
@@ -91,7 +91,7 @@ impl FileKind {
             "u3m" | "u3ma" => Self::Material,
             "png" | "jpg" | "jpeg" | "webp" | "gif" => Self::Picture,
             "html" | "htm" | "pdf" => Self::Page,
-            _ => return Self::of_document(&Document::read(path).ok()?),
+            _ => return Self::of_document(&Document::read_with(path, access).ok()?),
         };
         path.exists().then_some(kind)
     }
@@ -142,7 +142,7 @@ impl FileKind {
     /// # Errors
     /// The file has another kind.
     pub fn expect(path: &Path, wanted: &[Self]) -> Result<(), Diagnostics> {
-        match Self::of(path) {
+        match Self::of(path, FileAccess::usual()) {
             Some(Self::Run) if path.is_file() => Err(Self::Run.refused(path, wanted).into()),
             Some(kind) if !wanted.contains(&kind) => Err(kind.refused(path, wanted).into()),
             _ => Ok(()),
@@ -252,8 +252,8 @@ fn listed(kinds: &[FileKind]) -> String {
 }
 
 /// Returns whether the JSON file at `path` is a pattern of GarmentCode or FreeSewing, by its keys.
-fn holds_panels(path: &Path) -> bool {
-    let text = Document::read(path).ok();
+fn holds_panels(path: &Path, access: &FileAccess) -> bool {
+    let text = Document::read_with(path, access).ok();
     let value = text.and_then(|document| serde_json::from_str(document.text()).ok());
     value.is_some_and(|value: serde_json::Value| {
         ["pattern", "parts", "stacks"].iter().any(|key| value.get(key).is_some())

@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
     pub(crate) fn mesh(&self, path: &Path) -> Result<Triangulation, drape_collide::Error> {
         match self.given(path) {
             Some(document) => parse_mesh(path, document.text().as_bytes()),
-            None => read_mesh_within(path, MESH_LIMIT.bytes()),
+            None => read_mesh_within(path, MESH_LIMIT.bytes(self.document().access())),
         }
     }
 

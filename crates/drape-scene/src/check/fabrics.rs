@@ -44,8 +44,8 @@ pub(crate) fn materials(
             } else {
                 path
             };
-            let allowed = checker.document().allowed();
-            let fabric = reader(FabricRequest { file: &file, model, allowed });
+            let access = checker.document().access();
+            let fabric = reader(FabricRequest { file: &file, model, access });
             (file, fabric)
         } else {
             checker.no_file(&key, named, &path);

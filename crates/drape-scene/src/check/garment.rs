@@ -14,7 +14,7 @@ use std::path::Path;
 
 use drape_cloth::Tie;
 use drape_input::{Diagnostic, Diagnostics, Document, excerpt, figure_below, toml_key};
-use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, PatternTable};
+use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, PatternTable, Request};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::fabrics::check_thickness;
@@ -113,7 +113,10 @@ fn pattern(checker: &mut Checker<'_>, (key, name): (&str, &str), path: &Path) ->
     }
     let read = match given {
         Some(document) => Pattern::parse(document).map_err(Error::from),
-        None => Pattern::read(path),
+        None => {
+            let access = checker.document().access().clone();
+            Pattern::read_as(&Request { access, ..Request::new(path) })
+        }
     };
     match read {
         Ok(pattern) => Some(pattern),
@@ -263,7 +266,9 @@ fn check_seam_order(
     let twisted = pattern.seams().iter().filter(|seam| !meant.contains(&seam.name));
     let file = entry.pattern.file().map(|name| checker.folder.join(name)).map(|path| {
         let given = checker.given(&path).cloned();
-        given.or_else(|| Document::read(&path).ok()).unwrap_or_else(|| Document::new(&path, ""))
+        given
+            .or_else(|| Document::read_with(&path, checker.document().access()).ok())
+            .unwrap_or_else(|| Document::new(&path, ""))
     });
     let of_pattern = file.as_ref().filter(|file| !Pattern::is_drawing_text(file));
     let of_pattern = of_pattern.map(|document| SeamHome { document, key: "seam".into() });

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape_fabric::Fabric;
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, FileAccess};
 
 use crate::scene::model::Model;
 
@@ -27,8 +27,8 @@ pub struct FabricRequest<'a> {
     pub file: &'a Path,
     /// Model whose laws the fabric is to have.
     pub model: Model,
-    /// Files and folders that the file may name, beside its folder and the working folder.
-    pub allowed: &'a [PathBuf],
+    /// Access to the file, and to the files that it names.
+    pub access: &'a FileAccess,
 }
 
 /// Function that answers a scene's requests for fabrics.
@@ -40,7 +40,7 @@ pub type FabricReader<'a> = &'a dyn Fn(FabricRequest<'_>) -> Result<Fabric, Diag
 /// The mistakes of the file; for one without laws, such as a sheet of measurements, advice how to
 /// make a fabric of it.
 pub fn read_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
-    let document = Document::read(request.file)?.allowing(request.allowed);
+    let document = Document::read_with(request.file, request.access)?;
     if is_fabric(&document) {
         return Fabric::from_document(&document);
     }

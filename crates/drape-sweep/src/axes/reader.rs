@@ -215,7 +215,7 @@ impl Reader<'_> {
                 help: missing_file_help(&path),
             });
         }
-        Document::read(&path).map_err(|mistakes| CovarianceError {
+        Document::read_with(&path, self.document.access()).map_err(|mistakes| CovarianceError {
             message: mistakes.to_string(),
             help: "name a fabric.toml".into(),
         })

@@ -50,7 +50,7 @@ struct ReadMesh {
 
 /// Reads the mesh at `path` and scales it to m.
 fn read(path: &Path, settings: BodySettings) -> Result<ReadMesh, Diagnostics> {
-    let mesh = read_mesh_within(path, MESH_LIMIT.bytes())
+    let mesh = read_mesh_within(path, MESH_LIMIT.bytes(input::access()))
         .map_err(|error| Diagnostic::new(path, error.to_string()))?;
     let is_finite = mesh.vertices.iter().flatten().all(|x| x.abs() < 1e9);
     if mesh.triangles.is_empty() || !is_finite {

@@ -37,7 +37,7 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
     if sheets::holds_tables(path) {
         return tables(path);
     }
-    match FileKind::of(path).filter(|_| !input::is_standard(path)) {
+    match input::kind(path).filter(|_| !input::is_standard(path)) {
         Some(FileKind::Study) => return study(path),
         Some(FileKind::Material | FileKind::Picture | FileKind::Page | FileKind::Run) => {
             input::expect(path, &CHECKED)?;
@@ -74,14 +74,14 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
 
 /// Returns the values of the sheet at `path`, or `None` if the file is no sheet.
 pub(crate) fn sheet_values_of(path: &Path) -> Option<Vec<CheckedValue>> {
-    let is_sheet = FileKind::of(path) == Some(FileKind::Sheet);
+    let is_sheet = input::kind(path) == Some(FileKind::Sheet);
     let sheet = is_sheet.then(|| sheets::read(path).ok()).flatten()?;
     Some(sheet_values(&sheet))
 }
 
 /// Describes the study at `path`: its base, the number of its points, and its axes.
 fn study(path: &Path) -> Result<String, Diagnostics> {
-    let study = Study::read(path, input::allowed()).map_err(|error| match error {
+    let study = Study::read(path, input::access()).map_err(|error| match error {
         SweepError::Input(mistakes) => mistakes,
         error => Diagnostic::new(path, error.to_string()).into(),
     })?;
@@ -286,8 +286,8 @@ fn fabric(fabric: &Fabric) -> String {
 /// Describes the sheets that `drape fit` would draft from the tables at `path`.
 fn tables(path: &Path) -> Result<String, Diagnostics> {
     let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
-    let drafts =
-        SheetDraft::of(path, folder).map_err(|error| sheets::to_diagnostics(error, path))?;
+    let drafts = SheetDraft::of_with(path, folder, input::access())
+        .map_err(|error| sheets::to_diagnostics(error, path))?;
     let several = drafts.len() > 1;
     let mut text = String::new();
     for draft in drafts {

@@ -4,7 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::input::{Diagnostic, Diagnostics, counted};
-use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, Sketch, SketchFault, figure};
+use drape::pattern::{
+    CutPattern, Cutter, Error, Pattern, Quality, Request, Sketch, SketchFault, figure,
+};
 
 use crate::input;
 
@@ -27,7 +29,8 @@ impl RefusedPattern {
         let sketch = if input::is_standard(path) {
             input::document(path).map(|document| Sketch::parse(&document)).ok()
         } else {
-            Some(Sketch::read(path))
+            let access = input::access().clone();
+            Some(Sketch::read(&Request { access, ..Request::new(path) }))
         };
         let subjects = mistakes.0.iter().filter_map(|mistake| mistake.subject.clone());
         let faults: Vec<SketchFault> =
@@ -52,7 +55,9 @@ impl CheckedPattern {
         let pattern = if input::is_standard(path) {
             input::document(path).and_then(|document| Pattern::parse(&document))
         } else {
-            Pattern::read(path).map_err(|error| match error {
+            let access = input::access().clone();
+            let request = Request { access, ..Request::new(path) };
+            Pattern::read_as(&request).map_err(|error| match error {
                 Error::Input(mistakes) => mistakes,
                 error => Diagnostic::new(name, error.to_string()).into(),
             })

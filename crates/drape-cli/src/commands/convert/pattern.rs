@@ -17,7 +17,7 @@ use drape::run::file;
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
     let target = ConversionTarget::new(arguments)?;
     let (unit, size) = (unit(arguments)?, arguments.size.clone());
-    let request = Request { unit, size, ..Request::new(from) };
+    let request = Request { unit, size, access: input::access().clone(), ..Request::new(from) };
     let pattern = if input::is_standard(from) {
         Pattern::parse_as(&input::document(from)?, &request)?
     } else {

@@ -57,7 +57,7 @@ impl MeasuredFabric {
     /// sheet beside it.
     fn read(path: &Path) -> Result<Self, Failure> {
         let fabric = read(path)?;
-        let is_sheet = !input::is_standard(path) && FileKind::of(path) == Some(FileKind::Sheet);
+        let is_sheet = !input::is_standard(path) && input::kind(path) == Some(FileKind::Sheet);
         let sheet = if is_sheet { Some(sheets::read(path)?) } else { beside(path, &fabric) };
         Ok(Self { fabric, sheet })
     }

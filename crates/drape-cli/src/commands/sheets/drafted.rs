@@ -22,7 +22,8 @@ pub(crate) fn drafts(
     folder: &Path,
     fabric: Option<&str>,
 ) -> Result<Vec<SheetDraft>, Failure> {
-    let drafts = SheetDraft::of(path, folder).map_err(|error| to_diagnostics(error, path))?;
+    let drafts = SheetDraft::of_with(path, folder, input::access())
+        .map_err(|error| to_diagnostics(error, path))?;
     match fabric {
         None => Ok(drafts),
         Some(fabric) => {

@@ -68,7 +68,7 @@ pub(crate) fn converge(arguments: &ConvergeArguments) -> Result<(), Failure> {
 
     // Every scene is checked before the first run begins.
     for point in &points {
-        let document = Document::read(&point.file)?.allowing(input::allowed());
+        let document = Document::read_with(&point.file, input::access())?;
         drape::run::scene_of(&document.with_settings(&point.settings)?)?;
     }
 
@@ -145,7 +145,7 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
     }
     let document = input::document_of_kind(scene, &[FileKind::Scene])?;
     let text = study_text(scene, &arguments.set, &spacing_axes(&document, spacings)?);
-    let study = Study::from_document(&Document::new(scene, text).allowing(input::allowed()))?;
+    let study = Study::from_document(&Document::new(scene, text).with_access(input::access()))?;
     let study = study.with_output(folder(arguments));
     let points = study.points(VERSION, None)?;
     Ok((study, points))

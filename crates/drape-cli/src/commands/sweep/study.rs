@@ -31,7 +31,7 @@ impl StudyArguments {
     /// Reads the study without its points, and sets the folder of `--results`.
     pub(super) fn study(&self) -> Result<Study, Failure> {
         input::expect(&self.study, &[FileKind::Study])?;
-        let study = Study::read(&self.study, input::allowed())?;
+        let study = Study::read(&self.study, input::access())?;
         Ok(match &self.results {
             Some(folder) => study.with_output(folder.clone()),
             None => study,

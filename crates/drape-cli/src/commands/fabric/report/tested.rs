@@ -131,7 +131,7 @@ fn is_laws_file(path: &Path) -> Result<bool, Failure> {
     if input::is_standard(path) {
         return Ok(FileKind::of_document(&input::document(path)?) == Some(FileKind::Fabric));
     }
-    Ok(FileKind::of(path) == Some(FileKind::Fabric))
+    Ok(input::kind(path) == Some(FileKind::Fabric))
 }
 
 /// Drafts the sheets of the tables at `path`, and fits them.
