@@ -142,7 +142,11 @@ impl CommandLine {
     pub(crate) fn execute(&self) -> Result<(), Failure> {
         let Options { threads, quiet, verbose, progress, ref allow_path, raise_limits } =
             self.options;
-        input::set_access(FileAccess { allowed: allow_path.clone(), size_factor: raise_limits });
+        input::set_access(FileAccess {
+            allowed: allow_path.clone(),
+            size_factor: raise_limits,
+            ..FileAccess::default()
+        });
         Console { quiet, verbose, progress }.install();
 
         // A benchmark is timed on one thread unless the user asks for another number.

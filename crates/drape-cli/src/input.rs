@@ -40,7 +40,7 @@ pub(crate) fn access() -> &'static FileAccess {
 /// Returns the command-line options `--allow-path` and `--raise-limits` of this process, for a
 /// worker process that reads the same input.
 pub(crate) fn options() -> Vec<OsString> {
-    let FileAccess { allowed, size_factor: factor } = access();
+    let FileAccess { allowed, size_factor: factor, .. } = access();
     let paths = allowed.iter().map(|path| {
         let absolute = std::path::absolute(path).unwrap_or_else(|_| path.clone());
         ["--allow-path".into(), absolute.into_os_string()]

@@ -152,11 +152,15 @@ impl Document {
         Ok(path)
     }
 
-    /// Checks that the document may name `path`, which is relative to the working folder.
+    /// Checks that the document may name `path`, which is relative to the working folder. It may
+    /// name every file in memory.
     ///
     /// # Errors
     /// [`ForbiddenPath`], as in [`beside`](Self::beside).
     pub fn permit(&self, path: &Path) -> Result<(), ForbiddenPath> {
+        if self.access.held(path).is_some() {
+            return Ok(());
+        }
         AllowedFolders::new(self.folder(), &self.access.allowed).check(path)
     }
 
@@ -180,20 +184,20 @@ impl Document {
     /// The errors of [`read`](Self::read), with the raised limit.
     pub fn read_with(path: impl AsRef<Path>, access: &FileAccess) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
-        let metadata = std::fs::metadata(path).map_err(|error| {
-            let message = format!("cannot open the file: {error}");
-            Diagnostic::new(path, message).help(missing_file_help(path))
-        })?;
-        if !metadata.is_file() {
-            let mistake = Diagnostic::new(path, "this is not a file").help("name a TOML file");
-            return Err(mistake.into());
-        }
-        if let Err(refused) = LIMIT.check(metadata.len(), access) {
+        let size = match access.held(path) {
+            Some(bytes) => bytes.len() as u64,
+            None => file_size(path)?,
+        };
+        if let Err(refused) = LIMIT.check(size, access) {
             let mistake = Diagnostic::new(path, refused.to_string()).help(refused.help());
             return Err(mistake.into());
         }
 
-        let text = std::fs::read_to_string(path).map_err(|error| {
+        let text = match access.held(path) {
+            Some(bytes) => str::from_utf8(bytes).map(str::to_owned).map_err(|e| e.to_string()),
+            None => std::fs::read_to_string(path).map_err(|error| error.to_string()),
+        };
+        let text = text.map_err(|error| {
             let message = format!("cannot read the file: {error}");
             Diagnostic::new(path, message).help("save it as UTF-8")
         })?;
@@ -425,6 +429,22 @@ impl Document {
         let setting = place.map(|place| place - 1 - self.text.len());
         Some(LocatedValue { node, is_value, setting })
     }
+}
+
+/// Returns the size of the file `path`, in bytes.
+///
+/// # Errors
+/// A mistake if the file is missing, or is no file.
+fn file_size(path: &Path) -> Result<u64, Diagnostics> {
+    let metadata = std::fs::metadata(path).map_err(|error| {
+        let message = format!("cannot open the file: {error}");
+        Diagnostic::new(path, message).help(missing_file_help(path))
+    })?;
+    if !metadata.is_file() {
+        let mistake = Diagnostic::new(path, "this is not a file").help("name a TOML file");
+        return Err(mistake.into());
+    }
+    Ok(metadata.len())
 }
 
 /// Values of a text, and the mistakes of grammar in the text.

@@ -183,6 +183,12 @@ fn an_archive_is_read_as_its_folder_would_be() {
     std::fs::write(folder.path().join("labor.sheet.toml"), &drafts[0].text).expect("written");
     let again = Sheet::read(folder.path().join("labor.sheet.toml")).expect("it is read");
     assert_eq!(again.digest(), sheet.digest());
+    // The archive is read from memory as well.
+    let bytes = std::fs::read(&path).expect("read");
+    let held = SheetDraft::from_bytes("labor.zip", &bytes).expect("drafted");
+    assert_eq!(held[0].text, drafts[0].text);
+    let of_memory = held[0].read(std::path::Path::new("")).expect("a sheet");
+    assert_eq!(of_memory.digest(), sheet.digest());
     let empty = folder.path().join("empty.zip");
     std::fs::write(&empty, b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0").expect("written");
     assert!(

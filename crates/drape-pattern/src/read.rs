@@ -244,7 +244,9 @@ fn ending(path: &Path) -> String {
 /// Returns the document of the file `path`. Programs write patterns, so that the file may be larger
 /// than a file that a person writes.
 fn document(path: &Path, access: &FileAccess) -> Result<Document, Diagnostics> {
-    let size = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map(|m| m.len());
+    let held = access.held(path);
+    let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
+    let size = held.map(|bytes| bytes.len() as u64).or_else(|| metadata.map(|file| file.len()));
     let Some(size) = size else {
         // `Document::read` says what is missing.
         return Document::read_with(path, access);
@@ -252,7 +254,8 @@ fn document(path: &Path, access: &FileAccess) -> Result<Document, Diagnostics> {
     if let Err(refused) = LIMIT.check(size, access) {
         return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
     }
-    let bytes = std::fs::read(path).map_err(|error| {
+    let read = held.map_or_else(|| std::fs::read(path), |bytes| Ok(bytes.to_vec()));
+    let bytes = read.map_err(|error| {
         Diagnostic::new(path, format!("cannot read the file: {error}")).help("make it readable")
     })?;
 

@@ -36,8 +36,31 @@ impl PointCache {
     /// As for [`read`](Self::read), with `limit` in place of [`MESH_BYTES_MAX`].
     pub fn read_within(path: impl AsRef<Path>, limit: u64) -> Result<PointCache, Error> {
         let path = path.as_ref();
-        let bytes = read_bytes(path, limit)?;
-        parse(&bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
+        Self::parse(path, &read_bytes(path, limit)?)
+    }
+
+    /// Parses the content `bytes` of a point cache, as [`read`](Self::read) does. `path` is named
+    /// in errors.
+    ///
+    /// # Errors
+    /// The errors of [`read`](Self::read), except for the length.
+    ///
+    /// ```
+    /// use drape_collide::PointCache;
+    ///
+    /// // Two samples of one vertex, which rises by half a unit.
+    /// let mut bytes = b"POINTCACHE2\0".to_vec();
+    /// bytes.extend([1_i32, 1].map(i32::to_le_bytes).concat());
+    /// bytes.extend([0.0_f32, 1.0].map(f32::to_le_bytes).concat());
+    /// bytes.extend(2_i32.to_le_bytes());
+    /// bytes.extend([0.0_f32, 0.0, 0.0, 0.0, 0.5, 0.0].map(f32::to_le_bytes).concat());
+    /// let cache = PointCache::parse("rising.pc2", &bytes)?;
+    /// assert_eq!(cache.samples, [[[0.0, 0.0, 0.0]], [[0.0, 0.5, 0.0]]]);
+    /// # Ok::<(), drape_collide::Error>(())
+    /// ```
+    pub fn parse(path: impl AsRef<Path>, bytes: &[u8]) -> Result<PointCache, Error> {
+        let path = path.as_ref();
+        parse(bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
     }
 }
 

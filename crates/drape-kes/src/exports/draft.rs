@@ -77,7 +77,7 @@ impl SheetDraft {
     }
 
     /// Drafts the sheets of the files at `path` as [`of`](Self::of) does. The files are read with
-    /// the given `access`.
+    /// the given `access`, and may be in memory.
     ///
     /// # Errors
     /// The errors of [`of`](Self::of).
@@ -90,6 +90,27 @@ impl SheetDraft {
         let folder = relative(&files.folder, beside);
         let fabrics = by_fabric(contents);
         Ok(fabrics.into_iter().map(|fabric| Self::draft_fabric(fabric, &files, &folder)).collect())
+    }
+
+    /// Drafts the sheets of the file `name` with the content `bytes`, as [`of`](Self::of) does for
+    /// a file: a workbook, a table or a zip archive. The ending of `name` may say which.
+    ///
+    /// # Errors
+    /// The errors of [`of`](Self::of).
+    ///
+    /// ```
+    /// use drape_kes::SheetDraft;
+    /// use std::path::Path;
+    ///
+    /// let text = "Curvature (1/cm),Moment (gf.cm/cm)\n-2,-0.2\n0,0.01\n2,0.22\n0,-0.01\n-2,-0.2\n";
+    /// let drafts = SheetDraft::from_bytes("bending-warp.csv", text.as_bytes())?;
+    /// let sheet = drafts[0].read(Path::new(""))?;
+    /// assert_eq!(sheet.curves[0].load().len(), 5);
+    /// # Ok::<(), drape_kes::Error>(())
+    /// ```
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<Self>, Error> {
+        let access = FileAccess::default().holding(name, bytes);
+        Self::of_with(Path::new(name), Path::new(""), &access)
     }
 
     /// Drafts the sheet of the exports of one fabric in `folder` and its subfolders, in the manner

@@ -52,15 +52,17 @@ impl Files {
             let title = format!("the exports in the folder {name}");
             return Ok(Self { folder: path.to_owned(), name, title, files, access });
         }
-        if let Err(error) = std::fs::metadata(path) {
+        if access.held(path).is_none()
+            && let Err(error) = std::fs::metadata(path)
+        {
             let finding = Diagnostic::new(path, format!("cannot open the file: {error}"));
             return Err(finding.help("check the path").into());
         }
 
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let (name, title) = (name_or_fabric(whole.file_stem()), name_or_fabric(path.file_name()));
-        let files = if archive::is_archive(path) && path.is_file() {
-            let members = archive::members(path).map_err(|reason| {
+        let files = if archive::is_archive(path) && access.has_file(path) {
+            let members = archive::members(path, &access).map_err(|reason| {
                 Diagnostic::new(path, format!("the archive cannot be read: {reason}"))
                     .help("pack it again as .zip, or name the folder of its files")
             })?;

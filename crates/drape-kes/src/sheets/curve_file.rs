@@ -283,7 +283,7 @@ impl CurveKeys {
                 return None;
             }
         };
-        if file::is_there(&path) {
+        if file::is_there(&path, findings.document.access()) {
             return Some(path);
         }
         let help = suggest_name(&path, file);

@@ -28,23 +28,30 @@ pub(crate) struct TableFile {
 }
 
 /// Returns whether `path` is a file, or a member of an archive.
-pub(crate) fn is_there(path: &Path) -> bool {
-    path.is_file()
-        || archive::split_member(path).is_some_and(|(archive, name)| {
-            archive::members(&archive).is_ok_and(|members| members.contains(&name))
+pub(crate) fn is_there(path: &Path, access: &FileAccess) -> bool {
+    access.has_file(path)
+        || archive::split_member(path, access).is_some_and(|member| {
+            archive::members(&member.archive, access)
+                .is_ok_and(|members| members.contains(&member.name))
         })
 }
 
-/// Reads the file, or the member of an archive, at `path`. The limit on its size is raised by the
+/// Reads the file, or the member of an archive, at `path`, on disk or in memory. The limit on its size is raised by the
 /// factor in `access`.
 pub(crate) fn read(
     path: &Path,
     layout: &Layout,
     access: &FileAccess,
 ) -> Result<TableFile, Diagnostics> {
-    if let Some((archive, name)) = archive::split_member(path) {
-        let bytes = archive::read(&archive, &name, LIMIT.bytes(access)).map_err(|reason| {
-            Diagnostic::new(&archive, format!("the archive cannot be read: {reason}"))
+    if let Some(bytes) = access.held(path) {
+        if let Err(refused) = LIMIT.check(bytes.len() as u64, access) {
+            return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
+        }
+        return parse(path, bytes, layout);
+    }
+    if let Some(member) = archive::split_member(path, access) {
+        let bytes = archive::read(&member, LIMIT.bytes(access), access).map_err(|reason| {
+            Diagnostic::new(&member.archive, format!("the archive cannot be read: {reason}"))
                 .help("pack it again as .zip without a password, or name the folder of its files")
         })?;
         return parse(path, &bytes, layout);

@@ -1,5 +1,7 @@
 //! Sheets drafted from single files, and their values.
 
+use std::path::Path;
+
 use drape_kes::{Direction, Sheet, SheetDraft};
 
 pub const WARP: Option<Direction> = Some(Direction::Warp);
@@ -23,6 +25,13 @@ pub fn drafted(file: &str, bytes: &[u8]) -> (SheetDraft, Sheet) {
     let drafts = SheetDraft::of(&path, folder.path()).unwrap_or_else(|e| panic!("{file}: {e}"));
     let [draft] = &drafts[..] else { panic!("{file}: {} fabrics", drafts.len()) };
     let sheet = draft.read(folder.path()).unwrap_or_else(|e| panic!("{e}\n{}", draft.text));
+
+    // The same bytes in memory give the same draft and the same sheet.
+    let in_memory = SheetDraft::from_bytes(file, bytes).unwrap_or_else(|e| panic!("{file}: {e}"));
+    let [held] = &in_memory[..] else { panic!("{file}: {} fabrics", in_memory.len()) };
+    assert_eq!(held.text, draft.text);
+    let read = held.read(Path::new("")).unwrap_or_else(|e| panic!("{e}\n{}", held.text));
+    assert_eq!((read.listed(), &read.curves), (sheet.listed(), &sheet.curves), "{file}");
     (draft.clone(), sheet)
 }
 

@@ -77,7 +77,7 @@ impl PatternFile<'_> {
             let help = "add to that file itself; `from` is for patterns of other formats";
             return Err(self.document.at("from.file", "is a *.toml").help(help).into());
         }
-        if !path.is_file() {
+        if !self.document.access().has_file(&path) {
             let message = format!("there is no file {}", path.display());
             let near = similar_file(&path).map(|name| {
                 let near = std::path::Path::new(&from.file).with_file_name(name);

@@ -92,9 +92,10 @@ impl<'a> Checker<'a> {
 
     /// Reads the mesh of a path: from the document that is given for it, or from its file.
     pub(crate) fn mesh(&self, path: &Path) -> Result<Triangulation, drape_collide::Error> {
-        match self.given(path) {
-            Some(document) => parse_mesh(path, document.text().as_bytes()),
-            None => read_mesh_within(path, MESH_LIMIT.bytes(self.document().access())),
+        let access = self.document().access();
+        match self.given(path).map(|document| document.text().as_bytes()).or(access.held(path)) {
+            Some(bytes) => parse_mesh(path, bytes),
+            None => read_mesh_within(path, MESH_LIMIT.bytes(access)),
         }
     }
 

@@ -38,7 +38,7 @@ pub(crate) fn materials(
         let path = checker.locate(&key, named)?;
         let (file, fabric) = if let Some(document) = checker.given(&path) {
             (path, Fabric::from_document(document))
-        } else if path.exists() {
+        } else if path.is_dir() || checker.document().access().has_file(&path) {
             let file = if path.is_dir() {
                 checker.locate(&key, &format!("{named}/sheet.toml"))?
             } else {

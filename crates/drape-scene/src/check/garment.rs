@@ -107,7 +107,7 @@ pub(crate) fn garments(
 /// Reads the pattern of a garment, which a key names.
 fn pattern(checker: &mut Checker<'_>, (key, name): (&str, &str), path: &Path) -> Option<Pattern> {
     let given = checker.given(path);
-    if given.is_none() && !path.exists() {
+    if given.is_none() && !checker.document().access().has_file(path) {
         checker.no_file(key, name, path);
         return None;
     }

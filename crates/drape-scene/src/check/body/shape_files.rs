@@ -95,7 +95,10 @@ pub(crate) fn read_shapes(
         }
         (Some(MeshMotion::File(cache)), None) => {
             let path = scene.beside(cache)?;
-            let cache = PointCache::read_within(&path, MESH_LIMIT.bytes(scene.access()))?;
+            let cache = match scene.access().held(&path) {
+                Some(bytes) => PointCache::parse(&path, bytes)?,
+                None => PointCache::read_within(&path, MESH_LIMIT.bytes(scene.access()))?,
+            };
             let paths = vec![path; cache.samples.len()];
             Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
         }
