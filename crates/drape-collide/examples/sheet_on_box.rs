@@ -1,40 +1,46 @@
 //! A sheet that falls on a box and comes to rest: contact of surfaces in the implicit solver.
-use drape_collide::{Body, ContactDistances, Pose, Shape, Surface};
-use drape_collide::{SurfaceContact, SurfaceParts, SurfaceSettings, SurfaceStep};
+use drape_collide::{Body, ContactDistances, OpenStep, Pose, Shape, Surface};
+use drape_collide::{SurfaceContact, SurfaceParts, SurfaceSettings, SurfaceStart, SurfaceTrial};
 use drape_implicit::{AllowedStep, BlockMatrix, IntegratorState, Settings, Sparsity, StepFilter};
 use drape_implicit::{Stepper, Stiffness, System, TrialStep};
 
 /// Contact of a triangle of three particles of 1 g with a box, and the positions of the box.
 struct Sheet(SurfaceContact, Vec<f64>);
 
+impl Sheet {
+    fn step(&mut self) -> OpenStep<'_> {
+        self.0.step().expect("the solver begins each step")
+    }
+}
+
 #[rustfmt::skip]
 impl System for Sheet {
     fn particles(&self) -> usize { 3 }
     fn masses(&self) -> &[f64] { &[1e-3; 3] }
     fn held(&self) -> &[bool] { &[false; 3] }
-    fn begin(&mut self, _: f64, _: f64, x: &[f64], _: &mut [f64]) { self.0.begin(x, &self.1); }
+    fn begin(&mut self, _: f64, _: f64, x: &[f64], _: &mut [f64]) { self.0.begin(SurfaceStart::new(x, &self.1)); }
     fn forces(&mut self, x: &[f64], forces: &mut [f64]) {
         (0..9).for_each(|k| forces[k] = if k % 3 == 1 { -9.81e-3 } else { 0.0 });
-        self.0.add_forces(x, forces);
+        self.0.energy(x).add_forces(forces);
     }
-    fn potential(&mut self, x: &[f64]) -> f64 { 9.81e-3 * (x[1] + x[4] + x[7]) + self.0.potential(x) }
+    fn potential(&mut self, x: &[f64]) -> f64 { 9.81e-3 * (x[1] + x[4] + x[7]) + self.0.energy(x).potential() }
     fn stiffness(&mut self, x: &[f64], _: Stiffness, matrix: &mut BlockMatrix) {
-        self.0.add_stiffness(x, &mut |[i, j], block| matrix.add(i, j, block));
+        self.0.energy(x).add_stiffness(&mut |[i, j], block| matrix.add(i, j, block));
     }
     fn sparsity(&self) -> Sparsity { Sparsity::from_pairs(3, [[0, 1], [1, 2], [0, 2]]).expect("three") }
-    fn accept(&mut self, x: &[f64], _: &[f64], _: f64) { self.0.commit(x); }
+    fn accept(&mut self, x: &[f64], _: &[f64], _: f64) { self.step().commit(x); }
 }
 #[rustfmt::skip]
 impl StepFilter for Sheet {
     fn limit_step(&mut self, step: TrialStep<'_>) -> AllowedStep {
         let TrialStep { start, displacements, obstacle_time, obstacle_advance: mut advance } = step;
         let obstacle_advance = &mut advance;
-        let step = SurfaceStep { start, displacements, held: &[], obstacle_time, obstacle_advance };
-        if self.0.limit_step(step) { return AllowedStep::Whole; }
+        let trial = SurfaceTrial { start, displacements, held: &[], obstacle_time, obstacle_advance };
+        if self.step().limit(trial) { return AllowedStep::Whole; }
         AllowedStep::Shortened { obstacle_advance: advance }
     }
-    fn set_obstacle_time(&mut self, time: f64) { self.0.set_obstacle_time(time); }
-    fn is_intersection_free(&mut self, x: &[f64]) -> bool { self.0.intersections(x).is_ok_and(|i| i.is_empty()) }
+    fn set_obstacle_time(&mut self, time: f64) { self.step().set_obstacle_time(time); }
+    fn is_intersection_free(&mut self, x: &[f64]) -> bool { self.step().intersections(x).is_ok_and(|i| i.is_empty()) }
 }
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let shape = Shape::Box { half_extents: [0.1; 3], edge_radius: 0.0 };

@@ -263,6 +263,16 @@ pub enum Error {
         budget: f64,
     },
 
+    /// A call of contact needs an open step, and no step is open.
+    #[error("no step of the contact is open; open one with `SurfaceContact::begin` first")]
+    NoOpenStep,
+
+    /// A call of contact is for the time between two steps, and a step is open.
+    #[error(
+        "a step of the contact is open; end it with `OpenStep::commit` or `OpenStep::reject` first"
+    )]
+    StepIsOpen,
+
     /// A saved state of contact holds numbers that no contact produces. Take an earlier one.
     #[error("the saved state of contact has numbers that no contact has")]
     SavedContact,

@@ -27,8 +27,9 @@ pub use mesh_repair::{
 pub use particle::{NearestParticle, ParticleContact, ParticleSettings, ParticleSummary};
 pub use surface::{
     CandidatePairs, CcdFilter, ContactDistances, Detector, FractionLimit, FrictionEnergy, Gap,
-    GaussNewton, Gradient, Hessian, Intersection, Pair, PairDistance, PairKind, PinchPolicy,
-    PinchedVertices, SavedContact, SeamIntersections, SewnPlacement, StepFraction, Surface,
-    SurfaceContact, SurfaceMemory, SurfaceParts, SurfaceSettings, SurfaceStep, SurfaceSummary,
-    Sweep, Truncation, equivalence_classes, intersections, segment_meets_triangle,
+    GaussNewton, Gradient, Hessian, Intersection, OpenStep, Pair, PairDistance, PairKind,
+    PinchPolicy, PinchedVertices, SavedContact, SeamIntersections, SewnPlacement, StepFraction,
+    Surface, SurfaceContact, SurfaceEnergy, SurfaceInspection, SurfaceMemory, SurfacePairs,
+    SurfaceParts, SurfaceSettings, SurfaceSetup, SurfaceStart, SurfaceState, SurfaceSummary,
+    SurfaceTrial, Sweep, Truncation, equivalence_classes, intersections, segment_meets_triangle,
 };

@@ -33,8 +33,9 @@ mod tracked_pairs;
 pub use barrier::{Gap, GaussNewton, Gradient, Hessian};
 pub use broad_phase::{CandidatePairs, Sweep};
 pub use contact::{
-    PairDistance, PinchPolicy, PinchedVertices, SavedContact, SeamIntersections, SewnPlacement,
-    SurfaceContact, SurfaceMemory, SurfaceSettings, SurfaceSummary,
+    OpenStep, PairDistance, PinchPolicy, PinchedVertices, SavedContact, SeamIntersections,
+    SewnPlacement, SurfaceContact, SurfaceEnergy, SurfaceInspection, SurfaceMemory, SurfacePairs,
+    SurfaceSettings, SurfaceSetup, SurfaceStart, SurfaceState, SurfaceSummary,
 };
 pub use contact_surface::Surface;
 pub use detector::Detector;
@@ -43,4 +44,4 @@ pub use exact::{Intersection, intersections};
 pub use friction::FrictionEnergy;
 pub use geometry::{ContactDistances, SurfaceParts, equivalence_classes};
 pub use pair::{Pair, PairKind};
-pub use step_filter::{CcdFilter, FractionLimit, StepFraction, SurfaceStep, Truncation};
+pub use step_filter::{CcdFilter, FractionLimit, StepFraction, SurfaceTrial, Truncation};

@@ -13,7 +13,7 @@ mod support;
 
 use drape_collide::{
     Mesh, ParticleContact, ParticleSettings, PinchPolicy, Pose, Shape, SurfaceContact,
-    SurfaceMemory, SurfaceSettings, SurfaceStep,
+    SurfaceMemory, SurfaceSettings, SurfaceStart, SurfaceTrial,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -55,13 +55,14 @@ fn swinging(pinch: PinchPolicy) -> u64 {
     allocations(|step| {
         let swing = if step % 2 == 0 { 1e-4 } else { 0.0 };
         end.iter_mut().zip(above(swing)).for_each(|(end, x)| *end = x);
-        contact.save(&mut memory);
-        contact.begin(&start, &end);
-        contact.set_obstacle_time(0.0);
+        contact.state().save(&mut memory);
+        contact.begin(SurfaceStart::new(&start, &end));
+        let mut open_step = contact.step().unwrap();
+        open_step.set_obstacle_time(0.0);
         for trial in 0..3 {
             let down = |k: usize| if k % 3 == 2 { -1e-2 * f64::from(trial) } else { 0.0 };
             displacements.iter_mut().enumerate().for_each(|(k, dx)| *dx = down(k));
-            let whole = contact.limit_step(SurfaceStep {
+            let whole = open_step.limit(SurfaceTrial {
                 start: &start,
                 displacements: &mut displacements,
                 held: &[0],
@@ -70,15 +71,15 @@ fn swinging(pinch: PinchPolicy) -> u64 {
             });
             assert!(trial == 0 || !whole);
             forces.fill(0.0);
-            contact.add_forces(&start, &mut forces);
-            let energy = contact.potential(&start) + contact.body_work(&start);
+            open_step.energy(&start).add_forces(&mut forces);
+            let energy = open_step.energy(&start).potential() + open_step.body_work(&start);
             let mut blocks = 0;
-            contact.add_stiffness(&start, &mut |_, _| blocks += 1);
+            open_step.energy(&start).add_stiffness(&mut |_, _| blocks += 1);
             assert!(energy.is_finite() && blocks > 100, "{energy} J, {blocks} blocks");
         }
-        contact.set_obstacle_time(1.0);
-        assert!(contact.intersections(&start).unwrap().is_empty());
-        contact.commit(&start);
+        open_step.set_obstacle_time(1.0);
+        assert!(open_step.intersections(&start).unwrap().is_empty());
+        open_step.commit(&start);
         if step % 3 == 0 {
             contact.restore(&memory);
         }

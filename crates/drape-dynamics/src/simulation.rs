@@ -536,7 +536,7 @@ impl Simulation {
     fn check_growth(&mut self) {
         let Some(surfaces) = self.world.contact.surfaces() else { return };
         if self.outcome.status == Status::Ok && surfaces.growth_is_stuck(self.time()) {
-            let percent = 100.0 * surfaces.contact.growth_fraction();
+            let percent = 100.0 * surfaces.growth_fraction();
             let reason = format!(
                 "surfaces came to {percent:.2} % of the distances that they keep{}",
                 self.closest_place()

@@ -315,7 +315,7 @@ impl Stepping {
             integrator: self.state.clone(),
             cloth: world.state.clone(),
             balance: world.balance.clone(),
-            surfaces: world.contact.surfaces().map(|surfaces| surfaces.contact.memory()),
+            surfaces: world.contact.surfaces().map(|surfaces| surfaces.contact.state().memory()),
             seams: world.internal.seam_state().cloned(),
         }
     }

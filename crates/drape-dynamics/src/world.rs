@@ -208,7 +208,7 @@ impl World {
     pub(crate) fn finish_sewing(&mut self, time: f64, positions: &[f64]) {
         self.seams.springs = None;
         if let Some(surfaces) = self.contact.surfaces_mut() {
-            surfaces.contact.close_seams();
+            surfaces.close_seams();
         }
 
         self.gravity.start_ramp(time);
@@ -231,8 +231,8 @@ impl World {
         let Some(surfaces) = self.contact.surfaces_mut() else {
             return Ok(SewnPlacement::Free(f64::INFINITY));
         };
-        let bodies = surfaces.contact.body_positions().to_vec();
-        surfaces.contact.sewn_placement(positions, &bodies)
+        let bodies = surfaces.contact.state().body_positions().to_vec();
+        surfaces.contact.setup()?.sewn_placement(positions, &bodies)
     }
 
     /// Places the cloth with merged seams at `positions`, in m, at `time`, in s. Nothing may
@@ -245,7 +245,7 @@ impl World {
         growth_seconds: f64,
     ) -> Result<(), Error> {
         let Some(surfaces) = self.contact.surfaces_mut() else { return Ok(()) };
-        let bodies = surfaces.contact.body_positions().to_vec();
+        let bodies = surfaces.contact.state().body_positions().to_vec();
         surfaces.place(time, &PlacedSurfaces { positions, bodies: &bodies, growth_seconds })?;
         Ok(())
     }

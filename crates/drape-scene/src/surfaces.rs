@@ -127,7 +127,7 @@ impl StartSurfaces {
         let mut contact = SurfaceContact::new(Surface::new(surface)?, settings, at_start)?;
         if let Some(seams) = sewn {
             let positions = &scene.start.positions;
-            contact.open_seams(&seams.gaps_at_particles(positions), positions)?;
+            contact.setup()?.open_seams(&seams.gaps_at_particles(positions), positions)?;
         }
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|moving| &moving.body.name)).cloned().collect();

@@ -16,7 +16,6 @@
 //!
 //! [`contact`](super::contact) opens the friction of a step, evaluates it at trial positions and
 //! keeps the stretches when the step is accepted.
-//! keeps the stretches when the step is accepted.
 
 use serde::{Deserialize, Serialize};
 

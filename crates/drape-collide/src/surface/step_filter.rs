@@ -24,5 +24,5 @@ pub use common_fraction::{FractionLimit, StepFraction};
 #[cfg(test)]
 pub(crate) use safeguards::Safeguards;
 pub(crate) use step_limiter::StepLimiter;
-pub use step_limiter::SurfaceStep;
+pub use step_limiter::SurfaceTrial;
 pub use truncation::Truncation;

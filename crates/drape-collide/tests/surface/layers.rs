@@ -4,7 +4,7 @@ use crate::sheets::{sheets, surface};
 use crate::support::Dice;
 use drape_collide::{
     CcdFilter, ContactDistances, Detector, PairKind, PinchPolicy, Surface, SurfaceContact,
-    SurfaceParts, SurfaceSettings, SurfaceStep, Sweep, Truncation, intersections,
+    SurfaceParts, SurfaceSettings, SurfaceStart, SurfaceTrial, Sweep, Truncation, intersections,
 };
 
 const SPACING: f64 = 5e-3;
@@ -247,7 +247,7 @@ fn frictionless() -> SurfaceSettings {
 fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f64) {
     let mut contact =
         SurfaceContact::new(Surface::new(parts).unwrap(), frictionless(), vec![]).unwrap();
-    contact.begin(positions, &[]);
+    let mut step = contact.begin(SurfaceStart::new(positions, &[]));
     let vertices = positions.len() / 3;
     let mut displacements: Vec<f64> = (0..positions.len())
         .map(|k| match k / 3 {
@@ -257,7 +257,7 @@ fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f6
         })
         .collect();
     let mut obstacle_advance = 1.0;
-    let whole = contact.limit_step(SurfaceStep {
+    let whole = step.limit(SurfaceTrial {
         start: positions,
         displacements: &mut displacements,
         held,
@@ -310,11 +310,11 @@ fn rise(apart: f64, sheet: f64, body: f64) -> (f64, f64) {
     end.iter_mut().skip(2).step_by(3).for_each(|height| *height += body);
     let surface = Surface::new(parts).unwrap();
     let mut contact = SurfaceContact::new(surface, frictionless(), bodies).unwrap();
-    contact.begin(&positions, &end);
+    let mut step = contact.begin(SurfaceStart::new(&positions, &end));
     let mut displacements: Vec<f64> =
         (0..free).map(|k| if k % 3 == 2 { sheet } else { 0.0 }).collect();
     let mut obstacle_advance = 1.0;
-    let whole = contact.limit_step(SurfaceStep {
+    let whole = step.limit(SurfaceTrial {
         start: &positions,
         displacements: &mut displacements,
         held: &[],

@@ -12,6 +12,7 @@ mod exact;
 mod exactness;
 mod layers;
 mod oracle;
+mod order;
 mod pinch;
 mod planted_faults;
 mod separations;

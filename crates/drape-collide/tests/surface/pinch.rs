@@ -42,7 +42,8 @@ fn cloth_is_thinned_between_corners_as_well_as_between_faces() {
 
 #[test]
 fn only_cloth_that_may_be_thinned_keeps_less_than_its_distance() {
-    let fraction = |policy| Between::new(policy, WIDE, [-4e-4, 4e-4]).contact.thinned_fraction();
+    let fraction =
+        |policy| Between::new(policy, WIDE, [-4e-4, 4e-4]).contact.state().thinned_fraction();
     assert_eq!(fraction(PinchPolicy::Thin), PinchPolicy::THINNED_FRACTION);
     assert_eq!(fraction(PinchPolicy::Error), 1.0);
     assert_eq!(fraction(PinchPolicy::Release), 1.0);
@@ -62,7 +63,7 @@ fn the_plate_that_approaches_more_passes_through_the_cloth() {
     // The lower plate is 0.15 mm below the sheet, and the upper one no longer counts.
     let forces = |between: &mut Between, height: f64| {
         let mut forces = vec![0.0; 3 * ALL];
-        between.contact.add_forces(&level(height), &mut forces);
+        between.contact.energy(&level(height)).add_forces(&mut forces);
         forces.iter().skip(1).step_by(3).sum::<f64>()
     };
     assert!(forces(&mut between, 5e-5) > 0.0, "the lower one repels it, the upper one is nearer");
@@ -83,7 +84,7 @@ fn cloth_that_a_released_plate_cuts_is_exempt_from_the_test_for_intersections() 
     let pinched = between.step([0.0, -4e-4], [0.0, 0.0]);
     assert!((10..=ALL).contains(&pinched.released) && pinched.thinned == 0, "{pinched:?}");
     let pinched = between.step([0.0, -8e-4], [0.0, 0.0]);
-    let all = between.contact.intersections_with_released(&level(0.0)).unwrap();
+    let all = between.contact.inspect(&level(0.0)).intersections_with_released().unwrap();
     assert!(!all.is_empty() && pinched.released >= 10, "{pinched:?}");
     assert!(between.contact.intersections(&level(0.0)).unwrap().is_empty());
     // Nine vertices are in the plate; those of triangles that it cuts stay released too.
@@ -94,12 +95,12 @@ fn cloth_that_a_released_plate_cuts_is_exempt_from_the_test_for_intersections() 
 #[test]
 fn a_step_that_is_taken_back_takes_its_pinches_back() {
     let mut between = Between::new(PinchPolicy::Thin, WIDE, [-3e-4, 3e-4]);
-    let memory = between.contact.memory();
+    let memory = between.contact.state().memory();
     assert_eq!(between.step([0.0, -2e-4], [0.0, -1e-4]), thinned(ALL));
-    let bodies = between.contact.body_positions().to_vec();
+    let bodies = between.contact.state().body_positions().to_vec();
     between.contact.restore(&memory);
-    assert_eq!(between.contact.pinched_vertices(), thinned(0));
-    assert_ne!(between.contact.body_positions(), &bodies[..]);
+    assert_eq!(between.contact.state().pinched_vertices(), thinned(0));
+    assert_ne!(between.contact.state().body_positions(), &bodies[..]);
     assert!((between.ratio(0.0) - 1.5).abs() < 1e-9, "distances and bodies are as before");
 }
 
@@ -107,22 +108,22 @@ fn a_step_that_is_taken_back_takes_its_pinches_back() {
 fn a_contact_goes_on_from_what_was_saved_and_refuses_what_is_of_another() {
     let mut between = Between::new(PinchPolicy::Thin, WIDE, [-3e-4, 3e-4]);
     between.step([0.0, -2e-4], [0.0, -1e-4]);
-    let saved = between.contact.saved();
+    let saved = between.contact.state().saved();
     let mut other = Between::new(PinchPolicy::Thin, WIDE, [-3e-4, 3e-4]);
     other.contact.resume(&level(-1e-4), &saved).unwrap();
-    assert_eq!(other.contact.pinched_vertices(), thinned(ALL));
-    assert_eq!(other.contact.body_positions(), between.contact.body_positions());
+    assert_eq!(other.contact.state().pinched_vertices(), thinned(ALL));
+    assert_eq!(other.contact.state().body_positions(), between.contact.state().body_positions());
     assert_eq!(other.ratio(-1e-4), between.ratio(-1e-4));
-    assert_eq!(other.contact.saved(), saved);
+    assert_eq!(other.contact.state().saved(), saved);
     assert!(other.contact.resume(&level(0.0)[3..], &saved).is_err(), "a vertex is missing");
     let mut lost = level(-1e-4);
     lost[4] = f64::NAN;
     assert!(other.contact.resume(&lost, &saved).is_err(), "a place is not finite");
-    assert!(between.contact.summary_at(&lost).is_err(), "near by pairs are known");
-    assert!(between.contact.failure().is_some());
+    assert!(between.contact.detect(&lost).is_err(), "near by pairs are known");
+    assert!(between.contact.pairs().failure().is_some());
     let mut narrow = Between::new(PinchPolicy::Thin, WIDE, [-3e-4, 3e-4]);
     narrow.contact = {
-        let bodies = between.contact.body_positions();
+        let bodies = between.contact.state().body_positions();
         let surface = Surface::new(SurfaceParts {
             rest_positions: [&level(0.0)[..], &bodies[..9]].concat(),
             triangles: vec![[0, SIDE as u32, 1], [ALL as u32, ALL as u32 + 1, ALL as u32 + 2]],

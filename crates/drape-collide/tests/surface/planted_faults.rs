@@ -3,7 +3,7 @@
 
 use drape_collide::{
     ContactDistances, PinchPolicy, SeamIntersections, Surface, SurfaceContact, SurfaceParts,
-    SurfaceSettings, SurfaceStep,
+    SurfaceSettings, SurfaceStart, SurfaceTrial,
 };
 
 type Point = [f64; 3];
@@ -87,7 +87,7 @@ fn a_flat_fold_is_nearer_than_the_minimum_separation() {
     let mut contact = contact(parts, Vec::new());
     let mut nearest = |apex: Point| {
         let positions = [flat(&[LOWER]), apex.to_vec()].concat();
-        contact.summary_at(&positions).unwrap().min_ratio
+        contact.detect(&positions).unwrap().summary().min_ratio
     };
     assert!(nearest([0.02, 0.1, 0.02]) < 1e-9);
     assert!(nearest([0.02, 0.1 + 1e-6, 0.02]) < 1.0);
@@ -97,7 +97,7 @@ fn a_flat_fold_is_nearer_than_the_minimum_separation() {
 /// Moves vertices by what the step filter leaves of displacements.
 fn advance(contact: &mut SurfaceContact, positions: &mut [f64], displacements: &mut [f64]) {
     let mut obstacle_advance = 1.0;
-    contact.limit_step(SurfaceStep {
+    contact.step().unwrap().limit(SurfaceTrial {
         start: positions,
         displacements,
         held: &[],
@@ -113,7 +113,7 @@ fn the_step_filter_leads_to_no_planted_fault() {
     let start = flat(&[LOWER, over(0.105)]);
     let mut contact = contact(cloth(&[LOWER, over(0.105)], &[]), Vec::new());
     for end in [0.099, 0.1 - 1e-6, 0.1_f64.next_down(), 0.1, 0.1 + 1e-6] {
-        contact.begin(&start, &[]);
+        contact.begin(SurfaceStart::new(&start, &[]));
         let mut positions = start.clone();
         for _ in 0..100 {
             let mut displacements = vec![0.0; positions.len()];
@@ -148,11 +148,11 @@ fn a_sheet_inside_a_ball_is_inside() {
     parts.distances.push(DISTANCES);
     let contact = contact(parts, body);
     let at = |x: f64| flat(&[LOWER.map(|[a, y, z]| [a + x, y, z])]);
-    assert!((0..3).all(|vertex| contact.is_inside_body(vertex, &at(0.0))));
-    assert!((0..3).all(|vertex| !contact.is_inside_body(vertex, &at(1.0))));
+    assert!((0..3).all(|vertex| contact.inspect(&at(0.0)).is_inside_body(vertex)));
+    assert!((0..3).all(|vertex| !contact.inspect(&at(1.0)).is_inside_body(vertex)));
     // No surface of the two meets.
-    assert_eq!(contact.intersections_with_released(&at(0.0)).unwrap(), []);
-    assert!(!contact.intersections_with_released(&at(0.25)).unwrap().is_empty());
+    assert_eq!(contact.inspect(&at(0.0)).intersections_with_released().unwrap(), []);
+    assert!(!contact.inspect(&at(0.25)).intersections_with_released().unwrap().is_empty());
 }
 
 /// Two triangles that are sewn together at two corners, with their edges so far apart along y and
@@ -173,11 +173,11 @@ fn sides_of_a_seam_cross_where_it_is_open_and_not_where_it_is_closed() {
     assert_eq!(contact.intersections(&positions).unwrap(), []);
     let gap = 0.05_f64.hypot(0.008);
     let gaps = [gap, gap, f64::INFINITY, gap, gap, f64::INFINITY];
-    contact.open_seams(&gaps, &positions).unwrap();
+    contact.setup().unwrap().open_seams(&gaps, &positions).unwrap();
     assert!(!contact.intersections(&positions).unwrap().is_empty());
     let apart = flat(&sewn([0.008, 0.0], [0.05, 0.1, 0.0]));
     assert_eq!(contact.intersections(&apart).unwrap(), []);
-    contact.close_seams();
+    contact.setup().unwrap().close_seams();
     assert_eq!(contact.intersections(&positions).unwrap(), []);
 }
 
@@ -191,23 +191,34 @@ fn intersections_within_the_gap_of_a_seam_that_counts_as_closed_are_counted_with
     };
     let mut contact = contact(cloth(&sewn([8e-3, 0.0], [0.05, 0.1, 0.0]), &TWINS), Vec::new());
     let gaps = |gap: f64| [gap, gap, f64::INFINITY, gap, gap, f64::INFINITY];
-    contact.open_seams(&gaps(8e-3), &flat(&sewn([8e-3, 0.0], [0.05, 0.1, 0.0]))).unwrap();
+    contact
+        .setup()
+        .unwrap()
+        .open_seams(&gaps(8e-3), &flat(&sewn([8e-3, 0.0], [0.05, 0.1, 0.0])))
+        .unwrap();
     let none = SeamIntersections::default();
-    assert_eq!(contact.seam_intersections(&across(5e-5)), Ok(none), "they are found by the test");
+    assert_eq!(
+        contact.inspect(&across(5e-5)).seam_intersections(),
+        Ok(none),
+        "they are found by the test"
+    );
     assert!(!contact.intersections(&across(5e-5)).unwrap().is_empty());
-    contact.set_seam_gaps(&gaps(0.0));
+    let closed = gaps(0.0);
+    let start = across(5e-5);
+    let start = SurfaceStart { seam_gaps: Some(&closed), ..SurfaceStart::new(&start, &[]) };
+    contact.begin(start).reject();
     assert_eq!(contact.intersections(&across(5e-5)).unwrap(), []);
     for gap in [5e-5, 5e-4] {
-        let found = contact.seam_intersections(&across(gap)).unwrap();
+        let found = contact.inspect(&across(gap)).seam_intersections().unwrap();
         let depth = gap * 1.0_f64.hypot(0.1);
         assert!(found.count > 0 && (found.depth - depth).abs() < 1e-9 * depth, "{found:?}");
     }
-    assert_eq!(contact.seam_intersections(&across(0.0)), Ok(none), "they are one edge");
-    contact.close_seams();
-    assert_eq!(contact.seam_intersections(&across(5e-5)), Ok(none));
-    assert!(contact.seam_intersections(&[f64::NAN; 18]).is_ok(), "no seam is open");
-    contact.open_seams(&gaps(0.0), &across(0.0)).unwrap();
-    assert!(contact.seam_intersections(&[f64::NAN; 18]).is_err());
+    assert_eq!(contact.inspect(&across(0.0)).seam_intersections(), Ok(none), "they are one edge");
+    contact.setup().unwrap().close_seams();
+    assert_eq!(contact.inspect(&across(5e-5)).seam_intersections(), Ok(none));
+    assert!(contact.inspect(&[f64::NAN; 18]).seam_intersections().is_ok(), "no seam is open");
+    contact.setup().unwrap().open_seams(&gaps(0.0), &across(0.0)).unwrap();
+    assert!(contact.inspect(&[f64::NAN; 18]).seam_intersections().is_err());
 }
 
 #[test]
@@ -221,11 +232,15 @@ fn intersections_of_a_tied_vertex_are_as_deep_as_it_is_from_its_edge() {
     parts.ties.push([3, 0, 1]);
     let mut contact = contact(parts, Vec::new());
     let gaps = [f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0, f64::INFINITY, f64::INFINITY];
-    contact.open_seams(&gaps, &at(1e-3, 0.0)).unwrap();
-    let found = contact.seam_intersections(&at(-4e-5, -1e-5)).unwrap();
+    contact.setup().unwrap().open_seams(&gaps, &at(1e-3, 0.0)).unwrap();
+    let found = contact.inspect(&at(-4e-5, -1e-5)).seam_intersections().unwrap();
     let depth = 4e-5_f64.hypot(1e-5);
     assert!(found.count > 0 && (found.depth - depth).abs() < 1e-9 * depth, "{found:?}");
-    assert_eq!(contact.seam_intersections(&at(-4e-5, 1e-5)).unwrap().count, 0, "before it");
+    assert_eq!(
+        contact.inspect(&at(-4e-5, 1e-5)).seam_intersections().unwrap().count,
+        0,
+        "before it"
+    );
 }
 
 #[test]
@@ -236,10 +251,10 @@ fn sides_of_an_open_seam_keep_a_tenth_of_its_gap_and_end_apart() {
     let start = flat(&start);
     let gap = 0.02_f64.hypot(0.005);
     let gaps = |gap: f64| [gap, gap, f64::INFINITY, gap, gap, f64::INFINITY];
-    contact.open_seams(&gaps(gap), &start).unwrap();
+    contact.setup().unwrap().open_seams(&gaps(gap), &start).unwrap();
     for gap in [gap, 1e-3, 1e-4, 2e-5] {
-        contact.set_seam_gaps(&gaps(gap));
-        contact.begin(&start, &[]);
+        let gaps = gaps(gap);
+        contact.begin(SurfaceStart { seam_gaps: Some(&gaps), ..SurfaceStart::new(&start, &[]) });
         let mut positions = start.clone();
         for _ in 0..200 {
             let mut displacements = vec![0.0; positions.len()];
@@ -251,15 +266,17 @@ fn sides_of_an_open_seam_keep_a_tenth_of_its_gap_and_end_apart() {
         assert!(kept >= least && kept < 1.01 * least, "{kept} m of {least} m at {gap} m");
         assert_eq!(contact.intersections(&positions).unwrap(), []);
     }
+    contact.step().unwrap().reject();
     // A seam that is taken for closed lets one side through the other.
-    contact.close_seams();
-    contact.begin(&start, &[]);
+    contact.setup().unwrap().close_seams();
+    contact.begin(SurfaceStart::new(&start, &[]));
     let mut positions = start.clone();
     for _ in 0..20 {
         let mut displacements = vec![0.0; positions.len()];
         (3..6).for_each(|vertex| displacements[3 * vertex + 2] = -0.0005);
         advance(&mut contact, &mut positions, &mut displacements);
     }
-    contact.open_seams(&gaps(gap), &positions).unwrap();
+    contact.step().unwrap().reject();
+    contact.setup().unwrap().open_seams(&gaps(gap), &positions).unwrap();
     assert!(!contact.intersections(&positions).unwrap().is_empty());
 }

@@ -3,7 +3,7 @@
 
 use drape_collide::{
     ContactDistances, PinchPolicy, SewnPlacement, Surface, SurfaceContact, SurfaceParts,
-    SurfaceSettings, SurfaceStep,
+    SurfaceSettings, SurfaceStart, SurfaceTrial,
 };
 
 use crate::sheets::{Between, KEPT, REACH, WIDE, level, plates};
@@ -11,74 +11,81 @@ use crate::sheets::{Between, KEPT, REACH, WIDE, level, plates};
 /// Sheet with room of 0.12 and 0.34 mm to the plates, less than the 0.2 mm that it is to keep.
 fn tight() -> Between {
     let mut tight = Between::new(PinchPolicy::Error, WIDE, [-1.2e-4, 3.4e-4]);
-    tight.contact.shrink_distances(&level(0.0)).unwrap();
+    tight.contact.setup().unwrap().shrink_distances(&level(0.0)).unwrap();
     tight
 }
 
-/// Grows the distances by an increment in a step at one place; returns the fraction that is kept
-/// then.
-fn grow(between: &mut Between, increment: f64, height: f64) -> f64 {
+/// Result of a step in which distances grow.
+struct Growth {
+    /// Fraction of the distances that is kept after the step.
+    fraction: f64,
+    /// Energy that the growth added, in J.
+    work: f64,
+}
+
+/// Grows the distances by an increment in a step at one place.
+fn grow(between: &mut Between, growth_increment: f64, height: f64) -> Growth {
     let contact = &mut between.contact;
-    contact.grow_distances(&level(height), increment);
-    let bodies = contact.body_positions().to_vec();
-    contact.begin(&level(height), &bodies);
-    contact.commit(&level(height));
-    contact.growth_fraction()
+    let (positions, bodies) = (level(height), contact.state().body_positions().to_vec());
+    let start = SurfaceStart { growth_increment, ..SurfaceStart::new(&positions, &bodies) };
+    let step = contact.begin(start);
+    let work = step.growth_work();
+    step.commit(&positions);
+    Growth { fraction: contact.state().growth_fraction(), work }
 }
 
 #[test]
 fn distances_shrink_to_the_nearest_pair_and_grow_by_increments_to_the_whole() {
     let mut between = tight();
     let start = 1.2e-4 / REACH;
-    assert!((between.contact.growth_fraction() - start).abs() < 1e-9);
-    assert_eq!(between.contact.potential(&level(0.0)), 0.0, "no pair is active");
-    assert!((grow(&mut between, 0.1, 0.0) - start - 0.1).abs() < 1e-9);
-    assert!(between.contact.growth_work() > 0.0);
+    assert!((between.contact.state().growth_fraction() - start).abs() < 1e-9);
+    assert_eq!(between.contact.energy(&level(0.0)).potential(), 0.0, "no pair is active");
+    let grown = grow(&mut between, 0.1, 0.0);
+    assert!((grown.fraction - start - 0.1).abs() < 1e-9 && grown.work > 0.0);
     // Nine tenths of the distance may become what is kept, and no more.
     let most = 0.9 * 1.2e-4 / KEPT;
     for _ in 0..3 {
-        assert!((grow(&mut between, 0.4, 0.0) - most).abs() < 1e-9);
+        assert!((grow(&mut between, 0.4, 0.0).fraction - most).abs() < 1e-9);
     }
     // In the middle there is room; a tenth too little for the whole grows on, rounding does not.
     let middle = 1.1e-4;
-    assert!((grow(&mut between, 0.9 - most, middle) - 0.9).abs() < 1e-9);
-    assert_eq!(grow(&mut between, 0.1 - 1e-12, middle), 1.0);
-    assert_eq!(grow(&mut between, 0.1, middle), 1.0);
-    assert_eq!(between.contact.growth_work(), 0.0, "nothing grows any more");
+    assert!((grow(&mut between, 0.9 - most, middle).fraction - 0.9).abs() < 1e-9);
+    assert_eq!(grow(&mut between, 0.1 - 1e-12, middle).fraction, 1.0);
+    let grown = grow(&mut between, 0.1, middle);
+    assert_eq!((grown.fraction, grown.work), (1.0, 0.0), "nothing grows any more");
 }
 
 #[test]
 fn the_work_of_a_growth_is_the_energy_that_it_adds() {
     let mut between = tight();
     grow(&mut between, 0.1, 0.0);
-    let before = between.contact.potential(&level(0.0));
-    grow(&mut between, 0.1, 0.0);
-    let added = between.contact.potential(&level(0.0)) - before;
+    let before = between.contact.energy(&level(0.0)).potential();
+    let work = grow(&mut between, 0.1, 0.0).work;
+    let added = between.contact.energy(&level(0.0)).potential() - before;
     assert!(before > 0.0 && added > 0.0, "{before} J, {added} J");
-    let work = between.contact.growth_work();
     assert!((work - added).abs() < 1e-12 * added, "{work} J for {added} J");
 }
 
 #[test]
 fn what_is_kept_never_falls_while_distances_grow() {
     let mut between = tight();
-    let fraction = grow(&mut between, 0.2, 0.0);
+    let fraction = grow(&mut between, 0.2, 0.0).fraction;
     // Nearer to the plate there is room for less than is kept already.
-    assert_eq!(grow(&mut between, 0.2, -4e-5), fraction);
+    assert_eq!(grow(&mut between, 0.2, -4e-5).fraction, fraction);
 }
 
 #[test]
 fn a_place_is_free_with_its_least_separation_or_intersects_at_known_vertices() {
     let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
-    let bodies = between.contact.body_positions().to_vec();
-    let memory = between.contact.memory();
-    let free = between.contact.sewn_placement(&level(1e-4), &bodies).unwrap();
+    let bodies = between.contact.state().body_positions().to_vec();
+    let memory = between.contact.state().memory();
+    let free = between.contact.setup().unwrap().sewn_placement(&level(1e-4), &bodies).unwrap();
     let SewnPlacement::Free(ratio) = free else { panic!("{free:?}") };
     assert!((ratio - 3e-4 / KEPT).abs() < 1e-9, "{ratio}");
     // One corner of the sheet is in the upper plate.
     let mut corner = level(0.0);
     corner[1] = 5e-4;
-    let found = between.contact.sewn_placement(&corner, &bodies).unwrap();
+    let found = between.contact.setup().unwrap().sewn_placement(&corner, &bodies).unwrap();
     let SewnPlacement::Intersecting(found) = found else { panic!("{found:?}") };
     let surface = between.contact.surface();
     for [a, b, c, d, e] in &found {
@@ -90,10 +97,16 @@ fn a_place_is_free_with_its_least_separation_or_intersects_at_known_vertices() {
     // Where the plates are elsewhere, the same sheet is free; nothing of that stays.
     let [lower, upper] = plates(WIDE, [-4e-4, 9e-4]);
     let apart = [lower.0, upper.0].concat();
-    let free = between.contact.sewn_placement(&corner, &apart).unwrap();
+    let free = between.contact.setup().unwrap().sewn_placement(&corner, &apart).unwrap();
     assert!(matches!(free, SewnPlacement::Free(ratio) if (ratio - 2.0).abs() < 1e-6), "{free:?}");
-    assert!(between.contact.memory() == memory && between.contact.body_positions() == bodies);
-    assert!(between.contact.sewn_placement(&corner, &bodies[3..]).is_err(), "a vertex is missing");
+    assert!(
+        between.contact.state().memory() == memory
+            && between.contact.state().body_positions() == bodies
+    );
+    assert!(
+        between.contact.setup().unwrap().sewn_placement(&corner, &bodies[3..]).is_err(),
+        "a vertex is missing"
+    );
 }
 
 #[test]
@@ -101,15 +114,18 @@ fn surfaces_are_placed_and_their_distances_shrink_to_what_there_is() {
     let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
     let [lower, upper] = plates(WIDE, [-1e-4, 4e-4]);
     let bodies = [lower.0, upper.0].concat();
-    between.contact.place_bodies(&bodies).unwrap();
-    assert_eq!(between.contact.body_positions(), bodies);
+    between.contact.setup().unwrap().place_bodies(&bodies).unwrap();
+    assert_eq!(between.contact.state().body_positions(), bodies);
     assert!((between.ratio(0.0) - 0.5).abs() < 1e-9);
-    between.contact.shrink_to_separation(&level(0.0)).unwrap();
-    assert!((between.contact.growth_fraction() - 0.45).abs() < 1e-9, "nine tenths of it");
+    between.contact.setup().unwrap().shrink_to_separation(&level(0.0)).unwrap();
+    assert!((between.contact.state().growth_fraction() - 0.45).abs() < 1e-9, "nine tenths of it");
     assert!((between.ratio(0.0) - 1.0 / 0.9).abs() < 1e-9);
-    between.contact.shrink_to_separation(&level(0.0)).unwrap();
-    assert!((between.contact.growth_fraction() - 0.45).abs() < 1e-9, "there is room now");
-    assert!(between.contact.place_bodies(&bodies[3..]).is_err(), "a vertex is missing");
+    between.contact.setup().unwrap().shrink_to_separation(&level(0.0)).unwrap();
+    assert!((between.contact.state().growth_fraction() - 0.45).abs() < 1e-9, "there is room now");
+    assert!(
+        between.contact.setup().unwrap().place_bodies(&bodies[3..]).is_err(),
+        "a vertex is missing"
+    );
 }
 
 #[test]
@@ -118,7 +134,7 @@ fn settings_out_of_range_are_refused() {
         let between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 4e-4]);
         let mut settings = SurfaceSettings::new(1e8, vec![0.0; 9]);
         change(&mut settings);
-        let bodies = between.contact.body_positions().to_vec();
+        let bodies = between.contact.state().body_positions().to_vec();
         SurfaceContact::new(between.contact.surface().clone(), settings, bodies)
     };
     assert!(contact(&|_| ()).is_ok());
@@ -138,19 +154,19 @@ fn settings_out_of_range_are_refused() {
 fn steps_are_limited_by_a_plate_where_it_is_since_it_moved() {
     let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-3, 4e-3]);
     let sink = |between: &mut Between| {
-        let bodies = between.contact.body_positions().to_vec();
-        between.contact.begin(&level(0.0), &bodies);
+        let bodies = between.contact.state().body_positions().to_vec();
         let mut displacements = level(-3e-3);
         let start = level(0.0);
         displacements.iter_mut().zip(&start).for_each(|(x, start)| *x -= start);
-        between.contact.limit_step(SurfaceStep {
+        let mut step = between.contact.begin(SurfaceStart::new(&start, &bodies));
+        step.limit(SurfaceTrial {
             start: &start,
             displacements: &mut displacements,
             held: &[],
             obstacle_time: 1.0,
             obstacle_advance: &mut 0.0,
         });
-        between.contact.commit(&start);
+        step.commit(&start);
         displacements[1]
     };
     assert_eq!(sink(&mut between), -3e-3, "the plate is 4 mm below");
@@ -186,41 +202,48 @@ fn gaps(width: f64) -> Vec<f64> {
     (0..8).map(|v| if (2..6).contains(&v) { width } else { f64::INFINITY }).collect()
 }
 
+/// Narrows the gaps of the open seam to a width, in m, by a step that is rejected.
+fn narrow(contact: &mut SurfaceContact, width: f64) {
+    let (gaps, positions) = (gaps(width), slit(2e-4));
+    let start = SurfaceStart { seam_gaps: Some(&gaps), ..SurfaceStart::new(&positions, &[]) };
+    contact.begin(start).reject();
+}
+
 #[test]
 fn sides_of_an_open_seam_repel_each_other_below_half_of_its_gap() {
     let mut contact = seam();
-    contact.open_seams(&gaps(2e-4), &slit(2e-4)).unwrap();
-    assert_eq!(contact.potential(&slit(1.1e-4)), 0.0);
-    assert!(contact.potential(&slit(0.9e-4)) > 0.0);
+    contact.setup().unwrap().open_seams(&gaps(2e-4), &slit(2e-4)).unwrap();
+    assert_eq!(contact.energy(&slit(1.1e-4)).potential(), 0.0);
+    assert!(contact.energy(&slit(0.9e-4)).potential() > 0.0);
     // They repel each other the later, the narrower the gap is, and not where they are one point.
-    contact.set_seam_gaps(&gaps(1e-4));
-    assert_eq!(contact.potential(&slit(0.6e-4)), 0.0);
-    assert!(contact.potential(&slit(0.4e-4)) > 0.0);
-    contact.set_seam_gaps(&gaps(1e-13));
-    assert_eq!(contact.potential(&slit(0.1e-4)), 0.0);
-    assert_eq!(contact.potential(&slit(0.0)), 0.0, "not even where they meet");
+    narrow(&mut contact, 1e-4);
+    assert_eq!(contact.energy(&slit(0.6e-4)).potential(), 0.0);
+    assert!(contact.energy(&slit(0.4e-4)).potential() > 0.0);
+    narrow(&mut contact, 1e-13);
+    assert_eq!(contact.energy(&slit(0.1e-4)).potential(), 0.0);
+    assert_eq!(contact.energy(&slit(0.0)).potential(), 0.0, "not even where they meet");
 }
 
 #[test]
 fn no_gap_is_wider_than_what_the_sides_are_apart_at_the_start() {
     let mut contact = seam();
     // They lie at a tenth of the gap that is given.
-    contact.open_seams(&gaps(1e-3), &slit(1e-4)).unwrap();
-    assert_eq!(contact.potential(&slit(1e-4)), 0.0, "none repels the other at the start");
-    assert!(contact.potential(&slit(0.8e-4)) > 0.0);
+    contact.setup().unwrap().open_seams(&gaps(1e-3), &slit(1e-4)).unwrap();
+    assert_eq!(contact.energy(&slit(1e-4)).potential(), 0.0, "none repels the other at the start");
+    assert!(contact.energy(&slit(0.8e-4)).potential() > 0.0);
 }
 
 #[test]
 fn a_contact_with_open_seams_goes_on_from_one_with_open_seams_alone() {
     let [mut open, mut other, mut closed] = [seam(), seam(), seam()];
     let start = slit(2e-4);
-    open.open_seams(&gaps(2e-4), &start).unwrap();
-    other.open_seams(&gaps(2e-4), &start).unwrap();
-    other.set_seam_gaps(&gaps(1e-4));
-    let saved = other.saved();
+    open.setup().unwrap().open_seams(&gaps(2e-4), &start).unwrap();
+    other.setup().unwrap().open_seams(&gaps(2e-4), &start).unwrap();
+    narrow(&mut other, 1e-4);
+    let saved = other.state().saved();
     open.resume(&start, &saved).unwrap();
-    assert_eq!(open.potential(&slit(0.6e-4)), 0.0, "its gap is the narrower one");
+    assert_eq!(open.energy(&slit(0.6e-4)).potential(), 0.0, "its gap is the narrower one");
     assert!(closed.resume(&start, &saved).is_err());
-    let closed_seams = closed.saved();
+    let closed_seams = closed.state().saved();
     assert!(open.resume(&start, &closed_seams).is_err());
 }

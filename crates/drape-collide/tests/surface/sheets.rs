@@ -3,7 +3,7 @@
 use crate::support::Dice;
 use drape_collide::{
     Body, ContactDistances, PinchPolicy, PinchedVertices, Pose, Shape, Surface, SurfaceContact,
-    SurfaceParts, SurfaceSettings,
+    SurfaceParts, SurfaceSettings, SurfaceStart,
 };
 
 pub const DISTANCES: ContactDistances =
@@ -131,14 +131,14 @@ impl Between {
     pub fn step(&mut self, ways: [f64; 2], [from, to]: [f64; 2]) -> PinchedVertices {
         self.faces = [0, 1].map(|k| self.faces[k] + ways[k]);
         let [lower, upper] = plates(self.half, self.faces);
-        self.contact.begin(&level(from), &[lower.0, upper.0].concat());
-        self.contact.commit(&level(to));
-        self.contact.pinched_vertices()
+        let bodies = [lower.0, upper.0].concat();
+        self.contact.begin(SurfaceStart::new(&level(from), &bodies)).commit(&level(to));
+        self.contact.state().pinched_vertices()
     }
 
     /// Smallest distance of the sheet at a height, in m, over what is kept.
     pub fn ratio(&mut self, height: f64) -> f64 {
-        self.contact.summary_at(&level(height)).unwrap().min_ratio
+        self.contact.detect(&level(height)).unwrap().summary().min_ratio
     }
 }
 

@@ -1,7 +1,7 @@
 //! The stiffness of surfaces in contact against differences of their forces.
 
 use crate::sheets::{ALL, Between, DISTANCES, SPACING, level, sheets, surface};
-use drape_collide::{PinchPolicy, SurfaceContact, SurfaceSettings};
+use drape_collide::{PinchPolicy, SurfaceContact, SurfaceSettings, SurfaceStart};
 
 const STICK: f64 = 1e-4;
 
@@ -13,7 +13,7 @@ fn pull(contact: &mut SurfaceContact, positions: &[f64], displacement: [f64; 3])
     let moved: Vec<f64> =
         positions.iter().zip(displacement.iter().cycle()).map(|(x, w)| x + w).collect();
     let mut forces = vec![0.0; moved.len()];
-    contact.add_forces(&moved, &mut forces);
+    contact.energy(&moved).add_forces(&mut forces);
     let mut sum = [0.0; 3];
     for force in forces.chunks(3) {
         sum = [0, 1, 2].map(|k| sum[k] + force[k]);
@@ -24,7 +24,7 @@ fn pull(contact: &mut SurfaceContact, positions: &[f64], displacement: [f64; 3])
 /// Sum of all blocks: what a sheet that is moved as a whole meets.
 fn sum_of_blocks(contact: &mut SurfaceContact, positions: &[f64]) -> [f64; 9] {
     let mut sum = [0.0; 9];
-    contact.add_stiffness(positions, &mut |[i, j], block| {
+    contact.energy(positions).add_stiffness(&mut |[i, j], block| {
         for (k, sum) in sum.iter_mut().enumerate() {
             *sum += block[k];
             if i != j {
@@ -60,13 +60,13 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
     {
         let mut contact =
             SurfaceContact::new(surface(&parts), settings.clone(), bodies.clone()).unwrap();
-        contact.begin(&start, &bodies);
+        contact.begin(SurfaceStart::new(&start, &bodies));
         let displacement = [slip[0], slip[1], 0.0];
         let positions: Vec<f64> =
             start.iter().zip(displacement.iter().cycle()).map(|(x, w)| x + w).collect();
         let stiffness = sum_of_blocks(&mut contact, &positions);
         let size = stiffness[8];
-        assert!(size > 0.0 && contact.summary().touching > 50);
+        assert!(size > 0.0 && contact.pairs().summary().touching > 50);
         for axis in 0..3 {
             let displacements =
                 [STEP, -STEP].map(|step| [0, 1, 2].map(|k| if k == axis { step } else { 0.0 }));
@@ -92,11 +92,11 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
 fn bodies_have_no_stiffness_of_their_own() {
     // The sheet is beyond the first corner of the first plate.
     let mut between = Between::new(PinchPolicy::Error, 1.2 * SPACING, [-4e-4, 4e-4]);
-    let lower = between.contact.body_positions().chunks(3).take(8).map(|corner| corner[1]);
+    let lower = between.contact.state().body_positions().chunks(3).take(8).map(|corner| corner[1]);
     let [first, middle] = [lower.clone().next().unwrap(), lower.sum::<f64>() / 8.0];
     let height = first + 3e-4 * (first - middle).signum();
     let mut blocks = 0;
-    between.contact.add_stiffness(&level(height), &mut |vertices, _| {
+    between.contact.energy(&level(height)).add_stiffness(&mut |vertices, _| {
         assert!(vertices.iter().all(|&vertex| vertex < ALL), "{vertices:?}");
         blocks += 1;
     });

@@ -259,22 +259,22 @@ fn a_head_on_approach_of_any_length_leaves_a_tenth_of_the_room() {
 #[test]
 fn a_plate_that_was_far_away_is_found() {
     let mut between = Between::new(PinchPolicy::Error, WIDE, [-0.2, 0.2]);
-    assert_eq!(between.contact.potential(&level(0.0)), 0.0);
-    assert!(between.contact.potential(&level(-0.1997)) > 0.0);
+    assert_eq!(between.contact.energy(&level(0.0)).potential(), 0.0);
+    assert!(between.contact.energy(&level(-0.1997)).potential() > 0.0);
 }
 
 #[test]
 fn the_closest_pair_and_those_that_are_too_close_are_told() {
     let mut between = Between::new(PinchPolicy::Error, WIDE, [-4e-4, 2.5e-4]);
-    between.contact.summary_at(&level(-1e-4)).unwrap();
-    assert_eq!(between.contact.pairs_below_min_separation().count(), 0);
-    let closest = between.contact.closest_pair().unwrap();
+    between.contact.detect(&level(-1e-4)).unwrap();
+    assert_eq!(between.contact.pairs().below_min_separation().count(), 0);
+    let closest = between.contact.pairs().closest().unwrap();
     assert!((closest.distance - 3e-4).abs() < 1e-12, "{closest:?}");
-    between.contact.summary_at(&level(-3e-4)).unwrap();
-    let active = between.contact.summary().touching;
-    let below: Vec<_> = between.contact.pairs_below_min_separation().collect();
+    between.contact.detect(&level(-3e-4)).unwrap();
+    let active = between.contact.pairs().summary().touching;
+    let below: Vec<_> = between.contact.pairs().below_min_separation().collect();
     assert!(!below.is_empty() && below.len() < active, "{} of {active}", below.len());
     assert!(below.iter().all(|own| own.distance < KEPT), "{below:?}");
     let none = Between::new(PinchPolicy::Error, WIDE, [-0.2, 0.2]);
-    assert!(none.contact.closest_pair().is_none());
+    assert!(none.contact.pairs().closest().is_none());
 }

@@ -143,7 +143,8 @@ impl Topology {
             keeps_surfaces_apart: surfaces.is_some(),
             panels,
             bodies,
-            thinned_fraction: surfaces.map_or(1.0, |surfaces| surfaces.contact.thinned_fraction()),
+            thinned_fraction: surfaces
+                .map_or(1.0, |surfaces| surfaces.contact.state().thinned_fraction()),
             seam_pairs: parts.seams.pairs.clone(),
             ties: parts.seams.tied_triples(),
             coordinates: cloth.coordinates().to_vec(),

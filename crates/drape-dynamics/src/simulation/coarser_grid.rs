@@ -103,7 +103,7 @@ impl CoarserGrid {
             positions: panels
                 .flat_map(|(first, panel)| panel.apply(&positions[*first..]))
                 .collect(),
-            bodies: surfaces.map(|surfaces| surfaces.contact.body_positions().to_vec()),
+            bodies: surfaces.map(|surfaces| surfaces.contact.state().body_positions().to_vec()),
         }
     }
 
@@ -198,11 +198,13 @@ impl Simulation {
         let mut start = GridStart::Carried;
         if let Some(surfaces) = self.world.contact.surfaces_mut() {
             let contact = &mut surfaces.contact;
-            match contact.sewn_placement(&positions, &bodies) {
+            let placement =
+                contact.setup().and_then(|mut setup| setup.sewn_placement(&positions, &bodies));
+            match placement {
                 Ok(SewnPlacement::Free(_)) => {}
                 Ok(SewnPlacement::Intersecting(intersections)) => {
                     let displacement = untangling.untangle(&mut positions, ticks, |trial| {
-                        contact.sewn_placement(trial, &bodies)
+                        contact.setup()?.sewn_placement(trial, &bodies)
                     });
                     let Some(displacement) = displacement else {
                         let count = counted(intersections.len(), "intersection", "intersections");
@@ -326,9 +328,8 @@ mod tests {
         let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
         let begun = own.begin_with(carried).expect("a solver");
         assert!(matches!(begun, GridStart::Carried), "{begun:?}");
-        let surfaces = |own: &Simulation| {
-            own.world.contact.surfaces().expect("surfaces").contact.growth_fraction()
-        };
+        let surfaces =
+            |own: &Simulation| own.world.contact.surfaces().expect("surfaces").growth_fraction();
         assert!(surfaces(&own) < 1.0 && own.time() > 0.0);
         for _ in 0..60 {
             own.step().expect("a step");

@@ -51,9 +51,9 @@ impl Statistics {
     pub(crate) fn add_step(&mut self, report: &Report, world: &mut World) {
         let touching = match &mut world.contact {
             Contact::Surfaces(surfaces) => {
-                let near = surfaces.contact.summary();
+                let near = surfaces.contact.pairs().summary();
                 self.min_distance = self.min_distance.min(near.min_distance);
-                let pinched = surfaces.contact.pinched_vertices();
+                let pinched = surfaces.contact.state().pinched_vertices();
                 self.thinned_max = self.thinned_max.max(pinched.thinned);
                 self.released_max = self.released_max.max(pinched.released);
                 let exempt = surfaces.exempt(&world.state.positions);
@@ -122,7 +122,8 @@ impl Statistics {
 
         match &world.contact {
             Contact::Surfaces(surfaces) => {
-                let intersections = surfaces.contact.intersections_with_released(positions);
+                let intersections =
+                    surfaces.contact.inspect(positions).intersections_with_released();
                 Contacts {
                     min_distance: Some(self.min_distance).filter(|distance| distance.is_finite()),
                     intersections: intersections

@@ -64,7 +64,7 @@ impl Contact {
 
     /// Returns the fraction of their distances that surfaces keep now, 0 to 1.
     pub(crate) fn growth_fraction(&self) -> f64 {
-        self.surfaces().map_or(1.0, |surfaces| surfaces.contact.growth_fraction())
+        self.surfaces().map_or(1.0, |surfaces| surfaces.growth_fraction())
     }
 
     /// Returns the bodies at the start, in the order of the scene.
@@ -91,7 +91,7 @@ impl Contact {
 
         // Surfaces may have been inflated or deformed, so their vertices are read from contact.
         if let Self::Surfaces(surfaces) = self {
-            let positions = surfaces.contact.body_positions().as_chunks::<3>().0;
+            let positions = surfaces.contact.state().body_positions().as_chunks::<3>().0;
             let vertices = outlines.iter_mut().flat_map(|outline| &mut outline.vertices);
             vertices.zip(positions).for_each(|(vertex, position)| *vertex = *position);
         }
@@ -111,7 +111,7 @@ impl Contact {
     pub(crate) fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         match self {
             Self::Particles(bodies) => bodies.contact.add_forces(positions, forces),
-            Self::Surfaces(surfaces) => surfaces.contact.add_forces(positions, forces),
+            Self::Surfaces(surfaces) => surfaces.contact.energy(positions).add_forces(forces),
         }
     }
 
@@ -119,7 +119,7 @@ impl Contact {
     pub(crate) fn potential(&mut self, positions: &[f64]) -> f64 {
         match self {
             Self::Particles(bodies) => bodies.contact.potential(positions),
-            Self::Surfaces(surfaces) => surfaces.contact.potential(positions),
+            Self::Surfaces(surfaces) => surfaces.contact.energy(positions).potential(),
         }
     }
 
@@ -138,7 +138,7 @@ impl Contact {
                 });
             }
             Self::Surfaces(surfaces) => {
-                surfaces.contact.add_stiffness(positions, &mut |[i, j], block| {
+                surfaces.contact.energy(positions).add_stiffness(&mut |[i, j], block| {
                     matrix.add_coupling(i, j, block);
                 });
             }
@@ -148,7 +148,7 @@ impl Contact {
     /// Accepts a step that ends at `positions`: updates the memory of friction.
     pub(crate) fn commit(&mut self, positions: &[f64]) {
         if let Self::Surfaces(surfaces) = self {
-            surfaces.contact.commit(positions);
+            surfaces.open_step().commit(positions);
         }
     }
 }

@@ -51,7 +51,7 @@ impl World {
             cloth: self.state.clone(),
             forces: self.internal.saved(),
             contact: surfaces.map(|surfaces| SavedSurfaces {
-                contact: surfaces.contact.saved(),
+                contact: surfaces.contact.state().saved(),
                 intersections_found: surfaces.intersections_found,
                 growth: surfaces.saved_growth(),
             }),

@@ -156,7 +156,7 @@ impl StepFilter for World {
 
     fn set_obstacle_time(&mut self, time: f64) {
         if let Some(surfaces) = self.contact.surfaces_mut() {
-            surfaces.contact.set_obstacle_time(time);
+            surfaces.open_step().set_obstacle_time(time);
         }
     }
 
@@ -196,9 +196,9 @@ impl World {
 
         match &mut self.contact {
             Contact::Surfaces(surfaces) => {
-                let contact = &mut surfaces.contact;
-                let potential = contact.potential(positions);
-                let friction = contact.friction_energy();
+                let contact = surfaces.contact.energy(positions);
+                let potential = contact.potential();
+                let friction = contact.friction();
                 let dissipated = friction.dissipated;
                 StepEnergy {
                     contact: potential - dissipated - before.contact + before.body_work,

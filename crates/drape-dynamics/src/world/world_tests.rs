@@ -92,7 +92,8 @@ fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
 fn forces_and_potential_agree_where_surfaces_touch() {
     let mut world = world("surfaces");
     let motion = moved(&mut world);
-    let touching = |world: &World| world.contact.surfaces().map(|s| s.contact.summary().touching);
+    let touching =
+        |world: &World| world.contact.surfaces().map(|s| s.contact.pairs().summary().touching);
     assert!(touching(&world).is_some_and(|pairs| pairs > 10), "{:?}", touching(&world));
     let step = |(x, v): (&f64, &f64)| x + 0.001 * v;
     let trial: Vec<f64> = motion.positions.iter().zip(&motion.velocities).map(step).collect();

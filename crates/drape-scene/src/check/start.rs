@@ -163,7 +163,7 @@ fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact,
 /// the first particle of a panel stands for all of its particles.
 fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, scene: &Scene) {
     for panel in &scene.panels {
-        if contact.is_inside_body(panel.first, &scene.start.positions) {
+        if contact.inspect(&scene.start.positions).is_inside_body(panel.first) {
             let message = format!("all of \"{}\" starts inside a body", panel.name);
             let help = "move or turn the panel so that it starts outside";
             let key = place_key(checker, scene, panel);

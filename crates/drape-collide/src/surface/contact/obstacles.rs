@@ -63,14 +63,19 @@ impl Obstacles {
         }
     }
 
+    /// Rejects the open step.
+    pub(super) fn reject(&mut self) {
+        self.end.copy_from_slice(&self.start);
+        self.moves = false;
+        self.time = 1.0;
+    }
+
     /// Restores the committed `positions`, in m.
     pub(super) fn restore(&mut self, positions: &[f64]) {
         if self.start != positions {
             self.start.copy_from_slice(positions);
             self.revision += 1;
         }
-        self.end.copy_from_slice(positions);
-        self.moves = false;
-        self.time = 1.0;
+        self.reject();
     }
 }

@@ -37,7 +37,6 @@ struct NearFace {
     direction: Vector,
     /// Closest point of the face, in m.
     point: Vector,
-    /// Displacement towards the cloth in the step, in m.
     /// Displacement of the face towards the cloth in the step, in m.
     approach: f64,
     /// Distance, in m.
@@ -130,7 +129,6 @@ impl Pinch {
     }
 
     /// Finds the faces of bodies near each vertex of cloth in the pairs of `active`.
-    /// Finds the faces of bodies near each vertex of cloth.
     fn find_faces(&mut self, surface: &Surface, obstacles: &Obstacles, active: &ActivePairs) {
         let free = surface.free_count();
         let Obstacles { start, end, .. } = obstacles;

@@ -1,8 +1,8 @@
 //! A sheet thrown at a plate shows what each safeguard of the step filter prevents.
 
-use super::{PinchPolicy, SurfaceContact, SurfaceSettings};
+use super::{PinchPolicy, SurfaceContact, SurfaceSettings, SurfaceStart};
 use crate::surface::step_filter::Safeguards;
-use crate::{Body, ContactDistances, Pose, Shape, Surface, SurfaceParts, SurfaceStep};
+use crate::{Body, ContactDistances, Pose, Shape, Surface, SurfaceParts, SurfaceTrial};
 
 /// Vertices along a side of the sheet.
 const SIDE: usize = 11;
@@ -63,13 +63,13 @@ fn throw(safeguards: Safeguards) -> ThrowResult {
     };
     let mut contact = SurfaceContact::new(surface, settings, bodies.clone()).unwrap();
     contact.limiter.filter.safeguards = safeguards;
-    contact.begin(&start, &bodies);
+    let mut step = contact.begin(SurfaceStart::new(&start, &bodies));
     let mut positions = start.clone();
     let mut intersects = false;
     for _ in 0..STEPS {
         let mut displacements: Vec<f64> =
             (0..positions.len()).map(|k| if k % 3 == 1 { -STEP } else { 0.0 }).collect();
-        contact.limit_step(SurfaceStep {
+        step.limit(SurfaceTrial {
             start: &positions,
             displacements: &mut displacements,
             held: &[],
@@ -77,7 +77,7 @@ fn throw(safeguards: Safeguards) -> ThrowResult {
             obstacle_advance: &mut 0.0,
         });
         positions.iter_mut().zip(&displacements).for_each(|(x, dx)| *x += dx);
-        intersects |= !contact.intersections(&positions).unwrap().is_empty();
+        intersects |= !step.intersections(&positions).unwrap().is_empty();
     }
     let moved = positions.iter().zip(&start).skip(1).step_by(3).map(|(end, start)| start - end);
     ThrowResult { intersects, least_displacement: moved.fold(f64::INFINITY, f64::min) }

@@ -25,7 +25,7 @@ const LOCKED: f64 = 0.05;
 
 /// Trial step of a solver, of the free vertices and of the bodies.
 #[derive(Debug)]
-pub struct SurfaceStep<'a> {
+pub struct SurfaceTrial<'a> {
     /// Positions of the free vertices at the start of the step, in m.
     pub start: &'a [f64],
     /// Displacements of the free vertices, in m.

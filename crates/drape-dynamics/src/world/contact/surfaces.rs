@@ -7,7 +7,8 @@
 use std::ops::Range;
 
 use drape_collide::{
-    Body, Error, PairDistance, SeamIntersections, Shape, SurfaceContact, SurfaceStep, Triangulation,
+    Body, Error, OpenStep, PairDistance, SeamIntersections, Shape, SurfaceContact, SurfaceStart,
+    SurfaceTrial, Triangulation,
 };
 use drape_implicit::{AllowedStep, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
@@ -122,10 +123,10 @@ impl Surfaces {
         let StartSurfaces { mut contact, names, vertices, bodies, inward, min_separation } =
             StartSurfaces::new(scene)?;
         let positions = &scene.start.positions;
-        contact.summary_at(positions)?;
+        contact.detect(positions)?;
         let growth = scene.contact.growth;
         if growth.is_some() {
-            contact.shrink_distances(positions)?;
+            contact.setup()?.shrink_distances(positions)?;
         }
 
         let moving = scene.bodies.iter().zip(&vertices).filter_map(|(moving, vertices)| {
@@ -136,7 +137,7 @@ impl Surfaces {
 
         let held = scene.held_particles();
         Ok(Self {
-            start_growth_fraction: contact.growth_fraction(),
+            start_growth_fraction: contact.state().growth_fraction(),
             contact,
             bodies: scene.bodies.iter().map(|moving| moving.body.clone()).collect(),
             names,
@@ -225,10 +226,15 @@ impl Surfaces {
         })
     }
 
+    /// Returns the fraction of their distances that surfaces keep now, 0 to 1.
+    pub(crate) fn growth_fraction(&self) -> f64 {
+        self.contact.state().growth_fraction()
+    }
+
     /// Returns the time from which bodies have their full size, in s. The time is infinite while
     /// surfaces keep less than their full distances.
     pub(crate) fn full_size_time(&self) -> f64 {
-        if self.contact.growth_fraction() < 1.0 {
+        if self.growth_fraction() < 1.0 {
             return f64::INFINITY;
         }
         self.inflation.as_ref().map_or(0.0, |inflating| inflating.inflation.seconds)
@@ -237,7 +243,7 @@ impl Surfaces {
     /// Returns whether distances should have grown to their full values well before `time`, in s,
     /// but have not.
     pub(crate) fn growth_is_stuck(&self, time: f64) -> bool {
-        self.contact.growth_fraction() < 1.0
+        self.growth_fraction() < 1.0
             && self
                 .growth
                 .is_some_and(|growth| time >= self.growth_start + PATIENCE * growth.seconds)
@@ -248,19 +254,18 @@ impl Surfaces {
     ///
     /// # Errors
     ///
-    /// Returns an error if positions are not finite or the number of body coordinates is wrong.
-    ///
-    /// # Errors
-    /// Positions that are not finite, or another number of coordinates of bodies.
+    /// Returns an error if positions are not finite or the number of body coordinates is wrong, or
+    /// if a step is open.
     pub(crate) fn place(&mut self, time: f64, placed: &PlacedSurfaces<'_>) -> Result<(), Error> {
-        self.contact.close_seams();
-        self.contact.place_bodies(placed.bodies)?;
-        self.contact.shrink_to_separation(placed.positions)?;
-        if self.contact.growth_fraction() < 1.0 {
+        let mut setup = self.contact.setup()?;
+        setup.close_seams();
+        setup.place_bodies(placed.bodies)?;
+        setup.shrink_to_separation(placed.positions)?;
+        if self.growth_fraction() < 1.0 {
             let seconds = self.growth.map_or(placed.growth_seconds, |growth| growth.seconds);
             self.growth = Some(DistanceGrowth { seconds });
             self.growth_start = time;
-            self.start_growth_fraction = self.contact.growth_fraction();
+            self.start_growth_fraction = self.growth_fraction();
         }
         Ok(())
     }
@@ -285,16 +290,9 @@ impl Surfaces {
     /// Prepares contact for `step`. Returns the energy of contact at its start, if `step` asks for
     /// it.
     pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
-        if let Some(gaps) = step.seam_gaps {
-            self.contact.set_seam_gaps(gaps);
-        }
         #[cfg(test)]
         if self.omitted.open_seams {
-            self.contact.close_seams();
-        }
-        if let Some(growth) = self.growth {
-            let increase = (1.0 - self.start_growth_fraction) * step.dt / growth.seconds;
-            self.contact.grow_distances(step.positions, increase);
+            self.close_seams();
         }
 
         // Motions apply to the bodies at the size that they have at the end of the step.
@@ -308,12 +306,35 @@ impl Surfaces {
             motion.write_positions(step.motion_end, &inflated[range.clone()], &mut ends[range]);
         }
 
-        self.contact.begin(step.positions, ends);
+        let growth_increment = match self.growth {
+            Some(growth) => (1.0 - self.start_growth_fraction) * step.dt / growth.seconds,
+            None => 0.0,
+        };
+        let mut open_step = self.contact.begin(SurfaceStart {
+            positions: step.positions,
+            bodies: ends,
+            seam_gaps: step.seam_gaps,
+            growth_increment,
+        });
         step.with_energy.then(|| ContactEnergy {
-            contact: self.contact.potential(step.positions),
+            contact: open_step.energy(step.positions).potential(),
             friction: 0.0,
-            body_work: self.contact.growth_work(),
+            body_work: open_step.growth_work(),
         })
+    }
+
+    /// Returns the step that [`begin`](Self::begin) opened.
+    pub(crate) fn open_step(&mut self) -> OpenStep<'_> {
+        self.contact.step().expect("the solver begins a step before it asks about the step")
+    }
+
+    /// Closes the seams. A step that failed and is still open is rejected, so that a simulation can
+    /// resume after it.
+    pub(crate) fn close_seams(&mut self) {
+        if let Ok(step) = self.contact.step() {
+            step.reject();
+        }
+        self.contact.setup().expect("no step is open").close_seams();
     }
 
     /// Limits `step` to the fraction that keeps all surfaces apart.
@@ -323,10 +344,12 @@ impl Surfaces {
             return AllowedStep::Whole;
         }
         let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
-        let is_whole = self.contact.limit_step(SurfaceStep {
+        let Self { contact, held, .. } = self;
+        let mut open_step = contact.step().expect("the solver begins a step before it limits one");
+        let is_whole = open_step.limit(SurfaceTrial {
             start,
             displacements,
-            held: &self.held,
+            held,
             obstacle_time,
             obstacle_advance: &mut obstacle_advance,
         });
@@ -340,7 +363,7 @@ impl Surfaces {
         if self.omitted.body_work {
             return 0.0;
         }
-        self.contact.body_work(positions)
+        self.open_step().body_work(positions)
     }
 
     /// Returns whether no surface intersects another at `positions`.
@@ -361,13 +384,13 @@ impl Surfaces {
     /// Returns the exempt intersections at `positions`, in m.
     pub(crate) fn exempt(&self, positions: &[f64]) -> SeamIntersections {
         // Positions that are not finite are reported by the intersection test of the step.
-        self.contact.seam_intersections(positions).unwrap_or_default()
+        self.contact.inspect(positions).seam_intersections().unwrap_or_default()
     }
 
     /// Describes where surfaces are closest to their minimum separation, with the particles at
     /// `positions`, in m. Returns `None` if no surfaces are near each other.
     pub(crate) fn describe_closest(&self, positions: &[f64]) -> Option<String> {
-        let PairDistance { pair, distance } = self.contact.closest_pair()?;
+        let PairDistance { pair, distance } = self.contact.pairs().closest()?;
         let [first_name, second_name] = [pair.vertices[0], pair.vertices[3]]
             .map(|vertex| &self.names[self.contact.surface().group(vertex) as usize]);
         let start = 3 * pair.vertices.into_iter().min()? as usize;

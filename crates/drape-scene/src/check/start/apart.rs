@@ -285,8 +285,8 @@ fn crosses(surfaces: &mut StartSurfaces, positions: &[f64]) -> bool {
     match crossings {
         Ok(0) => surfaces
             .contact
-            .summary_at(positions)
-            .is_ok_and(|summary| summary.min_distance < DistanceGrowth::START_DISTANCE_MIN),
+            .detect(positions)
+            .is_ok_and(|pairs| pairs.summary().min_distance < DistanceGrowth::START_DISTANCE_MIN),
         Ok(_) => true,
         Err(_) => false,
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use drape_collide::{PairDistance, Surface, SurfaceContact};
+use drape_collide::{PairDistance, Surface, SurfaceContact, SurfacePairs};
 use drape_input::{Subject, counted};
 
 use crate::check::checker::Checker;
@@ -40,9 +40,9 @@ pub(crate) fn check_tangle(
     let grows = scene.contact.growth.is_some();
     let contact = &mut surfaces.contact;
     let crossings = contact.intersections(positions).map(|found| found.len());
-    let fault = match (crossings, contact.summary_at(positions)) {
+    let fault = match (crossings, contact.detect(positions).map(SurfacePairs::summary)) {
         (Ok(0), Ok(near)) if grows && near.min_distance >= DistanceGrowth::START_DISTANCE_MIN => {
-            let shrunk = contact.shrink_distances(positions);
+            let shrunk = contact.setup().and_then(|mut setup| setup.shrink_distances(positions));
             return shrunk.err().and_then(|error| {
                 checker.fail("panel", error.to_string(), APART);
                 None
@@ -128,7 +128,8 @@ pub(crate) fn overlaps(
     let found = contact.intersections(positions).map(<[_]>::to_vec).unwrap_or_default();
     let contact = &*contact;
     let surface = contact.surface();
-    let places: Vec<f64> = positions.iter().chain(contact.body_positions()).copied().collect();
+    let places: Vec<f64> =
+        positions.iter().chain(contact.state().body_positions()).copied().collect();
     let at = |vertex: u32| {
         let first = 3 * vertex as usize;
         [places[first], places[first + 1], places[first + 2]]
@@ -138,7 +139,7 @@ pub(crate) fn overlaps(
         let triangle = surface.triangles()[crossing.triangle as usize].to_vec();
         Near { vertices: [edge, triangle], distance: 0.0 }
     });
-    let near = contact.pairs_below_min_separation().map(|PairDistance { pair, distance }| {
+    let near = contact.pairs().below_min_separation().map(|PairDistance { pair, distance }| {
         let (one, other) = pair.vertices.split_at(pair.first_vertex_count());
         Near { vertices: [one.to_vec(), other.to_vec()], distance }
     });
