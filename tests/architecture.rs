@@ -35,7 +35,6 @@ const LINES_MAX: usize = 400;
 
 /// Files that are longer, and why.
 const LONG_FILES: &[(&str, &str)] = &[
-    ("crates/drape-collide/src/surface/contact/surface_contact.rs", "one type with many questions"),
     ("crates/drape-export/src/format/svg.rs", "one drawing, with its text"),
     (
         "crates/drape-implicit/src/linear/level_schedule/layout.rs",

@@ -12,7 +12,6 @@ mod exact;
 mod exactness;
 mod layers;
 mod oracle;
-mod order;
 mod pinch;
 mod planted_faults;
 mod separations;

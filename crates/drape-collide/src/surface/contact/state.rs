@@ -113,7 +113,8 @@ impl SurfaceContact {
     }
 
     /// Restores the state `saved`, which was saved with the free vertices at `positions`, in m.
-    /// From then on, every result is identical to the uninterrupted run's. A step that is open ends.
+    /// From then on, every result is identical to the uninterrupted run's. A step that is open
+    /// ends.
     ///
     /// # Errors
     /// `saved` belongs to another surface, or holds numbers that no contact produces.

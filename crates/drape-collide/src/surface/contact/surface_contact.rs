@@ -165,8 +165,9 @@ impl SurfaceContact {
         &self.surface
     }
 
-    /// Returns every [`Intersection`] of the surface with itself and with bodies, at the `positions`
-    /// of the free vertices, in m. The test is exact. Cloth through which a body passes is exempt.
+    /// Returns every [`Intersection`] of the surface with itself and with bodies, at the
+    /// `positions` of the free vertices, in m. The test is exact. Cloth through which a body passes
+    /// is exempt.
     ///
     /// # Errors
     /// Positions are not finite.

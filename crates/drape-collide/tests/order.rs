@@ -1,9 +1,16 @@
 //! The order of calls: what belongs to an open step is refused between steps, and the setup between
 //! steps is refused while a step is open.
 
+#![allow(clippy::unwrap_used)]
+
+#[expect(dead_code)]
+#[path = "surface/sheets.rs"]
+mod sheets;
+mod support;
+
 use drape_collide::{Error, PinchPolicy, PinchedVertices, SurfaceStart, SurfaceTrial};
 
-use crate::sheets::{ALL, Between, WIDE, level};
+use sheets::{ALL, Between, WIDE, level};
 
 /// Level sheet in the middle between two plates, 0.4 mm from each.
 fn between() -> Between {
