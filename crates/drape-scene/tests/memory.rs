@@ -10,27 +10,35 @@ use drape_scene::{Scene, SceneSpec, Sources};
 const SCENE: &str = "spacing = 0.02
 [fabric.plain]
 file = \"fabrics/plain.toml\"
-[garment.bag]
+[[garment]]
 pattern = \"bag.toml\"
 fabric = \"plain\"
-[garment.bag.panel.front]
-center = [0, 0.3, 0.1]
+[garment.panel.front]
+center = [-0.1, 0.3, 0.1]
+[garment.panel.back]
+center = [0.1, 0.3, -0.1]
+turn = [0, 180, 0]
 [[collider.mesh]]
 file = \"block.obj\"
 motion = \"rise.pc2\"
+rate = 24
 [time]
 step = 0.005
 end = 1
 ";
 
-const PATTERN: &str = "[from]\nfile = \"drawings/bag.svg\"\nunit = \"mm\"\n";
+const PATTERN: &str = "length = \"mm\"\n[from]\nfile = \"drawings/bag.svg\"\nunit = \"mm\"\n";
 
 const DRAWING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\">\
-    <path id=\"front\" d=\"M 0 0 L 200 0 L 200 300 L 0 300 Z\"/></svg>";
+    <path id=\"front\" d=\"M 0 0 L 200 0 L 200 300 L 0 300 Z\"/>\
+    <path id=\"back\" d=\"M 300 0 L 500 0 L 500 300 L 300 300 Z\"/></svg>";
 
-/// A closed box below the cloth.
+/// A closed box between the panels.
 fn block() -> Triangulation {
-    let corner = |k: usize| [k & 1, k >> 1 & 1, k >> 2 & 1].map(|bit| 0.1 * bit as f64 - 0.05);
+    let corner = |k: usize| {
+        let [x, y, z] = [k & 1, k >> 1 & 1, k >> 2 & 1].map(|bit| 0.1 * bit as f64 - 0.05);
+        [x, 0.45 + y, z]
+    };
     let faces =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     Triangulation {
@@ -80,7 +88,7 @@ fn a_scene_of_files_in_memory_is_the_scene_of_the_files() {
     let document = Document::read_with(nowhere.join("scene.toml"), &access).expect("a text");
     let scene = Scene::from_document(&document, Sources::new(nowhere).fabrics).expect("a scene");
     assert_eq!(scene.start.positions, of_files.start.positions);
-    assert_eq!(scene.hash, of_files.hash);
+    assert_eq!(scene.source.hash, of_files.source.hash);
     let motion = |scene: &Scene| format!("{:?}", scene.bodies[0].motion);
     assert_eq!(motion(&scene), motion(&of_files));
 
@@ -88,7 +96,7 @@ fn a_scene_of_files_in_memory_is_the_scene_of_the_files() {
     let spec = SceneSpec::from_document(&document).expect("a spec");
     let sources = Sources { access: &access, ..Sources::new(nowhere) };
     let built = spec.build_with(&sources).expect("a scene");
-    assert_eq!(built.hash, of_files.hash);
+    assert_eq!(built.source.hash, of_files.source.hash);
 }
 
 #[test]

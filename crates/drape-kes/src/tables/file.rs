@@ -36,8 +36,8 @@ pub(crate) fn is_there(path: &Path, access: &FileAccess) -> bool {
         })
 }
 
-/// Reads the file, or the member of an archive, at `path`, on disk or in memory. The limit on its size is raised by the
-/// factor in `access`.
+/// Reads the file, or the member of an archive, at `path`, on disk or in memory. The limit on its
+/// size is raised by the factor in `access`.
 pub(crate) fn read(
     path: &Path,
     layout: &Layout,

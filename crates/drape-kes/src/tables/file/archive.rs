@@ -1,5 +1,5 @@
-//! Members of zip archives, on disk or in memory. A path names a member as if the archive were a folder:
-//! `exports.zip/warp/tensile.csv`.
+//! Members of zip archives, on disk or in memory. A path names a member as if the archive were a
+//! folder: `exports.zip/warp/tensile.csv`.
 
 use std::path::{Path, PathBuf};
 
