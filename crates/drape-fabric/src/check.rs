@@ -79,7 +79,8 @@ impl Checker {
         self.0.push(Problem { key: key.into(), message, help: help.into(), meant: None });
     }
 
-    /// Adds a problem if `value` is outside its range. With `meant` the remedy is this number.
+    /// Adds a problem if `value` is outside its range. The remedy proposes the number `meant`, if
+    /// there is one.
     fn within_or(
         &mut self,
         key: &str,
@@ -298,7 +299,7 @@ impl Checker {
         self.friction("shear.friction", &law.friction);
     }
 
-    /// Checks the numbers of a backbone of two pieces with the key `key`.
+    /// Checks the numbers of a backbone of a quadratic and a line with the key `key`.
     fn piecewise(&mut self, key: &str, piecewise: &Piecewise) {
         self.positive(&format!("{key}.slope"), piecewise.slope, "the curve must rise");
         self.positive(&format!("{key}.knot"), piecewise.knot, "in the unit of the deformation");

@@ -55,8 +55,8 @@ impl Breen {
     /// Strain of the cloth under the weight of a metre of cloth, a ratio: "threads do not stretch
     /// significantly" \[BHW94, §3\].
     ///
-    /// Smaller values make the wells steeper and the steps harder to solve. On a cube the wells
-    /// stretch the yarns at the corners by 2 % at most.
+    /// Smaller values make the potential wells of the yarns steeper and the steps harder to solve.
+    /// In cloth that is draped over a cube, the yarns at the corners are stretched by 2 % at most.
     pub const WELL_STRAIN: f64 = 0.01;
 
     /// Returns the model of a [`Cloth`](crate::Cloth) of the same `panels`. Particles have the

@@ -31,8 +31,9 @@ pub struct Tie {
 }
 
 impl Seam {
-    /// Default stiffness of a seam. Two layers that slide on each other would be twice as stiff as
-    /// one layer, two layers that do not slide eight times. The default lies between.
+    /// Default bending stiffness of a seam, over the stiffness of one layer. Two layers that slide
+    /// on each other would be twice as stiff as one layer, and two layers that do not slide eight
+    /// times as stiff. The default lies between these two numbers.
     pub const STIFFNESS: f64 = 3.0;
 
     /// Largest rest angle, in rad. Up to this value angles are exact.

@@ -3,8 +3,8 @@
 /// Number of connectors that are evaluated side by side.
 ///
 /// The number affects only the speed. Eight vectors of four numbers are enough to hide the latency
-/// of the exponentials. They are few enough that a rare case (a knot passed in one lane) concerns
-/// few neighbours.
+/// of the exponentials. With more lanes, a rare case in one connector, such as a strain that passes
+/// the end of the toe, would delay more of the connectors beside it.
 pub const LANES: usize = 32;
 
 /// One number for each connector of a batch.

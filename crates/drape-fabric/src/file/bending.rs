@@ -30,7 +30,7 @@ pub(super) struct BendingFile {
     /// Backbone whose rigidity changes with the curvature.
     #[serde(skip_serializing_if = "Option::is_none")]
     varying: Option<VaryingFile<BendingRigidity, Curvature>>,
-    /// Backbone of two pieces.
+    /// Backbone of a quadratic and a line.
     #[serde(skip_serializing_if = "Option::is_none")]
     piecewise: Option<PiecewiseFile<BendingRigidity, MomentPerWidth, Curvature>>,
 }

@@ -1,21 +1,21 @@
-//! Backbone of two pieces in the file of a fabric.
+//! Backbone of a quadratic and a line in the file of a fabric.
 
 use drape_input::{Dimension, Given};
 use serde::{Deserialize, Serialize};
 
 use crate::laws::piecewise::Piecewise;
 
-/// Curve of two pieces: the slope of loads over deformations, a load, and a deformation.
+/// Quadratic through the origin that continues as a straight line.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
 #[serde(deny_unknown_fields, bound = "")]
 pub(super) struct PiecewiseFile<S: Dimension, L: Dimension, D: Dimension> {
-    /// Slope of the second piece, a straight line.
+    /// Slope of the line, in load per deformation.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     slope: Given<S>,
-    /// Load at which that line meets deformation 0.
+    /// Load at which the line, continued to smaller deformations, meets deformation 0.
     intercept: Given<L>,
-    /// Deformation at which it begins.
+    /// Deformation at which the line begins.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     knot: Given<D>,
 }

@@ -30,7 +30,7 @@ pub(super) struct ShearFile {
     /// Backbone whose stiffness changes with the angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     varying: Option<VaryingFile<ShearStiffness, Ratio>>,
-    /// Backbone of two pieces.
+    /// Backbone of a quadratic and a line.
     #[serde(skip_serializing_if = "Option::is_none")]
     piecewise: Option<PiecewiseFile<ShearStiffness, ForcePerWidth, Ratio>>,
     /// Rise of the force where yarns jam.

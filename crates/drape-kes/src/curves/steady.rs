@@ -131,8 +131,9 @@ fn has_clear_branches(q: &[f64], span: f64) -> bool {
 /// at its turns.
 ///
 /// The deviation follows from the median of the second differences, whose variance is six times the
-/// variance of the noise. A sensor with coarse steps has a median of zero. Then the mean square of
-/// all second differences except the largest hundredth is used.
+/// variance of the noise. If the steps of a sensor are coarse, most second differences are zero,
+/// and so is their median. Then the mean square of all second differences except the largest
+/// hundredth is used.
 fn noise_of(q: &[f64]) -> f64 {
     /// Median of the absolute value of a normal variate of unit deviation.
     const NORMAL_MEDIAN: f64 = 0.6745;
@@ -145,8 +146,8 @@ fn noise_of(q: &[f64]) -> f64 {
     second.sort_by(f64::total_cmp);
     let median = second[second.len() / 2] / NORMAL_MEDIAN;
     let kept = &second[..(second.len() * 99 / 100).max(1)];
-    let square = kept.iter().map(|d| d * d).sum::<f64>() / kept.len() as f64;
-    let deviation = if median > 0.0 { median } else { square.sqrt() };
+    let mean_square = kept.iter().map(|d| d * d).sum::<f64>() / kept.len() as f64;
+    let deviation = if median > 0.0 { median } else { mean_square.sqrt() };
     deviation / 6_f64.sqrt()
 }
 

@@ -49,7 +49,8 @@ pub(crate) struct AssumedDirection {
     pub(crate) why: String,
 }
 
-/// Averages the readings of one fabric, and adds to `notes` what has no use.
+/// Averages the readings of one fabric, and adds to `notes` the readings that are
+/// not used.
 ///
 /// `assumed` is the direction of a sheet whose readings name no direction.
 pub(crate) fn average_fabric(

@@ -137,7 +137,8 @@ enum RowRole {
     Text,
 }
 
-/// Returns the role of `row` in a block whose `first` row of numbers is known, if there is one.
+/// Returns what `row` holds in a block of a table. `first` is the first row of numbers of the
+/// block, or `None` if no row of numbers has come yet.
 fn row_role(row: &Row, first: Option<&Row>, is_header: bool) -> RowRole {
     let numbers = row.numbers();
     if is_header || numbers == 0 {

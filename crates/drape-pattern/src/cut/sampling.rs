@@ -120,9 +120,9 @@ impl SampledPanel {
 /// Nodes of a closed line among the nodes of its panel.
 struct LineNodes {
     panel: usize,
-    /// Number of its first node in the panel.
+    /// Number of the first node of the line, among the nodes of the panel.
     first: usize,
-    /// Number of its nodes.
+    /// Count of the nodes of the line.
     count: usize,
 }
 
@@ -209,10 +209,10 @@ impl<'a> Sampler<'a> {
     fn sew(&self, piece: &SeamPiece, seam: &mut SeamNodes) {
         let counts = [0, 1].map(|side| self.counts[Breakpoints::piece_start(piece, side)] as usize);
         let count = counts[0].min(counts[1]);
-        // Number of arcs of each side between two pairs.
-        let arcs = counts.map(|arcs| arcs / count);
+        // Count of arcs between two nodes, on each side, from one sewn pair to the next.
+        let arc_counts = counts.map(|arcs| arcs / count);
         for k in 0..=count {
-            let pair = [0, 1].map(|side| self.seam_node(piece, side, k * arcs[side]));
+            let pair = [0, 1].map(|side| self.seam_node(piece, side, k * arc_counts[side]));
             match k {
                 0 => seam.begin_piece(pair),
                 _ => seam.pairs.push(pair),
@@ -221,11 +221,11 @@ impl<'a> Sampler<'a> {
             // Nodes of the longer side of a gather, up to the next pair.
             for side in (0..2).filter(|_| k < count) {
                 let after = seam.pairs.len() - 1;
-                seam.ties.extend((1..arcs[side]).map(|step| Tie {
+                seam.ties.extend((1..arc_counts[side]).map(|step| Tie {
                     after,
                     side,
-                    node: self.seam_node(piece, side, k * arcs[side] + step),
-                    fraction: step as f64 / arcs[side] as f64,
+                    node: self.seam_node(piece, side, k * arc_counts[side] + step),
+                    fraction: step as f64 / arc_counts[side] as f64,
                 }));
             }
         }

@@ -15,7 +15,8 @@ pub struct Request {
     pub unit: Option<Unit>,
     /// Size in a graded file; `None` for the only size, or the sample size.
     pub size: Option<String>,
-    /// Pattern whose table `[from]` makes the request. Remedies are edits of it.
+    /// Pattern whose table `[from]` makes the request. A remedy of a mistake is an edit of this
+    /// pattern.
     pub from: Option<Document>,
     /// Access to the file.
     pub access: FileAccess,

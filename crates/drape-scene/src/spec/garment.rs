@@ -16,8 +16,9 @@ use crate::spec::panel::NoiseSpec;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GarmentSpec {
-    /// Name, which stands before the names of its panels: `NAME.PANEL`; the name of the file of the
-    /// pattern, and the panels have their names alone, if missing.
+    /// Name of the garment, the first part of the names of its panels: `NAME.PANEL`. If it is
+    /// missing, the garment has the name of the file of the pattern, and the panels have their
+    /// names alone.
     pub name: Option<String>,
     /// Pattern, relative to the folder of the scene: TOML, GarmentCode or FreeSewing JSON, SVG or
     /// DXF. It is cut at the spacing, placed and sewn.

@@ -12,7 +12,8 @@ const PARALLEL: f64 = 1e-3;
 /// Distance below which two primitives become a pair.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum PairLimit<'a> {
-    /// Activation distance plus a margin, anywhere on trajectories.
+    /// Two primitives become a pair if their distance is at most the activation distance plus a
+    /// margin at any point of their trajectories.
     Margin {
         /// Margin, in m.
         margin: f64,

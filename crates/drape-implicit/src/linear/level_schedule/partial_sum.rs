@@ -4,8 +4,9 @@ use super::chunk::{Chunk, leading_to};
 use crate::linear::lanes::Double;
 use crate::linear::vector::add_scaled;
 
-/// Contributions of a chunk to the rows of its window, with `N` numbers per row. The window holds
-/// the rows of the chunk and the columns of its diagonals.
+/// Contributions of a chunk to the rows of its window, with `N` numbers per row. The window of a
+/// chunk is the set of rows to which the chunk contributes: its own rows, and the rows with the
+/// numbers of the columns in which it has blocks.
 #[derive(Clone, Debug)]
 pub(crate) struct PartialSum<const N: usize>(pub [Vec<f64>; N]);
 

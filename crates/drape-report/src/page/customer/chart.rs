@@ -190,8 +190,8 @@ fn percent(position: f64) -> String {
     format!("{position:.1}")
 }
 
-/// Returns the axis from `low` to `high`, in SI, with its ticks and `ranges` in words. The unit of
-/// the labels is `in_si`.
+/// Returns the axis from `low` to `high`, in SI, with its ticks. The text of the axis states the
+/// `ranges` of usual fabrics. `in_si` is the unit of the labels, in SI.
 fn axis([low, high]: [f64; 2], ranges: &[Option<[f64; 2]>], in_si: f64) -> Axis {
     let [from, to] = [low, high].map(|end| end / in_si);
     let decades = (to / from).log10();

@@ -39,19 +39,19 @@ pub(crate) struct PlacedPiece {
 }
 
 impl PlacedPiece {
-    /// Returns the number of a node of an edge in the lattice.
-    fn number(&self, node: u32) -> u32 {
+    /// Returns the number in the lattice of the node `node` of an edge.
+    fn lattice_node(&self, node: u32) -> u32 {
         self.numbers[node as usize].expect("it has all nodes of edges")
     }
 
     /// Returns the particle in the scene that a node of an edge is.
     pub(crate) fn particle(&self, node: u32) -> u32 {
-        self.panel.panel.first as u32 + self.number(node)
+        self.panel.panel.first as u32 + self.lattice_node(node)
     }
 
     /// Returns the position of a node of an edge, in m.
     pub(crate) fn position(&self, node: u32) -> [f64; 3] {
-        let first = 3 * self.number(node) as usize;
+        let first = 3 * self.lattice_node(node) as usize;
         [0, 1, 2].map(|axis| self.panel.positions[first + axis])
     }
 }
