@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 /// Wall-clock and processor time since the start of a run.
 #[derive(Debug)]
 pub(crate) struct Stopwatch {
-    start: Instant,
+    /// Time of the start, `None` where the target has no clock.
+    start: Option<Instant>,
     /// Processor time of the process at the start, in s, if the system reports it.
     processor_start: Option<f64>,
     past: PastTime,
@@ -36,12 +37,12 @@ impl Stopwatch {
     /// Starts a stopwatch at zero.
     pub(crate) fn start() -> Self {
         let past = PastTime { wall: 0.0, processor: Some(0.0) };
-        Self { start: Instant::now(), processor_start: processor_seconds(), past }
+        Self { start: now(), processor_start: processor_seconds(), past }
     }
 
-    /// Returns the wall-clock time, in s.
+    /// Returns the wall-clock time, in s, or 0 where the target has no clock.
     pub(crate) fn wall_seconds(&self) -> f64 {
-        self.past.wall + self.start.elapsed().as_secs_f64()
+        self.past.wall + self.start.map_or(0.0, |start| start.elapsed().as_secs_f64())
     }
 
     /// Returns the processor time of all threads, in s, or `None` if the system does not report it.
@@ -50,6 +51,12 @@ impl Stopwatch {
             processor_seconds().zip(self.processor_start).map(|(now, start)| now - start);
         since_start.zip(self.past.processor).map(|(seconds, past)| seconds + past)
     }
+}
+
+/// Returns the time now, or `None` where the target has no clock: WebAssembly outside a system.
+pub(crate) fn now() -> Option<Instant> {
+    const HAS_CLOCK: bool = !cfg!(all(target_family = "wasm", target_os = "unknown"));
+    HAS_CLOCK.then(Instant::now)
 }
 
 /// Returns the processor time of the process until now, in s, or `None` if the system does not

@@ -1,12 +1,13 @@
 //! Run: all steps of a simulation, from its start or from a checkpoint, with a watcher.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::saved::SavedSimulation;
 use super::{Simulation, Step};
 use crate::error::Error;
 use crate::measure::{at_particles, measures, warnings};
 use crate::record::frame::Frame;
+use crate::record::stopwatch::now;
 use crate::record::summary::{Status, Summary};
 
 /// Duration of a step above which the state is copied before the next step, which can then be
@@ -101,7 +102,7 @@ impl Simulation {
                 grids: self.coarser.len(),
             };
             let start = (is_long && self.world.cancel.is_some()).then(|| self.saved());
-            let began = Instant::now();
+            let began = now();
             let step = match self.step() {
                 Ok(step) => step,
                 Err(drape_implicit::Error::Cancelled) => {
@@ -113,7 +114,7 @@ impl Simulation {
                     break;
                 }
             };
-            is_long = began.elapsed() >= LONG_STEP;
+            is_long = began.is_some_and(|began| began.elapsed() >= LONG_STEP);
             progress.step(&step, self.ticks());
             is_over = self.end_step(&step, before, progress)?;
         }

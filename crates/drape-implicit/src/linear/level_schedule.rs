@@ -19,7 +19,7 @@
 //! separators, which are eliminated after the parts ([`partition`]). Parts and separators have
 //! separate levels.
 //!
-//! A schedule is built once per sparsity in this order: rows ([`row_order`]), runs and slots of
+//! A schedule is built once per sparsity pattern in this order: rows ([`row_order`]), runs and slots of
 //! blocks ([`layout`]), the runs of each part ([`part`]), chunks of rows for operations in any
 //! order ([`chunk`]), and updates of the elimination ([`updates`]).
 

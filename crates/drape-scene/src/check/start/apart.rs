@@ -261,8 +261,8 @@ fn direction(scene: &Scene, one: usize, other: usize) -> Option<[f64; 3]> {
 fn middle(scene: &Scene, panel: usize) -> [f64; 3] {
     let particles = scene.panels[panel].particles();
     let count = particles.len() as f64;
-    let places = particles.map(|particle| place(scene, particle));
-    places.fold([0.0; 3], |sum, place| [0, 1, 2].map(|k| sum[k] + place[k] / count))
+    let positions = particles.map(|particle| place(scene, particle));
+    positions.fold([0.0; 3], |sum, point| [0, 1, 2].map(|k| sum[k] + point[k] / count))
 }
 
 /// Returns the pairs of panels of `scene` that seams join, the lower number first.
