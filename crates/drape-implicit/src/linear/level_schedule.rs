@@ -19,9 +19,9 @@
 //! separators, which are eliminated after the parts ([`partition`]). Parts and separators have
 //! separate levels.
 //!
-//! A schedule is built once per sparsity pattern in this order: rows ([`row_order`]), runs and slots of
-//! blocks ([`layout`]), the runs of each part ([`part`]), chunks of rows for operations in any
-//! order ([`chunk`]), and updates of the elimination ([`updates`]).
+//! A schedule is built once per sparsity pattern in this order: rows ([`row_order`]), runs and
+//! slots of blocks ([`layout`]), the runs of each part ([`part`]), chunks of rows for operations in
+//! any order ([`chunk`]), and updates of the elimination ([`updates`]).
 
 pub(crate) mod chunk;
 mod grouped;

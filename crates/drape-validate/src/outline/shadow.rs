@@ -51,8 +51,8 @@ impl Shadow {
         shadow
     }
 
-    /// Returns the shadow together with the shadow of a disc of `radius`, in m, around the middle of
-    /// the picture.
+    /// Returns the shadow together with the shadow of a disc of `radius`, in m, around the middle
+    /// of the picture.
     pub(crate) fn with_disc(mut self, radius: f64) -> Self {
         let half = 0.5 * self.side as f64;
         for (k, dark) in self.dark.iter_mut().enumerate() {
