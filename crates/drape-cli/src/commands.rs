@@ -6,9 +6,9 @@
 //! turns a [`Failure`](crate::failure::Failure) into an exit code.
 //!
 //! [`sheets`] is shared by the commands that read sheets. A few commands use another command's
-//! module: [`test`] reads its fabric through [`fabric`], [`fabric`] stores its page through
+//! module: [`mod@test`] reads its fabric through [`fabric`], [`fabric`] stores its page through
 //! [`fit`], [`export`] has the picture options of [`show`], the report of [`fabric`] takes the
-//! drapes of [`test`], and [`run`] tries proposed positions as [`check`] does.
+//! drapes of [`mod@test`], and [`run`] tries proposed positions as [`check`] does.
 
 pub(crate) mod bench;
 pub(crate) mod check;

@@ -1,7 +1,7 @@
 //! `drape check`: reads scenes, fabrics, sheets and patterns without simulating, and verifies the
 //! frames of runs.
 //!
-//! [`describe`] prints the contents of a file in SI, [`pattern`] cuts a pattern, and [`start`]
+//! [`mod@describe`] prints the contents of a file in SI, [`pattern`] cuts a pattern, and [`start`]
 //! draws a garment at its start. [`body`] inspects a mesh and repairs it. [`frames`] reads the
 //! folders of runs by `drape::verify`, which shares no code with the simulation. [`pace`] estimates
 //! the duration of a run, and [`proposal`] tries the positions that mistakes propose.

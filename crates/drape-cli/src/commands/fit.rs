@@ -1,7 +1,7 @@
 //! `drape fit`: identifies fabrics from sheets, one or many, and writes them with a report.
 //!
 //! A sheet is read ([`sheets`](super::sheets)) or drafted from tables ([`job`]), and then fitted
-//! and reported ([`identify`]). Several sheets are fitted on all threads ([`batch`]).
+//! and reported ([`mod@identify`]). Several sheets are fitted on all threads ([`batch`]).
 
 mod arguments;
 mod batch;

@@ -27,7 +27,7 @@ pub(crate) struct ConvergeArguments {
     scene: PathBuf,
     /// Spacings in mm, two or more, each at least a tenth larger than the next, such as 20,14,10.
     /// Panels and garments with a spacing of their own keep its ratio to the spacing of the scene,
-    /// and each grid begins on the coarser ones of [refine] that are a tenth coarser or more.
+    /// and each grid begins on the coarser ones of `[refine]` that are a tenth coarser or more.
     #[arg(long, value_name = "MM,MM", value_delimiter = ',', required = true)]
     spacings: Vec<f64>,
     /// Measure to print, a key of summary.json such as measures.lowest; may be given several times
