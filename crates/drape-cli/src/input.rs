@@ -32,7 +32,7 @@ pub(crate) fn set_access(access: FileAccess) {
     let _ = ACCESS.set(access);
 }
 
-/// Returns the access of [`set_access`].
+/// Returns the access to files that [`set_access`] gave to all input of the command.
 pub(crate) fn access() -> &'static FileAccess {
     ACCESS.get().unwrap_or_else(FileAccess::usual)
 }

@@ -188,10 +188,7 @@ impl Document {
             Some(bytes) => bytes.len() as u64,
             None => file_size(path)?,
         };
-        if let Err(refused) = LIMIT.check(size, access) {
-            let mistake = Diagnostic::new(path, refused.to_string()).help(refused.help());
-            return Err(mistake.into());
-        }
+        LIMIT.check_file(path, size, access)?;
 
         let text = match access.held(path) {
             Some(bytes) => str::from_utf8(bytes).map(str::to_owned).map_err(|e| e.to_string()),

@@ -251,9 +251,7 @@ fn document(path: &Path, access: &FileAccess) -> Result<Document, Diagnostics> {
         // `Document::read` says what is missing.
         return Document::read_with(path, access);
     };
-    if let Err(refused) = LIMIT.check(size, access) {
-        return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
-    }
+    LIMIT.check_file(path, size, access)?;
     let read = held.map_or_else(|| std::fs::read(path), |bytes| Ok(bytes.to_vec()));
     let bytes = read.map_err(|error| {
         Diagnostic::new(path, format!("cannot read the file: {error}")).help("make it readable")

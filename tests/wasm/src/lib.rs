@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use drape_dynamics::Simulation;
+use drape_fabric::samples::PLAIN_WEAVE;
 use drape_fit::identify;
 use drape_input::{Document, FileAccess};
 use drape_kes::SheetDraft;
@@ -58,19 +59,7 @@ pub extern "C" fn lowest_height(step_count: u32) -> f64 {
         step = 0.005
         end = 2
     ";
-    const FABRIC: &str = "
-        name = \"plain weave\"
-        density = 0.12
-        thickness = 0.0003
-        shear.stiffness = 35
-        [warp]
-        traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-        bending.rigidity = 1.2e-5
-        [weft]
-        traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-        bending.rigidity = 0.8e-5
-    ";
-    let access = FileAccess::default().holding("plain.toml", FABRIC.as_bytes());
+    let access = FileAccess::default().holding("plain.toml", PLAIN_WEAVE.as_bytes());
     let document = Document::new("scene.toml", SCENE).with_access(&access);
     let scene = Scene::from_document(&document, &read_fabric).expect("a scene");
     let mut simulation = Simulation::new(scene).expect("a start");

@@ -209,9 +209,12 @@ fn intersections_within_the_gap_of_a_seam_that_counts_as_closed_are_counted_with
     contact.begin(start).reject();
     assert_eq!(contact.intersections(&across(5e-5)).unwrap(), []);
     for gap in [5e-5, 5e-4] {
-        let found = contact.inspect(&across(gap)).seam_intersections().unwrap();
+        let crossings = contact.inspect(&across(gap)).seam_intersections().unwrap();
         let depth = gap * 1.0_f64.hypot(0.1);
-        assert!(found.count > 0 && (found.depth - depth).abs() < 1e-9 * depth, "{found:?}");
+        assert!(
+            crossings.count > 0 && (crossings.depth - depth).abs() < 1e-9 * depth,
+            "{crossings:?}"
+        );
     }
     assert_eq!(contact.inspect(&across(0.0)).seam_intersections(), Ok(none), "they are one edge");
     contact.setup().unwrap().close_seams();
@@ -233,9 +236,9 @@ fn intersections_of_a_tied_vertex_are_as_deep_as_it_is_from_its_edge() {
     let mut contact = contact(parts, Vec::new());
     let gaps = [f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0, f64::INFINITY, f64::INFINITY];
     contact.setup().unwrap().open_seams(&gaps, &at(1e-3, 0.0)).unwrap();
-    let found = contact.inspect(&at(-4e-5, -1e-5)).seam_intersections().unwrap();
+    let crossings = contact.inspect(&at(-4e-5, -1e-5)).seam_intersections().unwrap();
     let depth = 4e-5_f64.hypot(1e-5);
-    assert!(found.count > 0 && (found.depth - depth).abs() < 1e-9 * depth, "{found:?}");
+    assert!(crossings.count > 0 && (crossings.depth - depth).abs() < 1e-9 * depth, "{crossings:?}");
     assert_eq!(
         contact.inspect(&at(-4e-5, 1e-5)).seam_intersections().unwrap().count,
         0,

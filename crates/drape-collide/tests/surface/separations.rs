@@ -85,15 +85,15 @@ fn a_place_is_free_with_its_least_separation_or_intersects_at_known_vertices() {
     // One corner of the sheet is in the upper plate.
     let mut corner = level(0.0);
     corner[1] = 5e-4;
-    let found = between.contact.setup().unwrap().sewn_placement(&corner, &bodies).unwrap();
-    let SewnPlacement::Intersecting(found) = found else { panic!("{found:?}") };
+    let placement = between.contact.setup().unwrap().sewn_placement(&corner, &bodies).unwrap();
+    let SewnPlacement::Intersecting(intersections) = placement else { panic!("{placement:?}") };
     let surface = between.contact.surface();
-    for [a, b, c, d, e] in &found {
+    for [a, b, c, d, e] in &intersections {
         assert!(surface.edges().contains(&[*a, *b]), "{a} and {b} are no edge");
         assert!(surface.triangles().contains(&[*c, *d, *e]), "{c}, {d} and {e} are no triangle");
         assert!([a, b, c, d, e].contains(&&0), "it is not at the corner");
     }
-    assert!(!found.is_empty());
+    assert!(!intersections.is_empty());
     // Where the plates are elsewhere, the same sheet is free; nothing of that stays.
     let [lower, upper] = plates(WIDE, [-4e-4, 9e-4]);
     let apart = [lower.0, upper.0].concat();

@@ -328,8 +328,9 @@ mod tests {
         let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
         let begun = own.begin_with(carried).expect("a solver");
         assert!(matches!(begun, GridStart::Carried), "{begun:?}");
-        let surfaces =
-            |own: &Simulation| own.world.contact.surfaces().expect("surfaces").growth_fraction();
+        let surfaces = |simulation: &Simulation| {
+            simulation.world.contact.surfaces().expect("surfaces").growth_fraction()
+        };
         assert!(surfaces(&own) < 1.0 && own.time() > 0.0);
         for _ in 0..60 {
             own.step().expect("a step");

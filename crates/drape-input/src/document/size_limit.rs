@@ -1,7 +1,9 @@
 //! Limits on the sizes of input files.
 
 use std::fmt;
+use std::path::Path;
 
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::file_access::FileAccess;
 
 /// Largest size of a kind of input file. The limit keeps a wrong path from filling the memory.
@@ -42,6 +44,21 @@ impl SizeLimit {
     #[must_use]
     pub fn bytes(self, access: &FileAccess) -> u64 {
         self.bytes.saturating_mul(u64::from(access.size_factor.max(1)))
+    }
+
+    /// Checks that the file `path` of `bytes` bytes is not larger than the limit with the given
+    /// `access`.
+    ///
+    /// # Errors
+    /// The mistake, with its remedy, if the file is larger.
+    pub fn check_file(
+        self,
+        path: &Path,
+        bytes: u64,
+        access: &FileAccess,
+    ) -> Result<(), Diagnostics> {
+        let refused = self.check(bytes, access);
+        refused.map_err(|large| Diagnostic::new(path, large.to_string()).help(large.help()).into())
     }
 
     /// Checks that a file of `bytes` bytes is not larger than the limit with the given `access`.

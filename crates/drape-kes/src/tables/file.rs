@@ -44,9 +44,7 @@ pub(crate) fn read(
     access: &FileAccess,
 ) -> Result<TableFile, Diagnostics> {
     if let Some(bytes) = access.held(path) {
-        if let Err(refused) = LIMIT.check(bytes.len() as u64, access) {
-            return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
-        }
+        LIMIT.check_file(path, bytes.len() as u64, access)?;
         return parse(path, bytes, layout);
     }
     if let Some(member) = archive::split_member(path, access) {
@@ -61,9 +59,7 @@ pub(crate) fn read(
     if !metadata.is_file() {
         return Err(Diagnostic::new(path, "this is not a file").help("name a table").into());
     }
-    if let Err(refused) = LIMIT.check(metadata.len(), access) {
-        return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
-    }
+    LIMIT.check_file(path, metadata.len(), access)?;
     let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
     parse(path, &bytes, layout)
 }

@@ -13,15 +13,16 @@ const SEPARATION_KEPT: f64 = 0.9;
 /// Result of placing surfaces with closed seams.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SewnPlacement {
-    /// Nothing intersects. Holds the smallest ratio of a pair's distance to its minimum separation.
+    /// No primitives intersect. The number is the smallest ratio of a pair's distance to the pair's
+    /// minimum separation.
     Free(f64),
-    /// Some primitives intersect. Holds the vertices of the edge and the triangle of every
-    /// intersection.
+    /// Some primitives intersect. The list has the two vertices of the edge and the three vertices
+    /// of the triangle of every intersection.
     Intersecting(Vec<[u32; 5]>),
 }
 
-/// Setup of a [`SurfaceContact`] between two steps. [`SurfaceContact::setup`] refuses it while a
-/// step is open.
+/// Setup of a [`SurfaceContact`] between two steps. While a step is open,
+/// [`SurfaceContact::setup`] returns an error in place of the setup.
 #[derive(Debug)]
 pub struct SurfaceSetup<'a> {
     contact: &'a mut SurfaceContact,

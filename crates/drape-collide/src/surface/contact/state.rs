@@ -141,14 +141,14 @@ impl SurfaceContact {
 }
 
 impl SurfaceMemory {
-    /// Checks that this memory fits a contact with `free` free vertices and `coordinates`
-    /// coordinates of bodies.
-    pub(super) fn check(&self, free: usize, coordinates: usize) -> Result<(), Error> {
+    /// Checks that this memory fits a contact with `free_count` free vertices, whose bodies have
+    /// `coordinate_count` coordinates.
+    pub(super) fn check(&self, free_count: usize, coordinate_count: usize) -> Result<(), Error> {
         let Self { stretches, bodies, pinch, growth_fraction } = self;
-        check_bodies(bodies, coordinates)?;
-        if !pinch.is_empty() && pinch.len() != free {
+        check_bodies(bodies, coordinate_count)?;
+        if !pinch.is_empty() && pinch.len() != free_count {
             let (what, found) = ("pinch states", pinch.len());
-            return Err(Error::WrongLength { what, found, needed: free });
+            return Err(Error::WrongLength { what, found, needed: free_count });
         }
         let finite = bodies.iter().all(|x| x.is_finite()) && Stretch::are_valid(stretches);
         if !(finite && *growth_fraction > 0.0 && *growth_fraction <= 1.0) {
