@@ -116,7 +116,7 @@ impl ShadowMap {
         let (x, y) = (x - 0.5, y - 0.5);
         // Positions are rounded down. The casts round towards 0, and saturate in a scene without
         // extent, in which texels have no size.
-        let whole = |at: f64| at as i64 - i64::from(at < 0.0);
+        let whole = |at: f64| (at as i64).saturating_sub(i64::from(at < 0.0));
         let (column, row) = (whole(x), whole(y));
         let (right, down) = ((x - column as f64) as f32, (y - row as f64) as f32);
         // Slopes of the plane of the surface, from one texel to the next.
