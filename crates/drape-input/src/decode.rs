@@ -71,6 +71,14 @@ impl Faults {
         is_inside || is_around
     }
 
+    /// Returns whether there is a mistake in the value at the key path `key`, or in a value in it.
+    #[must_use]
+    pub fn concern(&self, key: &str) -> bool {
+        let outer = KeyPath::from(key).steps;
+        let mut keys = self.mistakes.iter().filter_map(|mistake| mistake.key.as_ref());
+        keys.any(|path| path.steps.starts_with(&outer))
+    }
+
     /// Replaces the message of the mistake at `key`, if there is one, by the message, the remedy
     /// and the edits of `answer`.
     pub fn explain(&mut self, key: &str, answer: &Diagnostic) {

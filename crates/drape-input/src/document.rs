@@ -2,6 +2,7 @@
 //!
 //! Every crate that reads TOML uses [`Document`], so that all mistakes are reported in one form.
 
+pub(crate) mod alias;
 pub(crate) mod similar_file;
 pub(crate) mod size_limit;
 
@@ -250,8 +251,10 @@ impl Document {
     /// Returns `fault` with its line, its subject and the edits that correct it.
     fn diagnostic(&self, fault: Fault) -> Diagnostic {
         let Fault { span, key, message, help, change } = fault;
+        let written = self.key_as_written(&key);
+        let message = if key.is_empty() { message } else { format!("{written}: {message}") };
         let mut mistake = self.placed(span, message);
-        mistake.key = (!key.is_empty()).then(|| KeyPath::from(key.as_str()));
+        mistake.key = (!key.is_empty()).then(|| KeyPath::from(written.as_str()));
         mistake.help = (!help.is_empty()).then_some(help);
         mistake.subject = Subject::from_key(&self.content().root, &key);
         mistake.edits = match change {
@@ -276,7 +279,7 @@ impl Document {
             }
             _ => None,
         };
-        let (file, key) = (self.path.clone(), key.to_owned());
+        let (file, key) = (self.path.clone(), self.key_as_written(key));
         (old.is_some() || new.is_some()).then(|| Edit {
             file,
             key,
@@ -302,7 +305,8 @@ impl Document {
         // The old key is removed first. A table with a heading moves value by value.
         let file = self.path.clone();
         let old = self.edit(key, None).and_then(|edit| edit.old);
-        let mut edits = vec![Edit { file, key: key.to_owned(), old, new: None }];
+        let (key, new) = (self.key_as_written(key), self.key_as_written(new));
+        let mut edits = vec![Edit { file, key, old, new: None }];
         for (path, span) in values {
             let Some(value) = self.text.get(span) else { return Vec::new() };
             let (file, key) = (self.path.clone(), format!("{new}{path}"));
@@ -327,9 +331,10 @@ impl Document {
         /// Largest number of letters of a key path in a message.
         const KEY_MAX: usize = 120;
 
-        let message = format!("{}: {}", cut(key, KEY_MAX), message.into());
+        let written = self.key_as_written(key);
+        let message = format!("{}: {}", cut(&written, KEY_MAX), message.into());
         let subject = Subject::from_key(&self.content().root, key);
-        let path = Some(KeyPath::from(key));
+        let path = Some(KeyPath::from(written.as_str()));
         let Some(located) = self.find(key) else {
             return Diagnostic { subject, key: path, ..self.placed(None, message) };
         };

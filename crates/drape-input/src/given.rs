@@ -178,6 +178,10 @@ dimensions! {
     ShearStiffness, ShearStiffness, 1.0, "N/m", ["35", "0.6 gf/(cm.deg)"];
     /// Pressure per distance. A bare number is in N/m³.
     PressurePerDistance, PressurePerDistance, 1.0, "N/m³", ["1e7", "10 kPa/mm"];
+    /// Work per area. A bare number is in J/m².
+    WorkPerArea, WorkPerArea, 1.0, "J/m²", ["2.5", "2.5 J/m2"];
+    /// Height of a surface. A bare number is in m.
+    Roughness, Roughness, 1.0, "m", ["5e-6", "5 um"];
     /// Ratio, such as a strain. A bare number is the ratio itself.
     Ratio, Ratio, 1.0, "", ["0.01", "1 %"];
 }

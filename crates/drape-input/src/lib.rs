@@ -3,10 +3,11 @@
 //! # Tour
 //!
 //! * `document`: [`Document`], the text of a TOML file with its path. A document decodes the text
-//!   into a structure and locates a key for a message. [`SizeLimit`] limits the size of files.
+//!   into a structure and locates a key for a message. An [`Alias`] is another spelling of a key. [`SizeLimit`] limits the size of files.
 //! * `decode`: the decoder, which reports all mistakes at once, and [`Faults`], the mistakes with
 //!   the keys whose values were left out.
 //! * `grammar`: mistakes of TOML grammar.
+//! * `form`: [`FromLiteral`], a value that may be written in several forms.
 //! * `given`: [`Given`], a number with or without a unit. `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input. [`Subject`] is the part of an input that a
@@ -27,6 +28,7 @@ mod diagnostic;
 mod document;
 mod figure;
 mod file_access;
+mod form;
 mod given;
 mod grammar;
 mod node;
@@ -42,6 +44,7 @@ pub use diagnostic::edit::{Edit, EditError, apply_edits};
 pub use diagnostic::subject::Subject;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Document;
+pub use document::alias::Alias;
 pub use document::similar_file::{missing_file_help, similar_file};
 pub use document::size_limit::{SizeLimit, TooLarge};
 pub use figure::{
@@ -51,10 +54,11 @@ pub use figure::{
 };
 pub use file_access::FileAccess;
 pub use file_access::allowed_folders::{AllowedFolders, ForbiddenPath};
+pub use form::{FromLiteral, Literal, Refusal, deserialize_literal};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, Metres, MomentPerWidth, PressurePerDistance, Ratio,
-    ShearStiffness, Speed, TextOr, Time, Velocity,
+    Roughness, ShearStiffness, Speed, TextOr, Time, Velocity, WorkPerArea,
 };
 pub use node::key_path::{KeyPath, KeyStep};
 pub use quoting::{toml_key, toml_string, xml_text};
@@ -63,5 +67,5 @@ pub use schema::{
     at_least, between, laboratory_schema, one_of, positive, schema_of, unit_schema, within,
 };
 pub use setting::{Setting, SettingError};
-pub use spelling::closest;
-pub use unit::{NumberWithUnit, Quantity, Unit, UnitError, is_unit, parse_quantity, parse_unit};
+pub use spelling::{closest, unknown_word};
+pub use unit::{NumberWithUnit, Quantity, Unit, ValueError, is_unit, parse_quantity, parse_unit};

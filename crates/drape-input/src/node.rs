@@ -28,7 +28,8 @@ pub(crate) enum Value {
     Integer(i64),
     Float(f64),
     Flag(bool),
-    Date,
+    /// Date or time, as it is written.
+    Date(String),
     List(Vec<Node>),
     /// Entries in the order of their keys.
     Table(Vec<Entry>),
@@ -38,8 +39,17 @@ pub(crate) enum Value {
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
     pub(crate) key: String,
+    /// Key path that the text has for the value, if the text writes another one than `key`.
+    pub(crate) written: Option<String>,
     pub(crate) span: Range<usize>,
     pub(crate) node: Node,
+}
+
+impl Entry {
+    /// Returns the entry of `node` at `span`, whose `key` is the one in the text.
+    pub(crate) fn new(key: String, span: Range<usize>, node: Node) -> Self {
+        Self { key, written: None, span, node }
+    }
 }
 
 impl Node {
@@ -52,7 +62,7 @@ impl Node {
     pub(crate) fn of_table(table: &toml::Table) -> Self {
         let mut entries: Vec<Entry> = table
             .iter()
-            .map(|(key, value)| Entry { key: key.clone(), span: 0..0, node: Self::of_value(value) })
+            .map(|(key, value)| Entry::new(key.clone(), 0..0, Self::of_value(value)))
             .collect();
         entries.sort_by(|a, b| a.key.cmp(&b.key));
         Self { span: 0..0, text: None, value: Value::Table(entries) }
@@ -65,7 +75,7 @@ impl Node {
             toml::Value::Integer(number) => Value::Integer(*number),
             toml::Value::Float(number) => Value::Float(*number),
             toml::Value::Boolean(flag) => Value::Flag(*flag),
-            toml::Value::Datetime(_) => Value::Date,
+            toml::Value::Datetime(date) => Value::Date(date.to_string()),
             toml::Value::Array(list) => Value::List(list.iter().map(Self::of_value).collect()),
             toml::Value::Table(table) => return Self::of_table(table),
         };
@@ -85,7 +95,7 @@ impl Node {
             }
             DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(flag) => Value::Flag(*flag),
-            DeValue::Datetime(_) => Value::Date,
+            DeValue::Datetime(date) => Value::Date(date.to_string()),
             DeValue::Array(list) => Value::List(list.iter().map(Self::new).collect()),
             DeValue::Table(table) => Value::Table(entries(table)),
         };
@@ -170,7 +180,7 @@ impl Node {
             Value::Text(_) => "text",
             Value::Integer(_) | Value::Float(_) => "a number",
             Value::Flag(_) => "true or false",
-            Value::Date => "a date",
+            Value::Date(_) => "a date",
             Value::List(_) => "a list",
             Value::Table(_) => "a table",
         }
@@ -193,7 +203,7 @@ fn entries(table: &DeTable<'_>) -> Vec<Entry> {
         if matches!(node.value, Value::Table(_)) {
             node.span = key.span();
         }
-        entries.push(Entry { key: key.get_ref().to_string(), span: key.span(), node });
+        entries.push(Entry::new(key.get_ref().to_string(), key.span(), node));
     }
     entries.sort_by(|a, b| a.key.cmp(&b.key));
     entries

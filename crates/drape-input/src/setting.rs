@@ -165,7 +165,7 @@ fn child<'a>(entries: &'a mut Vec<Entry>, name: &str, place: usize) -> &'a mut N
     let index = entries.binary_search_by(|entry| entry.key.as_str().cmp(name));
     let index = index.unwrap_or_else(|index| {
         let node = Node { span: place..place, text: None, value: Value::Table(Vec::new()) };
-        entries.insert(index, Entry { key: name.into(), span: place..place, node });
+        entries.insert(index, Entry::new(name.into(), place..place, node));
         index
     });
     &mut entries[index].node

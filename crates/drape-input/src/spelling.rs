@@ -1,6 +1,9 @@
-//! Search for the known word that is nearest to a misspelt word, for the remedies of messages.
+//! Search for the known word that is nearest to a misspelt word, and messages about unknown words.
 
 use strsim::osa_distance;
+
+use crate::figure::excerpt;
+use crate::unit::ValueError;
 
 /// Returns the word among `known` that is nearest to `word`, if it is near enough.
 ///
@@ -25,6 +28,31 @@ pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .filter(|(distance, _)| *distance <= allowed)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
+}
+
+/// Returns the mistake that `word` is none of the words `known`, with the word that was probably
+/// meant.
+///
+/// ```
+/// let mistake = drape_input::unknown_word("netwon", &["newton", "bdf2"]);
+/// assert_eq!(mistake.message, "there is no \"netwon\"");
+/// assert_eq!(mistake.help, "did you mean \"newton\"?");
+/// ```
+#[must_use]
+pub fn unknown_word(word: &str, known: &[&str]) -> ValueError {
+    let near = closest(word, known.iter().copied());
+    let help = match near {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => one_of_words(known),
+    };
+    let message = format!("there is no \"{}\"", excerpt(word));
+    ValueError { message, help, meant: near.map(str::to_owned) }
+}
+
+/// Returns the words `known` as a phrase, such as `one of "a", "b"`.
+pub(crate) fn one_of_words(known: &[&str]) -> String {
+    let quoted: Vec<String> = known.iter().map(|word| format!("\"{word}\"")).collect();
+    format!("one of {}", quoted.join(", "))
 }
 
 #[cfg(test)]

@@ -292,22 +292,22 @@ pub struct Unit {
     pub factor: f64,
 }
 
-/// Reason why a text is no unit or no number with a unit, with the remedy.
+/// Reason why a value is none that is needed, such as a text that is no unit, with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnitError {
+pub struct ValueError {
     /// Reason, which quotes the text.
     pub message: String,
     /// Remedy for the user.
     pub help: String,
-    /// Text that was probably meant, if a known unit is similar.
+    /// Text that was probably meant, if it is known.
     pub meant: Option<String>,
 }
 
 /// Parses `text` as a unit of one of the quantities `accepted`, which are tried in order.
 ///
 /// # Errors
-/// [`UnitError`] if `text` is no unit of these quantities.
-pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> {
+/// [`ValueError`] if `text` is no unit of these quantities.
+pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, ValueError> {
     let wanted = normal_form(text);
     for &quantity in accepted {
         if let Some(&(spelling, factor)) = quantity.units().iter().find(|u| u.0 == wanted) {
@@ -319,7 +319,7 @@ pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> 
     let known = accepted.iter().flat_map(|q| q.units()).map(|u| u.0);
     let close = closest(&wanted, known);
     let hint = close.map(|close| format!("did you mean `{close}`? ")).unwrap_or_default();
-    Err(UnitError {
+    Err(ValueError {
         message: format!("\"{}\" is not a unit of {}", excerpt(text), names.join(" or ")),
         help: format!("{hint}units accepted here: {}", lists.join("; ")),
         meant: close.map(str::to_owned),
@@ -365,8 +365,8 @@ pub struct NumberWithUnit {
 /// as `"0.118"` is in the laboratory's unit.
 ///
 /// # Errors
-/// [`UnitError`] if `text` does not begin with a number, or if a unit of another quantity follows.
-pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, UnitError> {
+/// [`ValueError`] if `text` does not begin with a number, or if a unit of another quantity follows.
+pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, ValueError> {
     /// Largest number of letters of a number, more than a number with all its digits needs.
     const NUMBER_MAX: usize = 64;
 
@@ -378,7 +378,7 @@ pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, 
         .find_map(|end| text[..end].trim_end().parse::<f64>().ok().map(|number| (number, end)));
     let Some((number, end)) = split else {
         let unit = quantity.laboratory().spelling;
-        return Err(UnitError {
+        return Err(ValueError {
             message: format!("\"{}\" does not begin with a number", excerpt(text)),
             help: format!("write the number and its unit, such as \"1.5 {unit}\""),
             meant: None,
@@ -387,7 +387,7 @@ pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, 
 
     let unit = match text[end..].trim() {
         "" => quantity.laboratory(),
-        spelling => parse_unit(spelling, &[quantity]).map_err(|error| UnitError {
+        spelling => parse_unit(spelling, &[quantity]).map_err(|error| ValueError {
             meant: error.meant.map(|unit| format!("{} {unit}", text[..end].trim_end())),
             ..error
         })?,

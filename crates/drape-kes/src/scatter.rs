@@ -2,7 +2,7 @@
 
 use crate::symbol::Symbol;
 use crate::test::Direction;
-use drape_input::{NumberWithUnit, Quantity, UnitError, parse_quantity};
+use drape_input::{NumberWithUnit, Quantity, ValueError, parse_quantity};
 
 /// Standard deviation of a value that a law uses, as the sheet states it.
 ///
@@ -56,7 +56,7 @@ pub(crate) struct ValueWithDeviation {
 pub(crate) fn parse(
     text: &str,
     quantity: Quantity,
-) -> Option<Result<ValueWithDeviation, UnitError>> {
+) -> Option<Result<ValueWithDeviation, ValueError>> {
     let (value, deviation) = split(text)?;
     Some(parse_parts(value, deviation, quantity))
 }
@@ -83,7 +83,7 @@ fn parse_parts(
     value: &str,
     deviation: &str,
     quantity: Quantity,
-) -> Result<ValueWithDeviation, UnitError> {
+) -> Result<ValueWithDeviation, ValueError> {
     let [value_is_bare, deviation_is_bare] = [value, deviation].map(is_number);
     // One pair of brackets may stand around both numbers.
     let value = value.trim().trim_start_matches('(').trim();

@@ -1,5 +1,7 @@
 //! Tests and directions of a measurement.
 
+use serde::Deserialize;
+
 /// Test that a curve comes from, which fixes the meaning of deformation and load.
 ///
 /// | test | deformation | load, per width |
@@ -8,7 +10,8 @@
 /// | shear | shear angle, in rad | force, in N/m |
 /// | bending | curvature, in 1/m | moment, in N |
 /// | loop bending | clamp distance over specimen length, minus one | force, in N/m |
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Test {
     /// Stretching of a strip along its yarns (KES-FB1).
     Tensile,
@@ -68,7 +71,8 @@ impl Test {
 }
 
 /// Yarns along which a strip was cut and loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Direction {
     /// Along the loom.
     Warp,

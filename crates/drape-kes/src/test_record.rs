@@ -2,10 +2,6 @@
 
 use drape_input::{Diagnostic, Diagnostics};
 
-/// Keys of the record in a sheet.
-pub(crate) const RECORD_KEYS: [&str; 5] =
-    ["customer", "article", "laboratory", "date", "specimens"];
-
 /// Remedy for an empty text.
 const EMPTY_HELP: &str = "write it, or remove the line: what is not known stays blank";
 

@@ -3,7 +3,7 @@
 
 pub(crate) mod convergence;
 
-use drape_input::{Quantity, UnitError, parse_unit, round_digits};
+use drape_input::{Quantity, ValueError, parse_unit, round_digits};
 
 /// Quantities whose units a measure may have.
 const QUANTITIES: [Quantity; 8] = [
@@ -35,7 +35,7 @@ impl Measure {
         key: &str,
         name: Option<&str>,
         unit: Option<&str>,
-    ) -> Result<Self, UnitError> {
+    ) -> Result<Self, ValueError> {
         let mut measure =
             Self { name: name.unwrap_or(key).to_owned(), key: key.to_owned(), factor: 1.0 };
         if let Some(unit) = unit {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape_input::{
-    Diagnostic, Diagnostics, Document, FileAccess, Setting, SettingError, UnitError, closest,
+    Diagnostic, Diagnostics, Document, FileAccess, Setting, SettingError, ValueError, closest,
     excerpt, toml_key,
 };
 
@@ -259,7 +259,7 @@ fn measures(reader: &mut Reader<'_>, files: &[MeasureFile]) -> Vec<Measure> {
     for (index, MeasureFile { key, name, unit }) in files.iter().enumerate() {
         let key_path = format!("measure[{index}]");
         match Measure::new(key, name.as_deref(), unit.as_deref()) {
-            Err(UnitError { message, help, .. }) => {
+            Err(ValueError { message, help, .. }) => {
                 reader.fail(&format!("{key_path}.unit"), message, help)
             }
             Ok(measure) if measures.iter().any(|earlier| earlier.name == measure.name) => {

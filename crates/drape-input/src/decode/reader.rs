@@ -2,16 +2,17 @@
 
 use std::cell::{Cell, RefCell};
 
-use serde::de::value::{SeqDeserializer, StrDeserializer};
+use serde::de::value::{SeqDeserializer, StrDeserializer, UnitDeserializer};
 use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::forward_to_deserialize_any;
 
 use crate::figure::excerpt;
+use crate::form::{self, Refusal};
 use crate::given::{self, Token};
 use crate::node::{Entry, Node, Value};
 use crate::quoting::{toml_key, toml_string};
-use crate::spelling::closest;
-use crate::unit::{NumberWithUnit, parse_quantity};
+use crate::spelling::{closest, unknown_word};
+use crate::unit::{NumberWithUnit, ValueError, parse_quantity};
 
 use super::stand_in::{ExpectedKind, StandIn};
 use super::state::{Change, Fault, ReadingState};
@@ -97,7 +98,10 @@ impl<'a> Reader<'a> {
     /// Records the mistake that the value does not have the expected `kind`.
     fn fault_of_kind(&self, kind: ExpectedKind) {
         let wanted = kind.words();
-        let short = wanted.split_once(" such as").map_or(wanted.as_str(), |(short, _)| short);
+        let short = match kind {
+            ExpectedKind::Forms(_) => &wanted,
+            _ => wanted.split_once(" such as").map_or(wanted.as_str(), |(short, _)| short),
+        };
         let message = format!("is {} where {short} is needed", self.node.kind());
         let help = match (&self.node.value, self.path.step) {
             (Value::Table(_), PathStep::Key(key, _)) if kind == ExpectedKind::List(None) => {
@@ -132,7 +136,6 @@ impl<'a> Reader<'a> {
         }
 
         let key = self.path.text();
-        let message = if key.is_empty() { message } else { format!("{key}: {message}") };
         let span = Some(self.node.span.clone());
         let change = meant.map(Change::Value);
         state.faults.push(Fault { span, key, message, help, change });
@@ -140,17 +143,8 @@ impl<'a> Reader<'a> {
 
     /// Records the mistake that `word` is none of `choices`.
     fn fault_of_choice(&self, word: &str, choices: &[&str]) {
-        let near = closest(word, choices.iter().copied());
-        let help = match near {
-            Some(near) => format!("did you mean \"{near}\"?"),
-            None => {
-                let quoted: Vec<String> =
-                    choices.iter().map(|choice| format!("\"{choice}\"")).collect();
-                format!("one of {}", quoted.join(", "))
-            }
-        };
-        let message = format!("there is no \"{}\"", excerpt(word));
-        self.correctable_fault(message, help, near.map(toml_string));
+        let ValueError { message, help, meant } = unknown_word(word, choices);
+        self.correctable_fault(message, help, meant.as_deref().map(toml_string));
     }
 
     /// Records that the value does not have the expected `kind`, and calls `visit` with a stand-in.
@@ -287,7 +281,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             Value::Integer(number) => visitor.visit_i64(*number),
             Value::Float(number) => visitor.visit_f64(*number),
             Value::Flag(flag) => visitor.visit_bool(*flag),
-            Value::Date => visitor.visit_str(""),
+            Value::Date(date) => visitor.visit_str(date),
             Value::List(_) => self.deserialize_seq(visitor),
             Value::Table(_) => self.deserialize_map(visitor),
         }
@@ -354,6 +348,9 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         choices: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Stop> {
+        if name == form::TOKEN {
+            return visitor.visit_seq(Answer { reader: self, forms: choices, is_read: false });
+        }
         let Value::Text(word) = &self.node.value else {
             return self.stand_in(ExpectedKind::Text, |stand_in| {
                 stand_in.deserialize_enum(name, choices, visitor)
@@ -472,7 +469,7 @@ impl<'a> Reader<'a> {
             let mut state = self.state.borrow_mut();
             if !state.is_last {
                 let key = self.path.key_text(&entry.key);
-                let message = format!("{key}: there is no such key");
+                let message = "there is no such key".to_owned();
                 let span = Some(entry.span.clone());
                 let free = near.filter(|near| self.node.entry(near).is_none());
                 let change = free.map(|near| Change::Renamed(self.path.key_text(near)));
@@ -514,11 +511,47 @@ impl<'a> Reader<'a> {
         if !state.is_last {
             let span = (!matches!(self.path.step, PathStep::Root)).then(|| self.node.span.clone());
             let help = format!("add {key} = …, {}", expected.get().words());
-            let message = format!("{path}: is missing");
+            let message = "is missing".to_owned();
             state.faults.push(Fault { span, key: path.clone(), message, help, ..Fault::default() });
         }
         state.keys.insert(path);
         Ok(value)
+    }
+}
+
+/// Value that is passed to a [`FromLiteral`](form::FromLiteral), and the refusal of the form, if there is one.
+struct Answer<'a> {
+    reader: Reader<'a>,
+    /// Forms in which the value may be written.
+    forms: &'static [&'static str],
+    /// Whether the form has the value.
+    is_read: bool,
+}
+
+impl<'de> SeqAccess<'de> for Answer<'_> {
+    type Error = Stop;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, Stop> {
+        let Reader { node, path, state } = self.reader;
+        if !self.is_read {
+            self.is_read = true;
+            return seed.deserialize(Reader { node, path, state }).map(Some);
+        }
+
+        // A form that asks for a second element refuses the value, and its reason is an error.
+        let nothing: UnitDeserializer<Stop> = ().into_deserializer();
+        let reason = seed.deserialize(nothing).err().map(|stop| stop.to_string());
+        match reason.as_deref().and_then(Refusal::from_text) {
+            Some(Refusal::Reason(ValueError { message, help, meant })) => {
+                let meant = meant.map(|text| toml_string(&text));
+                self.reader.correctable_fault(message, help, meant);
+            }
+            _ => self.reader.fault_of_kind(ExpectedKind::Forms(self.forms)),
+        }
+        Ok(None)
     }
 }
 

@@ -7,7 +7,9 @@ use serde::de::value::StrDeserializer;
 use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::forward_to_deserialize_any;
 
+use crate::form;
 use crate::given;
+use crate::spelling::one_of_words;
 
 use super::stop::Stop;
 
@@ -24,6 +26,10 @@ pub(super) enum ExpectedKind {
     Table,
     /// Quantity, with the name of the quantity and two examples.
     Quantity(&'static str, [&'static str; 2]),
+    /// Word among these.
+    Choice(&'static [&'static str]),
+    /// One of several forms, in words.
+    Forms(&'static [&'static str]),
     /// Any kind.
     Anything,
 }
@@ -45,6 +51,8 @@ impl ExpectedKind {
                 let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
                 format!("{article} {name} such as {bare} or \"{unit}\"")
             }
+            Self::Choice(words) => one_of_words(words),
+            Self::Forms(forms) => form::listed(forms),
             Self::Anything => "a value".into(),
         }
     }
@@ -126,11 +134,15 @@ impl<'de> Deserializer<'de> for StandIn<'_> {
 
     fn deserialize_enum<V: Visitor<'de>>(
         self,
-        _name: &'static str,
+        name: &'static str,
         choices: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Stop> {
-        self.note(ExpectedKind::Text);
+        if name == form::TOKEN {
+            self.note(ExpectedKind::Forms(choices));
+            return visitor.visit_unit();
+        }
+        self.note(ExpectedKind::Choice(choices));
         let choice: StrDeserializer<'_, Stop> =
             choices.first().copied().unwrap_or_default().into_deserializer();
         visitor.visit_enum(choice)

@@ -10,6 +10,7 @@ pub(crate) struct Fault {
     pub(crate) span: Option<Range<usize>>,
     /// Key path of the value. Empty for the whole text.
     pub(crate) key: String,
+    /// Message, without the key path.
     pub(crate) message: String,
     pub(crate) help: String,
     /// Change at the key path that corrects the mistake.

@@ -98,7 +98,7 @@ fn element_text(element: Option<&Node>, key: &str) -> Option<String> {
 
 impl KeyPart<'_> {
     /// Returns the value to which the part of a key path leads from `node`.
-    fn find<'a>(&self, node: Option<&'a Node>) -> Option<&'a Node> {
+    pub(crate) fn find<'a>(&self, node: Option<&'a Node>) -> Option<&'a Node> {
         let mut node = &node?.entry(self.name)?.node;
         for index in &self.indices {
             let Value::List(elements) = &node.value else { return None };

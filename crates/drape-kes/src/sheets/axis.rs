@@ -1,18 +1,18 @@
 //! Axes of a `[[curve]]`: the keys of its deformation and its load.
 
+use crate::sheets::file::{DeformationFile, LoadFile};
 use crate::sheets::findings::Findings;
-use crate::sheets::section::{Choice, ColumnOrLength, Section};
+use crate::sheets::forms::{ColumnOrLength, Columns};
 use crate::tables::columns::AxisQuery;
 use crate::tables::heading::Kind;
 use crate::tables::layout::Column;
 use crate::test::Test;
 use drape_input::{Quantity, Unit, parse_unit};
-
-pub(crate) const DEFORMATION_KEYS: [&str; 5] = ["column", "unit", "gauge", "zero", "reversed"];
-pub(crate) const LOAD_KEYS: [&str; 4] = ["column", "unit", "width", "reversed"];
+use serde::Deserialize;
 
 /// Meaning of a length from which a deformation is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub(crate) enum Zero {
     /// Extension of the specimen: zero at the gauge length.
     Extension,
@@ -22,8 +22,12 @@ pub(crate) enum Zero {
     Position,
 }
 
+#[cfg(feature = "schema")]
 impl Zero {
-    /// Returns the name in sheets and messages: `"extension"` for [`Zero::Extension`].
+    /// All meanings.
+    pub(crate) const ALL: [Self; 3] = [Self::Extension, Self::Distance, Self::Position];
+
+    /// Returns the name in sheets: `"extension"` for [`Zero::Extension`].
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Extension => "extension",
@@ -31,20 +35,6 @@ impl Zero {
             Self::Position => "position",
         }
     }
-}
-
-pub(crate) const ZERO: Choice<'_, Zero> = Choice {
-    key: "zero",
-    values: &[Zero::Extension, Zero::Distance, Zero::Position],
-    name: Zero::name,
-};
-
-/// Keys and quantities of an axis.
-struct AxisForm {
-    key: &'static str,
-    /// Keys of the axis's table. The third key is its gauge or width.
-    keys: &'static [&'static str],
-    accepted: &'static [Quantity],
 }
 
 /// Axis as the sheet describes it, with its key paths for messages. The default declares nothing.
@@ -63,76 +53,67 @@ pub(crate) struct AxisKeys {
 }
 
 impl AxisKeys {
-    /// Reads the keys of the deformation of `test`. Returns `None` after reporting a mistake in
-    /// `section`.
+    /// Returns the axis of the deformation of `test`, which `file` describes at the key path `curve`.
+    /// Returns `None` after reporting a mistake.
     pub(crate) fn deformation(
-        section: &Section<'_>,
+        curve: &str,
+        file: &DeformationFile,
         test: Test,
         findings: &mut Findings<'_>,
     ) -> Option<Self> {
-        let axis_form = AxisForm {
-            key: "deformation",
-            keys: &DEFORMATION_KEYS,
-            accepted: deformation_quantities(test),
-        };
-        Self::read(section, &axis_form, findings)
-    }
-
-    /// Reads the keys of the load of `test`. Returns `None` after reporting a mistake in `section`.
-    pub(crate) fn load(
-        section: &Section<'_>,
-        test: Test,
-        findings: &mut Findings<'_>,
-    ) -> Option<Self> {
-        let axis_form = AxisForm { key: "load", keys: &LOAD_KEYS, accepted: load_quantities(test) };
-        Self::read(section, &axis_form, findings)
-    }
-
-    /// Reports the unknown keys of both axes in `section`, where the test is unknown.
-    pub(crate) fn check_keys(section: &Section<'_>, findings: &mut Findings<'_>) {
-        for (key, keys) in [("deformation", &DEFORMATION_KEYS[..]), ("load", &LOAD_KEYS)] {
-            if let Some(table) = section.section(key, findings) {
-                table.allow(keys, findings);
-            }
-        }
-    }
-
-    /// Reads the keys of one axis. Returns `None` after reporting a mistake in `section`.
-    fn read(
-        section: &Section<'_>,
-        axis_form: &AxisForm,
-        findings: &mut Findings<'_>,
-    ) -> Option<Self> {
-        let AxisForm { key, keys, accepted } = *axis_form;
-        let size_key = keys[2];
-        let path = section.key(key);
+        let DeformationFile { column: Columns(columns), unit, gauge, zero, reversed } = file;
         let mut axis_keys = Self {
-            unit_key: format!("{path}.unit"),
-            size_key: format!("{path}.{size_key}"),
-            key: path,
-            ..Self::default()
+            columns: columns.clone(),
+            size: gauge.clone(),
+            zero: *zero,
+            reversed: *reversed,
+            ..Self::at(format!("{curve}.deformation"), "gauge")
         };
-        if !section.declares(key) {
-            return Some(axis_keys);
-        }
+        axis_keys.read_unit(unit.as_deref(), deformation_quantities(test), findings)?;
+        Some(axis_keys)
+    }
 
-        let errors_before = findings.errors.len();
-        let table = section.section(key, findings)?;
-        table.allow(keys, findings);
-        axis_keys.columns = table.columns("column", findings);
-        axis_keys.size = table.column_or_length(size_key, findings);
-        if size_key == "gauge" {
-            axis_keys.zero = table.choice(&ZERO, findings);
-        }
-        axis_keys.reversed = table.declares("reversed").then(|| table.flag("reversed", findings));
+    /// Returns the axis of the load of `test`, which `file` describes at the key path `curve`.
+    /// Returns `None` after reporting a mistake.
+    pub(crate) fn load(
+        curve: &str,
+        file: &LoadFile,
+        test: Test,
+        findings: &mut Findings<'_>,
+    ) -> Option<Self> {
+        let LoadFile { column: Columns(columns), unit, width, reversed } = file;
+        let mut axis_keys = Self {
+            columns: columns.clone(),
+            size: width.clone(),
+            reversed: *reversed,
+            ..Self::at(format!("{curve}.load"), "width")
+        };
+        axis_keys.read_unit(unit.as_deref(), load_quantities(test), findings)?;
+        Some(axis_keys)
+    }
 
-        if let Some(text) = table.text("unit", findings) {
-            match parse_unit(&text, accepted) {
-                Ok(unit) => axis_keys.unit = Some(unit),
-                Err(error) => findings.error(&axis_keys.unit_key, error.message, error.help),
-            }
+    /// Returns an axis at the key path `key` that declares nothing. Its size has the key
+    /// `size_key`.
+    fn at(key: String, size_key: &str) -> Self {
+        Self {
+            unit_key: format!("{key}.unit"),
+            size_key: format!("{key}.{size_key}"),
+            key,
+            ..Self::default()
         }
-        (findings.errors.len() == errors_before).then_some(axis_keys)
+    }
+
+    /// Sets the unit to `text`, a unit of one of the `accepted` quantities. Returns `None` after
+    /// reporting a mistake.
+    fn read_unit(
+        &mut self,
+        text: Option<&str>,
+        accepted: &[Quantity],
+        findings: &mut Findings<'_>,
+    ) -> Option<()> {
+        let unit = text.map(|text| parse_unit(text, accepted)).transpose();
+        self.unit = unit.map_err(|error| findings.refuse(&self.unit_key, error)).ok()?;
+        Some(())
     }
 
     /// Returns the columns and quantities to look for in a table, for the axis `name` of `test`.

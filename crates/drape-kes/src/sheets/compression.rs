@@ -9,7 +9,6 @@
 //! so each of TM, LC and WC follows from T0 and the other two.
 
 use crate::sheets::findings::Findings;
-use crate::sheets::section::Section;
 use crate::sheets::sheet::Sheet;
 use drape_input::Quantity;
 
@@ -63,17 +62,16 @@ impl Sheet {
         (t0 > tm).then(|| MILLIMETRES * 2.0 * wc / (LARGEST_PRESSURE * (t0 - tm)))
     }
 
-    /// Warns about values of the compression test that contradict each other. `root` is the sheet's
-    /// table.
-    pub(crate) fn compare_compression(&self, root: &Section<'_>, findings: &mut Findings<'_>) {
-        let key = root.key("LC");
+    /// Warns about values of the compression test that contradict each other.
+    pub(crate) fn compare_compression(&self, findings: &mut Findings<'_>) {
+        let key = "LC";
         if let (Some(given), Some(computed)) = (self.lc, self.linearity_by_work())
             && (computed / given - 1.0).abs() > REPORTED_DIFFERENCE
         {
             let message =
                 format!("{given} does not agree with T0, TM and WC, which give {computed:.3}");
             findings.warn(
-                &key,
+                key,
                 message,
                 "check the four values and their units; LC and TM were taken",
             );
@@ -82,7 +80,7 @@ impl Sheet {
         let has_all = self.t0.or(self.t).is_some() && self.lc.is_some() && self.wc.is_some();
         if has_all && self.tm.is_none() && self.pressed_by_work().is_none() {
             let message = "with WC leaves nothing of the thickness at 50 gf/cm²";
-            findings.warn(&key, message, "check T, LC and WC and their units; a default was taken");
+            findings.warn(key, message, "check T, LC and WC and their units; a default was taken");
         }
     }
 }

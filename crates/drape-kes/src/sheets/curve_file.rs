@@ -4,56 +4,23 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostic, Quantity, closest};
+use drape_input::{Diagnostic, closest};
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::sheets::axis::AxisKeys;
 use crate::sheets::checks::suspect::{AxesAsWritten, CurveKeyPaths, examine};
 use crate::sheets::convert::{deformation, load};
+use crate::sheets::file::CurveFile;
 use crate::sheets::findings::Findings;
-use crate::sheets::section::{Choice, Section};
+use crate::sheets::forms::{FileNames, LineCount};
 use crate::tables::block::Lines;
 use crate::tables::encoding;
 use crate::tables::file;
 use crate::tables::find::{FoundSeries, Request, find};
-use crate::tables::grid::Separator;
 use crate::tables::layout::Layout;
-use crate::tables::number::Decimal;
 use crate::tables::series::Series;
 use crate::test::{Direction, Test};
-
-pub(crate) const CURVE_KEYS: [&str; 17] = [
-    "name",
-    "test",
-    "direction",
-    "file",
-    "deformation",
-    "load",
-    "slack",
-    "zero_strain",
-    "encoding",
-    "separator",
-    "decimal",
-    "header",
-    "skip",
-    "sheet",
-    "table",
-    "specimen",
-    "cycle",
-];
-
-pub(crate) const TEST: Choice<'_, Test> = Choice {
-    key: "test",
-    values: &[Test::Tensile, Test::Shear, Test::Bending, Test::LoopBending],
-    name: Test::name,
-};
-pub(crate) const DIRECTION: Choice<'_, Direction> =
-    Choice { key: "direction", values: &[Direction::Warp, Direction::Weft], name: Direction::name };
-pub(crate) const SEPARATOR: Choice<'_, Separator> =
-    Choice { key: "separator", values: &Separator::ALL, name: Separator::name };
-pub(crate) const DECIMAL: Choice<'_, Decimal> =
-    Choice { key: "decimal", values: &Decimal::ALL, name: Decimal::name };
 
 /// Keys of a `[[curve]]`, checked.
 struct CurveKeys {
@@ -68,40 +35,27 @@ struct CurveKeys {
     paths: CurveKeyPaths,
 }
 
-/// Reads the curves that `section` describes. Returns no curve after reporting a mistake.
+/// Reads the curves that `curve` describes, the one with the number `index` of the sheet. Returns
+/// no curve after reporting a mistake.
 ///
 /// Repeats are returned as one curve, their mean. Strips of loop bending are fitted together, and
 /// are returned one by one.
-pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Curve> {
-    let errors = findings.errors.len();
-    section.allow(&CURVE_KEYS, findings);
-    let keys_are_known = findings.errors.len() == errors;
-    let test = section.required_choice(&TEST, findings);
-    let direction = section.required_choice(&DIRECTION, findings);
-    let name = section.text("name", findings);
-    let slack = section.flag("slack", findings);
-    let zero_strain = section.measured("zero_strain", Quantity::Ratio, findings);
-    let files = section.required_texts("file", "\"tensile-warp.csv\"", findings);
-    let layout = layout(section, findings);
+pub(crate) fn read(index: usize, curve: &CurveFile, findings: &mut Findings<'_>) -> Vec<Curve> {
+    let path = format!("curve[{index}]");
+    let key = |key: &str| format!("{path}.{key}");
+    let &CurveFile { test, direction, slack, .. } = curve;
+    let zero_strain = curve.zero_strain.as_ref().map(|zero| zero.at(key("zero_strain")));
+    let layout = layout(&path, curve, findings);
 
-    // The axes of an unknown test are only checked for unknown keys.
-    let axes = match test {
-        Some(test) => (
-            AxisKeys::deformation(section, test, findings),
-            AxisKeys::load(section, test, findings),
-        ),
-        None => {
-            AxisKeys::check_keys(section, findings);
-            (None, None)
-        }
-    };
+    // The units of the axes depend on the test.
+    if findings.faults.cover(&key("test")) {
+        return Vec::new();
+    }
+    let deformation = AxisKeys::deformation(&path, &curve.deformation, test, findings);
+    let load = AxisKeys::load(&path, &curve.load, test, findings);
 
     // All keys have been read, so that all mistakes are reported before the first one ends the
     // reading.
-    let (Some(test), Some(direction), Some(files)) = (test, direction, files) else {
-        return Vec::new();
-    };
-
     if let Some(zero) = zero_strain.as_ref().filter(|_| slack || test != Test::Tensile) {
         let (message, help) = if slack {
             (
@@ -115,25 +69,26 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
         return Vec::new();
     }
 
-    let ((Some(deformation), Some(load)), Some(layout)) = (axes, layout) else {
+    // A wrong or misspelt key may have changed the meaning of the others.
+    let (Some(deformation), Some(load), Some(layout)) = (deformation, load, layout) else {
         return Vec::new();
     };
-    // A misspelt key may have changed the meaning of the others.
-    if !keys_are_known {
+    if findings.faults.concern(&path) {
         return Vec::new();
     }
 
     let paths = CurveKeyPaths {
-        file: section.key("file"),
-        deformation: section.key("deformation"),
-        load: section.key("load"),
-        zero_strain: section.key("zero_strain"),
+        file: key("file"),
+        deformation: key("deformation"),
+        load: key("load"),
+        zero_strain: key("zero_strain"),
         sign_is_declared: deformation.reversed.is_some() || load.reversed.is_some(),
     };
     let zero_strain = zero_strain.map(|zero| zero.si);
     let keys = CurveKeys { test, direction, slack, zero_strain, deformation, load, layout, paths };
 
     // Repeats of a test are averaged; strips of loop bending stay apart.
+    let FileNames(files) = &curve.file;
     let curves: Option<Vec<Vec<Curve>>> =
         files.iter().map(|file| keys.read_file(file, findings)).collect();
     let Some(mut curves) = curves.map(|curves| curves.concat()) else { return Vec::new() };
@@ -149,7 +104,7 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
         };
     }
 
-    if let Some(name) = name {
+    if let Some(name) = &curve.name {
         let several = curves.len() > 1;
         for (index, curve) in curves.iter_mut().enumerate() {
             curve.name = if several { format!("{name}, {}", index + 1) } else { name.clone() };
@@ -158,29 +113,30 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
     curves
 }
 
-/// Reads the layout of the file that `section` declares. Returns `None` after reporting a mistake.
-fn layout(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Layout> {
-    let errors = findings.errors.len();
-    let label = section.text("encoding", findings);
-    let encoding = label.as_deref().and_then(encoding::by_label);
-    if let (Some(label), None) = (&label, encoding) {
+/// Returns the layout of the file that `curve`, at the key path `path`, declares. Returns `None`
+/// after reporting a mistake.
+fn layout(path: &str, curve: &CurveFile, findings: &mut Findings<'_>) -> Option<Layout> {
+    let label = curve.encoding.as_deref();
+    let encoding = label.and_then(encoding::by_label);
+    if let (Some(label), None) = (label, encoding) {
         let help = "write UTF-8, UTF-16LE, windows-1252 or Shift_JIS, or leave it out";
-        findings.error(&section.key("encoding"), format!("\"{label}\" is not an encoding"), help);
+        let message = format!("\"{label}\" is not an encoding");
+        findings.error(&format!("{path}.encoding"), message, help);
+        return None;
     }
-    let layout = Layout {
+    Some(Layout {
         encoding,
-        separator: section.choice(&SEPARATOR, findings),
-        decimal: section.choice(&DECIMAL, findings),
+        separator: curve.separator,
+        decimal: curve.decimal,
         lines: Lines {
-            skip: section.whole("skip", findings).unwrap_or(0),
-            header: section.whole("header", findings),
+            skip: curve.skip.map_or(0, |LineCount(count)| count),
+            header: curve.header.map(|LineCount(count)| count),
         },
-        sheet: section.name_or_number("sheet", findings),
-        table: section.take("table", findings),
-        specimen: section.take("specimen", findings),
-        cycle: section.take("cycle", findings),
-    };
-    (findings.errors.len() == errors).then_some(layout)
+        sheet: curve.sheet.clone(),
+        table: curve.table.clone(),
+        specimen: curve.specimen.clone(),
+        cycle: curve.cycle.clone(),
+    })
 }
 
 impl CurveKeys {

@@ -1,11 +1,13 @@
 //! Errors and warnings about one sheet, collected while it is read.
 
 use crate::scatter::OtherScatter;
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, Faults, ValueError, toml_string};
 
 /// File being read, with the errors and warnings so far.
 pub(crate) struct Findings<'t> {
     pub(crate) document: &'t Document,
+    /// Mistakes of the text itself, with the values that they left out.
+    pub(crate) faults: Faults,
     pub(crate) errors: Vec<Diagnostic>,
     pub(crate) warnings: Vec<Diagnostic>,
     /// What each curve file was taken for, one line per file.
@@ -17,10 +19,11 @@ pub(crate) struct Findings<'t> {
 }
 
 impl<'t> Findings<'t> {
-    /// Returns findings for `document`, with no error or warning yet.
-    pub(crate) fn new(document: &'t Document) -> Self {
+    /// Returns findings for `document`, whose text has `faults`, with no error or warning yet.
+    pub(crate) fn new(document: &'t Document, faults: Faults) -> Self {
         Self {
             document,
+            faults,
             errors: Vec::new(),
             warnings: Vec::new(),
             readings: Vec::new(),
@@ -31,8 +34,9 @@ impl<'t> Findings<'t> {
 
     /// Warns about all standard deviations that are not used, in one warning.
     pub(crate) fn warn_unused_scatter(&mut self) {
-        let Some(first) = self.unused_scatter.first().cloned() else { return };
-        let other_keys = self.unused_scatter[1..].join(", ");
+        let Some((first, others)) = self.unused_scatter.split_first() else { return };
+        let others: Vec<_> = others.iter().map(|key| self.document.key_as_written(key)).collect();
+        let (first, other_keys) = (first.clone(), others.join(", "));
         let message = if other_keys.is_empty() {
             "its standard deviation is not used".to_owned()
         } else {
@@ -42,9 +46,19 @@ impl<'t> Findings<'t> {
         self.warn(&first, message, help);
     }
 
-    /// Adds an error about the value at the key path `key`, with its remedy `help`.
+    /// Adds an error about the value at the key path `key`, with its remedy `help`. Nothing is added
+    /// about a value that was left out.
     pub(crate) fn error(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        self.errors.push(self.document.at(key, message).help(help));
+        if !self.faults.cover(key) {
+            self.errors.push(self.document.at(key, message).help(help));
+        }
+    }
+
+    /// Adds the error that the text at the key path `key` is wrong for the reason `error`.
+    pub(crate) fn refuse(&mut self, key: &str, error: ValueError) {
+        let ValueError { message, help, meant } = error;
+        let edit = meant.and_then(|meant| self.document.edit(key, Some(&toml_string(&meant))));
+        self.errors.push(self.document.at(key, message).help(help).with_edits(edit));
     }
 
     /// Adds a warning about the value at the key path `key`, with its remedy `help`.

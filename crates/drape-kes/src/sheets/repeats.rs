@@ -89,7 +89,7 @@ fn limit(curve: &Curve) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use drape_input::Document;
+    use drape_input::{Document, Faults};
 
     use super::*;
     use crate::test::Direction;
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn curves_to_the_same_load_are_specimens_and_others_are_not() {
         let document = Document::new("sheet.toml", "");
-        let mut findings = Findings::new(&document);
+        let mut findings = Findings::new(&document, Faults::default());
         let curves = vec![
             strip(Direction::Warp, 490.0, 0.05),
             strip(Direction::Weft, 490.0, 0.09),

@@ -3,13 +3,17 @@
 use drape_input::{Quantity, laboratory_schema, unit_schema};
 use serde_json::{Map, Value, json};
 
-use crate::sheets::axis::{
-    DEFORMATION_KEYS, LOAD_KEYS, ZERO, deformation_quantities, load_quantities,
-};
-use crate::sheets::curve_file::{CURVE_KEYS, DECIMAL, DIRECTION, SEPARATOR, TEST};
-use crate::sheets::section::Choice;
-use crate::sheets::sheet::{MODEL, SHEET_KEYS};
+use crate::sheets::axis::{Zero, deformation_quantities, load_quantities};
+use crate::sheets::model::Model;
 use crate::sheets::spelling::{DIRECTIONS, KEYS, pattern};
+use crate::tables::grid::Separator;
+use crate::tables::number::Decimal;
+use crate::test::{Direction, Test};
+
+/// Tests of curves.
+const TESTS: [Test; 4] = [Test::Tensile, Test::Shear, Test::Bending, Test::LoopBending];
+/// Directions of curves.
+const DIRECTION_WORDS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 
 /// Range of a number without a unit.
 #[derive(Clone, Copy)]
@@ -74,7 +78,7 @@ const VALUES: [ValueKey; 20] = [
 pub fn sheet_schema() -> Value {
     let description = "Values of one direction.";
     let directed_values = value_schemas(|key| KEYS.contains(&key), false);
-    let mut keys = value_schemas(|key| SHEET_KEYS.contains(&key), true);
+    let mut keys = value_schemas(|_| true, true);
     let other_keys = json!({
         "name": { "type": "string", "description": "Name of the fabric." },
         "source": { "type": "string", "description": "Source: who measured it, when, and under which licence." },
@@ -90,7 +94,7 @@ pub fn sheet_schema() -> Value {
             "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "minLength": 1 }],
             "description": "Specimens, for the head of a report: their number, or a text such as \"3 of 20 cm × 20 cm\".",
         },
-        "model": choice_schema(&MODEL, "Law that bending and shear are fitted with; selected by the data if missing."),
+        "model": choice_schema(&Model::ALL.map(Model::name), "Law that bending and shear are fitted with; selected by the data if missing."),
         "warp": { "$ref": "#/$defs/Values", "description": "Values along the warp." },
         "weft": { "$ref": "#/$defs/Values", "description": "Values along the weft." },
         "mean": { "$ref": "#/$defs/Values", "description": "Values for both directions." },
@@ -181,9 +185,8 @@ fn line_schema(description: &str) -> Value {
     json!({ "type": "string", "minLength": 1, "description": description })
 }
 
-/// Returns the schema of the words of `choice`, with `description`.
-fn choice_schema<T: Copy>(choice: &Choice<'_, T>, description: &str) -> Value {
-    let words: Vec<&str> = choice.values.iter().map(|&value| (choice.name)(value)).collect();
+/// Returns the schema of a choice among `words`, with `description`.
+fn choice_schema(words: &[&str], description: &str) -> Value {
     json!({ "enum": words, "description": description })
 }
 
@@ -218,19 +221,24 @@ fn curve_schema() -> Value {
     let files = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
     let properties = json!({
         "name": text_schema("Name of the curve; its test and direction if missing."),
-        "test": choice_schema(&TEST, "Test that it comes from."),
-        "direction": choice_schema(&DIRECTION, "Yarns along which the strip was cut."),
+        "test": choice_schema(&TESTS.map(Test::name), "Test that it comes from."),
+        "direction": choice_schema(&DIRECTION_WORDS.map(Direction::name), "Yarns along which the strip was cut."),
         "file": {
             "anyOf": [{ "type": "string" }, files],
             "description": "Table file beside the sheet, or several with repeats of the test.",
         },
-        "deformation": axis_schema(&DEFORMATION_KEYS, "Column of the deformation; detected if missing."),
-        "load": axis_schema(&LOAD_KEYS, "Column of the load; detected if missing."),
+        "deformation": axis_schema("Column of the deformation; detected if missing.", json!({
+            "gauge": size_schema("Length of the specimen with its unit, or the column with it, in metres where that has no unit; needed for a length only; that of the file if missing."),
+            "zero": choice_schema(&Zero::ALL.map(Zero::name), "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
+        })),
+        "load": axis_schema("Column of the load; detected if missing.", json!({
+            "width": size_schema("Width of the specimen with its unit, or the column with it, in metres where that has no unit, for loads of a whole specimen; that of the file if missing."),
+        })),
         "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start, so that the zeros of strain and force are fitted; `false` if missing." },
         "zero_strain": json!({ "anyOf": [{ "type": "number" }, { "type": "string" }], "description": "Strain of the file at which a tensile strip is taut and carries nothing, in percent: positive for a strip that hung slack before, negative for one under a pretension. The curve counts from there; from its first point if missing." }),
         "encoding": text_schema("Encoding of the file; detected if missing."),
-        "separator": choice_schema(&SEPARATOR, "Sign between columns; detected if missing."),
-        "decimal": choice_schema(&DECIMAL, "Decimal sign; detected if missing."),
+        "separator": choice_schema(&Separator::ALL.map(Separator::name), "Sign between columns; detected if missing."),
+        "decimal": choice_schema(&Decimal::ALL.map(Decimal::name), "Decimal sign; detected if missing."),
         "header": line_count("Line of the header, from 1; false for none; detected if missing."),
         "skip": line_count("Number of lines to leave out at the start; detected if missing."),
         "sheet": {
@@ -246,10 +254,10 @@ fn curve_schema() -> Value {
     json!({
         "type": "object",
         "description": "Measured curve, in a table file.",
-        "properties": retain(&CURVE_KEYS, properties),
+        "properties": properties,
         "additionalProperties": false,
         "required": ["test", "direction", "file"],
-        "allOf": TEST.values.iter().map(|&test| json!({
+        "allOf": TESTS.iter().map(|&test| json!({
             "if": { "properties": { "test": { "const": test.name() } } },
             "then": { "properties": {
                 "deformation": { "properties": { "unit": unit_schema(deformation_quantities(test)) } },
@@ -259,52 +267,74 @@ fn curve_schema() -> Value {
     })
 }
 
-/// Returns the schema of an axis of a curve that has the given `keys`, with `description`.
-fn axis_schema(keys: &[&str], description: &str) -> Value {
+/// Returns the schema of an axis of a curve, with `description`. Beside the keys of every axis the
+/// axis has the keys of `properties`.
+fn axis_schema(description: &str, properties: Value) -> Value {
     let column = json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 0 }] });
     let columns = json!({
-    "anyOf": [column, { "type": "array", "items": column }],
-    "description": "Column, by its name or its place from 1, or a list of them with repeats; detected if missing.",
+        "anyOf": [column, { "type": "array", "items": column }],
+        "description": "Column, by its name or its place from 1, or a list of them with repeats; detected if missing.",
     });
-    let properties = json!({
-    "column": columns,
+    let mut keys = Map::new();
+    extend(&mut keys, properties);
+    let keys_of_every_axis = json!({
+        "column": columns,
         "unit": { "type": "string", "description": "Unit of the column; that of its header if missing." },
-        "gauge": size_schema("Length of the specimen with its unit, or the column with it, in metres where that has no unit; needed for a length only; that of the file if missing."),
-        "width": size_schema("Width of the specimen with its unit, or the column with it, in metres where that has no unit, for loads of a whole specimen; that of the file if missing."),
-        "zero": choice_schema(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
         "reversed": { "type": "boolean", "description": "Whether the sign is the opposite one; `false` if missing." },
     });
+    extend(&mut keys, keys_of_every_axis);
     json!({
         "type": "object",
         "description": description,
-        "properties": retain(keys, properties),
+        "properties": keys,
         "additionalProperties": false,
     })
 }
 
-/// Returns the entries of `properties` that are among `keys`.
-fn retain(keys: &[&str], properties: Value) -> Map<String, Value> {
-    let Value::Object(properties) = properties else { return Map::new() };
-    properties.into_iter().filter(|(key, _)| keys.contains(&key.as_str())).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
+    use drape_input::Document;
+
     use super::*;
+    use crate::error::Error;
+    use crate::sheets::sheet::Sheet;
+
+    /// Returns the keys that the reader of sheets knows in the table at the key path `path`, which
+    /// begins after `text`.
+    fn known_keys(text: &str) -> BTreeSet<String> {
+        let text = format!("{text}unheard_of_key = 1\n");
+        let Err(Error::Input(mistakes)) = Sheet::from_document(&Document::new("a.toml", text))
+        else {
+            panic!("the key is unknown")
+        };
+        let helps = mistakes.0.iter().filter_map(|mistake| mistake.help.as_deref());
+        let known = helps.filter_map(|help| help.strip_prefix("known here: ")).next();
+        known.expect("the keys are listed").split(", ").map(str::to_owned).collect()
+    }
+
+    /// Returns the keys in `place` of a schema, all of which have a description.
+    fn described_keys(place: &Value) -> BTreeSet<String> {
+        let Value::Object(properties) = &place["properties"] else { panic!("{place}") };
+        for (key, property) in properties {
+            assert!(property["description"].is_string(), "{key}");
+        }
+        properties.keys().cloned().collect()
+    }
 
     #[test]
-    fn every_key_of_a_sheet_and_a_curve_is_described() {
+    fn the_schema_describes_the_keys_that_the_reader_knows() {
         let schema = sheet_schema();
-        let has = |place: &Value, keys: &[&str]| {
-            for key in keys {
-                assert!(place[key]["description"].is_string(), "{key}");
-            }
-        };
-        has(&schema["properties"], &SHEET_KEYS);
-        let [values, curve] = ["Values", "Curve"].map(|name| &schema["$defs"][name]["properties"]);
-        has(values, &KEYS);
-        has(curve, &CURVE_KEYS);
-        has(&curve["deformation"]["properties"], &DEFORMATION_KEYS);
-        has(&curve["load"]["properties"], &LOAD_KEYS);
+        assert_eq!(described_keys(&schema), known_keys(""));
+        let [values, curve] = ["Values", "Curve"].map(|name| &schema["$defs"][name]);
+        for table in ["[warp]\n", "[weft]\n", "[mean]\n"] {
+            assert_eq!(described_keys(values), known_keys(table), "{table}");
+        }
+        assert_eq!(described_keys(curve), known_keys("[[curve]]\n"));
+        for axis in ["deformation", "load"] {
+            let known = known_keys(&format!("[[curve]]\n[curve.{axis}]\n"));
+            assert_eq!(described_keys(&curve["properties"][axis]), known, "{axis}");
+        }
     }
 }

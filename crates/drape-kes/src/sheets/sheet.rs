@@ -3,61 +3,26 @@
 use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics, Document};
-use toml::de::DeTable;
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::scatter::{OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
+use crate::sheets::file::SheetFile;
 use crate::sheets::findings::Findings;
+use crate::sheets::forms::RecordText;
 use crate::sheets::model::Model;
-use crate::sheets::section::{Choice, Section, laboratory_value};
+use crate::sheets::stated::laboratory_value;
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
-use crate::sheets::{curve_file, repeats};
+use crate::sheets::{curve_file, repeats, spelling};
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
-use crate::test_record::{Fault, RECORD_KEYS, TestRecord};
+use crate::test_record::{Fault, TestRecord};
 use crate::values::Values;
 use drape_input::Quantity;
 
 /// Name of the sheet in a folder.
 const SHEET_FILE: &str = "sheet.toml";
-
-pub(crate) const SHEET_KEYS: [&str; 31] = [
-    "name",
-    "source",
-    "customer",
-    "article",
-    "laboratory",
-    "date",
-    "specimens",
-    "model",
-    "W",
-    "T",
-    "T0",
-    "TM",
-    "LC",
-    "WC",
-    "RC",
-    "MIU",
-    "MMD",
-    "SMD",
-    "FM",
-    "B",
-    "2HB",
-    "G",
-    "2HG",
-    "2HG5",
-    "LT",
-    "WT",
-    "RT",
-    "EM",
-    "warp",
-    "weft",
-    "curve",
-];
-pub(crate) const MODEL: Choice<'_, Model> =
-    Choice { key: "model", values: &Model::ALL, name: Model::name };
 
 /// Sheet of one fabric: KES values, curves and their source.
 ///
@@ -122,12 +87,19 @@ pub struct Sheet {
     readings: Vec<String>,
 }
 
-/// Reads the record of a test from the keys of `root`.
-fn read_record(root: &Section<'_>, findings: &mut Findings<'_>) -> TestRecord {
+/// Returns the record of a test in `file`.
+fn read_record(file: &SheetFile, findings: &mut Findings<'_>) -> TestRecord {
+    let texts = [
+        ("customer", &file.customer),
+        ("article", &file.article),
+        ("laboratory", &file.laboratory),
+        ("date", &file.date),
+        ("specimens", &file.specimens),
+    ];
     let mut record = TestRecord::default();
-    for key in RECORD_KEYS {
-        let Some(text) = root.text_or_number(key, findings) else { continue };
-        if let Err(Fault { message, help }) = record.set_line(key, &text) {
+    for (key, text) in texts {
+        let Some(RecordText(text)) = text else { continue };
+        if let Err(Fault { message, help }) = record.set_line(key, text) {
             findings.error(key, message, help);
         }
     }
@@ -157,40 +129,33 @@ impl Sheet {
     /// # Errors
     /// As for [`Sheet::read`].
     pub fn from_document(document: &Document) -> Result<Self, Error> {
-        // Decoding into a plain table reports mistakes of grammar as in every other TOML file.
-        let values: toml::Table = document.decode()?;
-        let text = match document.settings() {
-            [] => document.text().to_owned(),
-            _ => values.to_string(),
-        };
-        let table = DeTable::parse(&text).expect("the text has just been decoded");
-
-        let mut findings = Findings::new(document);
-        let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
-        Diagnostics::check(findings.errors)?;
-        Ok(Self { warnings: findings.warnings, readings: findings.readings, ..sheet })
+        let (document, twice) = spelling::with_known_keys(document.clone());
+        let (file, faults) = document.decode_with_faults::<SheetFile>()?;
+        let mut findings = Findings::new(&document, faults);
+        let sheet = Self::check(file, &mut findings);
+        let Findings { errors, faults, warnings, readings, .. } = findings;
+        Diagnostics::check([twice, faults.into_mistakes(), errors].concat())?;
+        Ok(Self { warnings, readings, ..sheet })
     }
 
-    /// Reads the values, curves and record of a sheet, and collects the mistakes.
-    fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
-        root.allow_values(&SHEET_KEYS, findings);
-        let name = root.required_text("name", "\"cotton poplin\"", findings);
-        let source = root.text("source", findings);
-        let record = read_record(root, findings);
-        let model = read_model(root, findings);
-        let whole = WholeValues::read(root, findings);
+    /// Returns the sheet of `file`, and collects the mistakes in its values, curves and record.
+    fn check(mut file: SheetFile, findings: &mut Findings<'_>) -> Self {
+        let record = read_record(&file, findings);
+        if file.model.is_some() {
+            warn_former_name(findings);
+        }
+        let whole = WholeValues::read(&file, findings);
         if let Some(w) = &whole.w {
             plausible::density(w, findings);
         }
         let DirectedValues { warp, weft, shared, scatter } =
-            DirectedValues::read(root, whole.w.as_ref(), findings);
+            DirectedValues::read(&mut file, whole.w.as_ref(), findings);
 
         // Repeats of one test are replaced by their mean.
-        let curves = root
-            .sections("curve", findings)
-            .iter()
-            .flat_map(|section| curve_file::read(section, findings))
-            .collect();
+        let mut curves = Vec::new();
+        for (index, curve) in file.curve.iter().enumerate() {
+            curves.extend(curve_file::read(index, curve, findings));
+        }
         let curves = repeats::with_means(curves, findings);
 
         // The friction of the fabric is the mean of both directions.
@@ -202,10 +167,10 @@ impl Sheet {
         };
 
         let sheet = Self {
-            name: name.unwrap_or_default(),
-            source: source.unwrap_or_default(),
+            name: file.name,
+            source: file.source,
             record,
-            model,
+            model: file.model,
             w: laboratory_value(whole.w),
             t: laboratory_value(whole.t),
             t0: laboratory_value(whole.t0),
@@ -225,7 +190,7 @@ impl Sheet {
             readings: Vec::new(),
         };
 
-        sheet.compare_compression(root, findings);
+        sheet.compare_compression(findings);
         sheet.compare_loads(findings);
         findings.warn_unused_scatter();
         sheet
@@ -339,21 +304,19 @@ impl Sheet {
     }
 }
 
-/// Returns the law that a sheet asks for. A former name is accepted with a warning, whose edit
-/// writes the name of today.
-fn read_model(root: &Section<'_>, findings: &mut Findings<'_>) -> Option<Model> {
-    let written = root.text(MODEL.key, findings)?;
-    let Some(note) = Model::note_on(&written) else {
-        return root.choose(&MODEL, &written, findings);
-    };
+/// Warns about a former name of the law that a sheet asks for. The edit of the warning writes the
+/// name of today.
+fn warn_former_name(findings: &mut Findings<'_>) {
+    const KEY: &str = "model";
 
-    let law = Model::named(&written)?;
     let document = findings.document;
+    let written = document.text_at(KEY).unwrap_or_default();
+    let (Some(note), Some(law)) = (Model::note_on(&written), Model::named(&written)) else {
+        return;
+    };
     let name = format!("\"{}\"", law.name());
-    let warning = document.at(MODEL.key, note).help(format!("write model = {name}"));
-    let edits = document.edit(MODEL.key, Some(&name)).into_iter().collect();
-    findings.warnings.push(Diagnostic { edits, ..warning });
-    Some(law)
+    let warning = document.at(KEY, note).help(format!("write model = {name}"));
+    findings.warnings.push(warning.with_edits(document.edit(KEY, Some(&name))));
 }
 
 /// Adds `numbers` to the digest of `hasher`.

@@ -1,5 +1,7 @@
 //! Spellings of the KES values and of the two directions that laboratories write.
 
+use drape_input::{Alias, Diagnostic, Document, toml_key};
+
 use crate::test::Direction;
 
 /// Keys of the values, in the order in which laboratories print them.
@@ -31,6 +33,74 @@ const ALTERNATIVES: [(&str, &str); 16] = [
     ("thickness", "T"),
     ("fmax", "FM"),
 ];
+
+/// Returns `document` with the keys of a sheet in place of all other spellings, and the mistakes:
+/// values that are there twice.
+///
+/// A table of a direction is `warp` or `weft`, a value whose key names a direction stands in this
+/// table, and a value for both directions stands at the top.
+pub(crate) fn with_known_keys(mut document: Document) -> (Document, Vec<Diagnostic>) {
+    // Tables have their names before values move into them. A value in a table of its direction
+    // precedes a value at the top.
+    let steps = [table_aliases, inner_aliases, top_aliases, mean_aliases];
+    let mut mistakes = Vec::new();
+    for step in steps {
+        let aliases = step(&document);
+        let (aliased, twice) = document.with_aliases(&aliases);
+        document = aliased;
+        mistakes.extend(twice);
+    }
+    (document, mistakes)
+}
+
+/// Returns the alias of the key path `meant`, which `document` writes as `written`; `None` if both
+/// are equal.
+fn alias(written: String, meant: String) -> Option<Alias> {
+    (written != meant).then_some(Alias { written, meant })
+}
+
+/// Returns the aliases of the tables of both directions in `document`.
+fn table_aliases(document: &Document) -> Vec<Alias> {
+    let keys = document.keys("").into_iter();
+    keys.filter_map(|key| alias(toml_key(key), direction(key)?.name().to_owned())).collect()
+}
+
+/// Returns the aliases of the values in the tables of `document`. Their keys name no direction.
+fn inner_aliases(document: &Document) -> Vec<Alias> {
+    let mut aliases = Vec::new();
+    for table in ["warp", "weft", "mean"] {
+        for written in document.keys(table) {
+            let known = key(written).filter(|known| KEYS.contains(known));
+            let meant = known.map(|known| format!("{table}.{}", toml_key(known)));
+            let written = format!("{table}.{}", toml_key(written));
+            aliases.extend(meant.and_then(|meant| alias(written, meant)));
+        }
+    }
+    aliases
+}
+
+/// Returns the aliases of the values at the top of `document`. Their keys may name a direction.
+fn top_aliases(document: &Document) -> Vec<Alias> {
+    let mut aliases = Vec::new();
+    for written in document.keys("") {
+        let meant = match value(written) {
+            Some(SpelledKey { key, direction: None }) => Some(key.to_owned()),
+            Some(SpelledKey { key, direction: Some(direction) }) => {
+                KEYS.contains(&key).then(|| format!("{}.{key}", direction.name()))
+            }
+            None => None,
+        };
+        aliases.extend(meant.and_then(|meant| alias(toml_key(written), meant)));
+    }
+    aliases
+}
+
+/// Returns the aliases of the values in the table `mean` of `document`, which are values for both
+/// directions, as those at the top are.
+fn mean_aliases(document: &Document) -> Vec<Alias> {
+    let keys = document.keys("mean").into_iter().filter(|key| KEYS.contains(key));
+    keys.filter_map(|key| alias(format!("mean.{key}"), key.to_owned())).collect()
+}
 
 /// Key that a spelling stands for, with the direction that the spelling names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
-//! KES values of a sheet, by direction or for both directions, in any spelling.
+//! KES values of a sheet, by direction or for both directions.
 
 use crate::scatter::{self, OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
+use crate::sheets::file::{SheetFile, ValuesFile};
 use crate::sheets::findings::Findings;
-use crate::sheets::section::{Measured, Section, laboratory_value};
-use crate::sheets::spelling::KEYS;
+use crate::sheets::stated::{Measured, Stated, laboratory_value};
 use crate::symbol::Symbol;
 use crate::test::Direction;
 use crate::values::Values;
@@ -24,16 +24,16 @@ pub(crate) struct WholeValues {
 }
 
 impl WholeValues {
-    /// Reads the values of `root` that have no direction, and checks TM against T0.
-    pub(crate) fn read(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
-        let w = positive(root, "W", Quantity::MassPerArea, findings);
-        let t = positive(root, "T", Quantity::Length, findings);
-        let t0 = positive(root, "T0", Quantity::Length, findings);
-        let tm = pressed_thickness(root, t0.as_ref().or(t.as_ref()), findings);
-        let lc = LC.measured(root, findings);
-        let wc = positive(root, "WC", Quantity::WorkPerArea, findings);
-        let rc = percentage(root, "RC", findings);
-        let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
+    /// Returns the values of `file` that have no direction, and checks TM against T0.
+    pub(crate) fn read(file: &SheetFile, findings: &mut Findings<'_>) -> Self {
+        let w = positive(at(&file.w, "W"), findings);
+        let t = positive(at(&file.t, "T"), findings);
+        let t0 = positive(at(&file.t0, "T0"), findings);
+        let tm = pressed_thickness(at(&file.tm, "TM"), t0.as_ref().or(t.as_ref()), findings);
+        let lc = LC.check(at(&file.lc, "LC"), findings);
+        let wc = positive(at(&file.wc, "WC"), findings);
+        let rc = percentage(at(&file.rc, "RC"), "RC", findings);
+        let fm = positive(at(&file.fm, "FM"), findings);
 
         let values =
             [("W", &w), ("T", &t), ("T0", &t0), ("TM", &tm), ("WC", &wc), ("RC", &rc), ("FM", &fm)];
@@ -56,34 +56,24 @@ pub(crate) struct DirectedValues {
 }
 
 impl DirectedValues {
-    /// Reads the values of each direction: from the table of the direction, from a key that names
-    /// the direction, else from the number for both directions. `w` is the mass per area.
+    /// Returns the values of each direction: from the table of the direction, else from the values
+    /// of `file` for both directions. `w` is the mass per area.
     pub(crate) fn read(
-        root: &Section<'_>,
+        file: &mut SheetFile,
         w: Option<&Measured>,
         findings: &mut Findings<'_>,
     ) -> Self {
-        let sections = [Direction::Warp, Direction::Weft].map(|direction| {
-            let section = root.directed(direction, findings);
-            if let Some(section) = &section {
-                section.allow_values(&KEYS, findings);
-            }
-            section
-        });
-        let mean = root.section("mean", findings);
-        if let Some(mean) = &mean {
-            mean.allow_values(&KEYS, findings);
-        }
-
+        let shared_values = file.take_shared();
         let mut read = Self::default();
-        for (index, direction) in [Direction::Warp, Direction::Weft].into_iter().enumerate() {
-            let mut shared = Vec::new();
+        for direction in [Direction::Warp, Direction::Weft] {
             let mut tables = ValueTables {
-                directed: sections[index].as_ref(),
-                root,
-                mean: mean.as_ref(),
+                directed: match direction {
+                    Direction::Warp => &file.warp,
+                    Direction::Weft => &file.weft,
+                },
+                shared_values: &shared_values,
                 direction,
-                shared: &mut shared,
+                shared: &mut read.shared,
                 scatter: &mut read.scatter,
             };
             let values = values(&mut tables, w, findings);
@@ -91,7 +81,6 @@ impl DirectedValues {
                 Direction::Warp => read.warp = values,
                 Direction::Weft => read.weft = values,
             }
-            read.shared.extend(shared);
         }
         read.shared.sort_unstable();
         read.shared.dedup();
@@ -100,26 +89,36 @@ impl DirectedValues {
 }
 
 /// Tables in which a value of one direction may stand.
-struct ValueTables<'a, 't> {
+struct ValueTables<'a> {
     /// Table of the direction.
-    directed: Option<&'a Section<'t>>,
-    root: &'a Section<'t>,
-    /// Table of the values for both directions.
-    mean: Option<&'a Section<'t>>,
+    directed: &'a ValuesFile,
+    /// Values for both directions.
+    shared_values: &'a ValuesFile,
     direction: Direction,
     shared: &'a mut Vec<&'static str>,
     scatter: &'a mut Vec<Scatter>,
 }
 
-impl<'t> ValueTables<'_, 't> {
-    /// Reads the value `symbol` that a law uses with `read`, and keeps the standard deviation that
-    /// is stated with the value.
-    fn read(
+impl ValueTables<'_> {
+    /// Returns the value of the `field` with the key `key`. A value for both directions is noted in
+    /// `shared`.
+    fn find<D>(
         &mut self,
-        symbol: Symbol,
-        read: impl FnOnce(&Section<'t>) -> Option<Measured>,
+        key: &'static str,
+        field: fn(&ValuesFile) -> &Option<Stated<D>>,
     ) -> Option<Measured> {
-        let value = read(&self.find(symbol.name())?)?;
+        if let Some(stated) = field(self.directed) {
+            return Some(stated.at(format!("{}.{key}", self.direction.name())));
+        }
+        let stated = field(self.shared_values).as_ref()?;
+        self.shared.push(key);
+        Some(stated.at(key))
+    }
+
+    /// Returns the checked `value` of `symbol`, which a law uses, and keeps the standard deviation
+    /// that is stated with the value.
+    fn keep(&mut self, symbol: Symbol, value: Option<Measured>) -> Option<Measured> {
+        let value = value?;
         self.scatter.extend(value.deviation.map(|deviation| Scatter {
             direction: self.direction,
             symbol,
@@ -128,75 +127,63 @@ impl<'t> ValueTables<'_, 't> {
         Some(value)
     }
 
-    /// Returns the section that reads the value `key`. A value for both directions is noted in
-    /// `shared`.
-    fn find(&mut self, key: &'static str) -> Option<Section<'t>> {
-        if let Some(directed) = self.directed.filter(|directed| directed.has_value(key, None)) {
-            return Some(directed.clone().with_direction(None));
-        }
-        if self.root.has_value(key, Some(self.direction)) {
-            return Some(self.root.clone().with_direction(Some(self.direction)));
-        }
-        // A number at the top of the sheet or in `mean` stands for both directions.
-        let mean = self.mean.filter(|mean| mean.has_value(key, None));
-        let found = mean.or_else(|| self.root.has_value(key, None).then_some(self.root))?;
-        self.shared.push(key);
-        Some(found.clone().with_direction(None))
-    }
-
-    /// Reads the loop width `symbol`, zero or more, in the laboratory's unit.
-    fn loop_width(
+    /// Returns the loop width `symbol`, zero or more, in the laboratory's unit.
+    fn loop_width<D>(
         &mut self,
         symbol: Symbol,
-        quantity: Quantity,
+        field: fn(&ValuesFile) -> &Option<Stated<D>>,
         findings: &mut Findings<'_>,
     ) -> Option<f64> {
-        laboratory_value(
-            self.read(symbol, |section| zero_or_more(section, symbol.name(), quantity, findings)),
-        )
+        let value = zero_or_more(self.find(symbol.name(), field), findings);
+        laboratory_value(self.keep(symbol, value))
     }
 
-    /// Reads the value `symbol`, greater than zero, in the laboratory's unit.
-    fn positive(
+    /// Returns the value `symbol`, greater than zero, in the laboratory's unit.
+    fn positive<D>(
         &mut self,
         symbol: Symbol,
-        quantity: Quantity,
+        field: fn(&ValuesFile) -> &Option<Stated<D>>,
         findings: &mut Findings<'_>,
     ) -> Option<f64> {
-        laboratory_value(
-            self.read(symbol, |section| positive(section, symbol.name(), quantity, findings)),
-        )
+        let value = positive(self.find(symbol.name(), field), findings);
+        laboratory_value(self.keep(symbol, value))
     }
 }
 
-/// Reads the values of the direction of `tables` and checks each value. `w` is the mass per area.
+/// Returns the value `stated`, which stands at the key path `key`.
+fn at<D>(stated: &Option<Stated<D>>, key: &str) -> Option<Measured> {
+    stated.as_ref().map(|stated| stated.at(key))
+}
+
+/// Returns the values of the direction of `tables` and checks each value. `w` is the mass per area.
 fn values(
-    tables: &mut ValueTables<'_, '_>,
+    tables: &mut ValueTables<'_>,
     w: Option<&Measured>,
     findings: &mut Findings<'_>,
 ) -> Values {
     let direction = tables.direction;
-    let b = tables.read(Symbol::B, |section| {
-        let b = section.measured("B", Quantity::BendingRigidity, findings)?;
-        Some(b).filter(|b| plausible::bending_rigidity(b, findings))
-    });
+    let b = tables.find("B", |values| &values.b);
+    let b = b.filter(|b| plausible::bending_rigidity(b, findings));
+    let b = tables.keep(Symbol::B, b);
     if let Some(b) = &b {
         plausible::bending(direction, b, w, findings);
     }
 
-    let two_hb = tables.loop_width(Symbol::TwoHb, Quantity::MomentPerWidth, findings);
-    let two_hg = tables.loop_width(Symbol::TwoHg, Quantity::ForcePerWidth, findings);
-    let two_hg5 = tables.loop_width(Symbol::TwoHg5, Quantity::ForcePerWidth, findings);
-    let g = tables.positive(Symbol::G, Quantity::ShearStiffness, findings);
-    let wt = tables.positive(Symbol::Wt, Quantity::WorkPerArea, findings);
-    let em = tables.positive(Symbol::Em, Quantity::Ratio, findings);
-    let lt = tables.read(Symbol::Lt, |section| LT.measured(section, findings));
-    let rt = laboratory_value(tables.read(Symbol::Rt, |s| percentage(s, "RT", findings)));
+    let two_hb = tables.loop_width(Symbol::TwoHb, |values| &values.two_hb, findings);
+    let two_hg = tables.loop_width(Symbol::TwoHg, |values| &values.two_hg, findings);
+    let two_hg5 = tables.loop_width(Symbol::TwoHg5, |values| &values.two_hg5, findings);
+    let g = tables.positive(Symbol::G, |values| &values.g, findings);
+    let wt = tables.positive(Symbol::Wt, |values| &values.wt, findings);
+    let em = tables.positive(Symbol::Em, |values| &values.em, findings);
+    let lt = LT.check(tables.find("LT", |values| &values.lt), findings);
+    let lt = tables.keep(Symbol::Lt, lt);
+    let rt = percentage(tables.find("RT", |values| &values.rt), "RT", findings);
+    let rt = laboratory_value(tables.keep(Symbol::Rt, rt));
 
     // No law uses the values of the surface test, so their standard deviations are only listed.
-    let smd = tables.find("SMD").and_then(|s| positive(&s, "SMD", Quantity::Roughness, findings));
-    let miu = tables.find("MIU").and_then(|section| MIU.measured(&section, findings));
-    let mmd = tables.find("MMD").and_then(|section| MMD.measured(&section, findings));
+    let smd = positive(tables.find("SMD", |values| &values.smd), findings);
+    let miu = MIU.check(tables.find("MIU", |values| &values.miu), findings);
+    let mmd = MMD.check(tables.find("MMD", |values| &values.mmd), findings);
     let roughness = smd.as_ref().map(|smd| (smd, smd.laboratory));
     note_unused_scatter(("SMD", Some(direction)), roughness, findings);
     for (symbol, ratio) in [("MIU", &miu), ("MMD", &mmd)] {
@@ -241,7 +228,6 @@ fn note_unused_scatter(
 
 /// Value that is a ratio and not a percentage: a number without unit is a ratio.
 struct Ratio {
-    key: &'static str,
     /// Upper limit.
     limit: f64,
     help: &'static str,
@@ -250,33 +236,26 @@ struct Ratio {
 /// LT, at most 2: the work under a curve of constant sign cannot exceed the box around it, which is
 /// twice the triangle.
 const LT: Ratio = Ratio {
-    key: "LT",
     limit: 2.0,
     help: "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?",
 };
 /// LC, bounded as LT is.
 const LC: Ratio = Ratio {
-    key: "LC",
     limit: 2.0,
     help: "LC is a ratio, about 0.2 to 0.5; is this another value, or a percentage?",
 };
-const MIU: Ratio = Ratio {
-    key: "MIU",
-    limit: 2.0,
-    help: "MIU is a ratio, about 0.1 to 0.3; is this a percentage?",
-};
+const MIU: Ratio =
+    Ratio { limit: 2.0, help: "MIU is a ratio, about 0.1 to 0.3; is this a percentage?" };
 /// MMD, which some print a hundredfold.
-const MMD: Ratio = Ratio {
-    key: "MMD",
-    limit: 10.0,
-    help: "MMD is a ratio, about 0.005 to 0.05; is this another value?",
-};
+const MMD: Ratio =
+    Ratio { limit: 10.0, help: "MMD is a ratio, about 0.005 to 0.05; is this another value?" };
 
 impl Ratio {
-    /// Reads the ratio from `section`.
-    fn measured(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Measured> {
-        let Self { key, limit, help } = *self;
-        let mut value = positive(section, key, Quantity::Ratio, findings)?;
+    /// Returns the ratio `value`, above zero and below the limit. Returns `None` after reporting a
+    /// mistake.
+    fn check(&self, value: Option<Measured>, findings: &mut Findings<'_>) -> Option<Measured> {
+        let Self { limit, help } = *self;
+        let mut value = positive(value, findings)?;
         // A number without unit was parsed as a percentage, the laboratory's unit of other ratios.
         if scatter::is_bare(&value.written) {
             let percent = Quantity::Ratio.laboratory().factor;
@@ -291,91 +270,57 @@ impl Ratio {
     }
 }
 
-/// Reads TM from `root`. TM must not exceed the thickness `t0`.
+/// Returns the value `tm`, above zero and at most the thickness `t0`.
 fn pressed_thickness(
-    root: &Section<'_>,
+    tm: Option<Measured>,
     t0: Option<&Measured>,
     findings: &mut Findings<'_>,
 ) -> Option<Measured> {
-    let tm = positive(root, "TM", Quantity::Length, findings)?;
+    let tm = positive(tm, findings)?;
     let Some(t0) = t0.filter(|t0| tm.si > t0.si) else { return Some(tm) };
+    let t0_key = findings.document.key_as_written(&t0.key);
     findings.error(
         &tm.key,
-        format!("{} is more than {}, {}", tm.written, t0.key, t0.written),
+        format!("{} is more than {t0_key}, {}", tm.written, t0.written),
         "TM is the thickness under 50 gf/cm², T0 or T that under 0.5 gf/cm²",
     );
     None
 }
 
-/// Reads RT or RC from the `key` of `section`: at most 100 %.
-fn percentage(section: &Section<'_>, key: &str, findings: &mut Findings<'_>) -> Option<Measured> {
-    let value = positive(section, key, Quantity::Ratio, findings)?;
-    check_range(
-        value,
-        findings,
-        |si| si <= 1.0,
-        |written| RangeMistake {
-            message: format!("{written} is more than 100 %, which no fabric gives back"),
-            help: format!("{key} is recovered work over work spent, in percent"),
-        },
-    )
-}
-
-/// Reads a number greater than zero from the `key` of `section`.
-fn positive(
-    section: &Section<'_>,
-    key: &str,
-    quantity: Quantity,
+/// Returns the `value` of RT or RC, whose symbol is `symbol`: above zero and at most 100 %.
+fn percentage(
+    value: Option<Measured>,
+    symbol: &str,
     findings: &mut Findings<'_>,
 ) -> Option<Measured> {
-    let value = section.measured(key, quantity, findings)?;
-    check_range(
-        value,
-        findings,
-        |si| si > 0.0,
-        |written| RangeMistake {
-            message: format!("{written} is not greater than 0"),
-            help: "write the measured value, or remove the line if it was not measured".into(),
-        },
-    )
-}
-
-/// Reads a loop width, zero or more, from the `key` of `section`.
-fn zero_or_more(
-    section: &Section<'_>,
-    key: &str,
-    quantity: Quantity,
-    findings: &mut Findings<'_>,
-) -> Option<Measured> {
-    let value = section.measured(key, quantity, findings)?;
-    check_range(
-        value,
-        findings,
-        |si| si >= 0.0,
-        |written| RangeMistake {
-            message: format!("{written} is negative"),
-            help: "a loop width is the distance between the two branches, without sign".into(),
-        },
-    )
-}
-
-/// Mistake of a value outside its range.
-struct RangeMistake {
-    message: String,
-    help: String,
-}
-
-/// Returns `value` if its number in SI `is_in_range`. Reports the `mistake` of its text otherwise.
-fn check_range(
-    value: Measured,
-    findings: &mut Findings<'_>,
-    is_in_range: impl Fn(f64) -> bool,
-    mistake: impl Fn(&str) -> RangeMistake,
-) -> Option<Measured> {
-    if is_in_range(value.si) {
+    let value = positive(value, findings)?;
+    if value.si <= 1.0 {
         return Some(value);
     }
-    let RangeMistake { message, help } = mistake(&value.written);
+    let message = format!("{} is more than 100 %, which no fabric gives back", value.written);
+    let help = format!("{symbol} is recovered work over work spent, in percent");
     findings.error(&value.key, message, help);
+    None
+}
+
+/// Returns `value` if it is greater than zero. Returns `None` after reporting a mistake.
+fn positive(value: Option<Measured>, findings: &mut Findings<'_>) -> Option<Measured> {
+    let value = value?;
+    if value.si > 0.0 {
+        return Some(value);
+    }
+    let help = "write the measured value, or remove the line if it was not measured";
+    findings.error(&value.key, format!("{} is not greater than 0", value.written), help);
+    None
+}
+
+/// Returns the loop width `value` if it is zero or more. Returns `None` after reporting a mistake.
+fn zero_or_more(value: Option<Measured>, findings: &mut Findings<'_>) -> Option<Measured> {
+    let value = value?;
+    if value.si >= 0.0 {
+        return Some(value);
+    }
+    let help = "a loop width is the distance between the two branches, without sign";
+    findings.error(&value.key, format!("{} is negative", value.written), help);
     None
 }

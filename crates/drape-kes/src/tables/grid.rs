@@ -145,13 +145,18 @@ pub(crate) struct Grid {
 }
 
 /// Sign between the cells of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 pub(crate) enum Separator {
+    #[serde(rename = "tab")]
     Tab,
+    #[serde(rename = ";")]
     Semicolon,
+    #[serde(rename = ",")]
     Comma,
+    #[serde(rename = "|")]
     Bar,
     /// Blanks and tabs, one or more.
+    #[serde(rename = "space")]
     Space,
 }
 

@@ -4,9 +4,11 @@
 pub(crate) mod scattered;
 
 /// Sign between the whole part of a number and its fraction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 pub(crate) enum Decimal {
+    #[serde(rename = ".")]
     Point,
+    #[serde(rename = ",")]
     Comma,
 }
 

@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::sheets::findings::Findings;
-use crate::sheets::section::Measured;
+use crate::sheets::stated::Measured;
 use crate::test::Direction;
 use drape_input::Quantity;
 
