@@ -16,6 +16,7 @@
 //! `state` holds the findings of a reading, `reader` reads the values of the text, `stand_in`
 //! creates stand-ins, and `stop` lists the reasons that end a reading.
 
+pub(crate) mod form;
 mod reader;
 mod stand_in;
 mod state;

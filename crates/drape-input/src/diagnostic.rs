@@ -5,6 +5,7 @@
 
 pub(crate) mod edit;
 pub(crate) mod subject;
+pub(crate) mod value_error;
 
 use std::fmt;
 use std::ops::Range;

@@ -3,11 +3,12 @@
 //! # Tour
 //!
 //! * `document`: [`Document`], the text of a TOML file with its path. A document decodes the text
-//!   into a structure and locates a key for a message. An [`Alias`] is another spelling of a key. [`SizeLimit`] limits the size of files.
+//!   into a structure and locates a key for a message. An [`Alias`] is
+//!   another spelling of a key. [`SizeLimit`] limits the size of files.
 //! * `decode`: the decoder, which reports all mistakes at once, and [`Faults`], the mistakes with
-//!   the keys whose values were left out.
+//!   the keys whose values were left out. A type with [`FromLiteral`] may be written in several
+//!   forms.
 //! * `grammar`: mistakes of TOML grammar.
-//! * `form`: [`FromLiteral`], a value that may be written in several forms.
 //! * `given`: [`Given`], a number with or without a unit. `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input. [`Subject`] is the part of an input that a
@@ -28,7 +29,6 @@ mod diagnostic;
 mod document;
 mod figure;
 mod file_access;
-mod form;
 mod given;
 mod grammar;
 mod node;
@@ -40,8 +40,10 @@ mod spelling;
 mod unit;
 
 pub use decode::Faults;
+pub use decode::form::{FromLiteral, Literal, Refusal, deserialize_literal};
 pub use diagnostic::edit::{Edit, EditError, apply_edits};
 pub use diagnostic::subject::Subject;
+pub use diagnostic::value_error::ValueError;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Document;
 pub use document::alias::Alias;
@@ -54,7 +56,6 @@ pub use figure::{
 };
 pub use file_access::FileAccess;
 pub use file_access::allowed_folders::{AllowedFolders, ForbiddenPath};
-pub use form::{FromLiteral, Literal, Refusal, deserialize_literal};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, Metres, MomentPerWidth, PressurePerDistance, Ratio,
@@ -68,4 +69,4 @@ pub use schema::{
 };
 pub use setting::{Setting, SettingError};
 pub use spelling::{closest, unknown_word};
-pub use unit::{NumberWithUnit, Quantity, Unit, ValueError, is_unit, parse_quantity, parse_unit};
+pub use unit::{NumberWithUnit, Quantity, Unit, is_unit, parse_quantity, parse_unit};

@@ -2,8 +2,8 @@
 
 use strsim::osa_distance;
 
+use crate::diagnostic::value_error::ValueError;
 use crate::figure::excerpt;
-use crate::unit::ValueError;
 
 /// Returns the word among `known` that is nearest to `word`, if it is near enough.
 ///

@@ -3,6 +3,7 @@
 //! The workspace has no other table of units. `given` uses it to read the quantities of scenes,
 //! fabrics and patterns, and `drape-kes` uses it to read the quantities of sheets and curves.
 
+use crate::diagnostic::value_error::ValueError;
 use crate::figure::excerpt;
 use crate::spelling::closest;
 
@@ -290,17 +291,6 @@ pub struct Unit {
     pub spelling: &'static str,
     /// Value of the unit in SI.
     pub factor: f64,
-}
-
-/// Reason why a value is none that is needed, such as a text that is no unit, with the remedy.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ValueError {
-    /// Reason, which quotes the text.
-    pub message: String,
-    /// Remedy for the user.
-    pub help: String,
-    /// Text that was probably meant, if it is known.
-    pub meant: Option<String>,
 }
 
 /// Parses `text` as a unit of one of the quantities `accepted`, which are tried in order.

@@ -10,9 +10,9 @@
 //! uses this one.
 //!
 //! * `findings`: the list of errors and warnings.
-//! * `file`: structs with the keys of the file; `stated`, `forms`: their values, as written.
-//! * `spelling`: other spellings of the keys; `value_keys`: the values; `compression`: values that follow from other values of
-//!   KES-FB3; `listed`: all values, with their use.
+//! * `file`: structs with the keys of the file, and their values as written.
+//! * `spelling`: other spellings of the keys; `value_keys`: the values; `compression`: values that
+//!   follow from other values of KES-FB3; `listed`: all values, with their use.
 //! * `schema`: JSON Schema of the sheet and its curves.
 //! * `checks`: values and curves that cannot be right, and the load of the tensile test.
 //! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `repeats`: curves of
@@ -26,7 +26,6 @@ pub(crate) mod convert;
 pub(crate) mod curve_file;
 pub(crate) mod file;
 pub(crate) mod findings;
-pub(crate) mod forms;
 pub(crate) mod listed;
 pub(crate) mod model;
 pub(crate) mod repeats;
@@ -34,5 +33,4 @@ pub(crate) mod repeats;
 pub(crate) mod schema;
 pub(crate) mod sheet;
 pub(crate) mod spelling;
-pub(crate) mod stated;
 pub(crate) mod value_keys;

@@ -6,13 +6,14 @@ use serde::de::value::{SeqDeserializer, StrDeserializer, UnitDeserializer};
 use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::forward_to_deserialize_any;
 
+use crate::decode::form::{self, Refusal};
+use crate::diagnostic::value_error::ValueError;
 use crate::figure::excerpt;
-use crate::form::{self, Refusal};
 use crate::given::{self, Token};
 use crate::node::{Entry, Node, Value};
 use crate::quoting::{toml_key, toml_string};
 use crate::spelling::{closest, unknown_word};
-use crate::unit::{NumberWithUnit, ValueError, parse_quantity};
+use crate::unit::{NumberWithUnit, parse_quantity};
 
 use super::stand_in::{ExpectedKind, StandIn};
 use super::state::{Change, Fault, ReadingState};

@@ -19,8 +19,8 @@ pub struct Alias {
 }
 
 impl Document {
-    /// Returns the keys of the table at the key path `key`, in the order of the text. The empty path
-    /// is the path of the whole document. Returns no keys if there is no table.
+    /// Returns the keys of the table at the key path `key`, in the order of the text. The empty
+    /// path is the path of the whole document. Returns no keys if there is no table.
     #[must_use]
     pub fn keys(&self, key: &str) -> Vec<&str> {
         let node = if key.is_empty() {
@@ -141,8 +141,8 @@ impl Node {
         Some(entries.remove(place.ok()?))
     }
 
-    /// Inserts `entry` at the key path `key`, which has no indices. Missing tables are added. Inserts
-    /// nothing if the path leads through a value that is no table.
+    /// Inserts `entry` at the key path `key`, which has no indices. Missing tables are added.
+    /// Inserts nothing if the path leads through a value that is no table.
     fn insert(&mut self, key: &str, entry: Entry) -> Option<()> {
         let mut names: Vec<KeyPart<'_>> = key_parts(key).collect();
         let last = names.pop()?;

@@ -1,41 +1,13 @@
 //! Axes of a `[[curve]]`: the keys of its deformation and its load.
 
+use crate::sheets::file::forms::{ColumnOrLength, Columns, Zero};
 use crate::sheets::file::{DeformationFile, LoadFile};
 use crate::sheets::findings::Findings;
-use crate::sheets::forms::{ColumnOrLength, Columns};
 use crate::tables::columns::AxisQuery;
 use crate::tables::heading::Kind;
 use crate::tables::layout::Column;
 use crate::test::Test;
 use drape_input::{Quantity, Unit, parse_unit};
-use serde::Deserialize;
-
-/// Meaning of a length from which a deformation is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Zero {
-    /// Extension of the specimen: zero at the gauge length.
-    Extension,
-    /// Distance of the clamps: the gauge length at the start.
-    Distance,
-    /// Position of a clamp: arbitrary at the start.
-    Position,
-}
-
-#[cfg(feature = "schema")]
-impl Zero {
-    /// All meanings.
-    pub(crate) const ALL: [Self; 3] = [Self::Extension, Self::Distance, Self::Position];
-
-    /// Returns the name in sheets: `"extension"` for [`Zero::Extension`].
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Extension => "extension",
-            Self::Distance => "distance",
-            Self::Position => "position",
-        }
-    }
-}
 
 /// Axis as the sheet describes it, with its key paths for messages. The default declares nothing.
 #[derive(Default)]
@@ -53,7 +25,8 @@ pub(crate) struct AxisKeys {
 }
 
 impl AxisKeys {
-    /// Returns the axis of the deformation of `test`, which `file` describes at the key path `curve`.
+    /// Returns the axis of the deformation of `test`, which `file` describes at the key path
+    /// `curve`.
     /// Returns `None` after reporting a mistake.
     pub(crate) fn deformation(
         curve: &str,

@@ -12,10 +12,10 @@
 
 use drape_input::Diagnostic;
 
-use crate::sheets::axis::{AxisKeys, Zero, deformation_quantities, load_quantities};
+use crate::sheets::axis::{AxisKeys, deformation_quantities, load_quantities};
 use crate::sheets::checks::suspect::AsWritten;
+use crate::sheets::file::forms::{ColumnOrLength, Zero};
 use crate::sheets::findings::Findings;
-use crate::sheets::forms::ColumnOrLength;
 use crate::tables::columns::find_named;
 use crate::tables::heading::words::Words;
 use crate::tables::heading::{self, Kind};

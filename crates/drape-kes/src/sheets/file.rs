@@ -1,7 +1,11 @@
 //! The TOML form of a sheet: structs with the keys of the file. Units of values are resolved while
 //! the values are decoded.
 //!
-//! Other spellings of the keys are known to `spelling`.
+//! `forms` has the values that may have several forms, and `stated` the numbers with their standard
+//! deviations. Other spellings of the keys are known to `spelling`.
+
+pub(crate) mod forms;
+pub(crate) mod stated;
 
 use drape_input::{
     BendingRigidity, ForcePerWidth, Length, MassPerArea, MomentPerWidth, Ratio, Roughness,
@@ -9,10 +13,9 @@ use drape_input::{
 };
 use serde::Deserialize;
 
-use crate::sheets::axis::Zero;
-use crate::sheets::forms::{ColumnOrLength, Columns, FileNames, LineCount, RecordText};
+use crate::sheets::file::forms::{ColumnOrLength, Columns, FileNames, LineCount, RecordText, Zero};
+use crate::sheets::file::stated::Stated;
 use crate::sheets::model::Model;
-use crate::sheets::stated::Stated;
 use crate::tables::grid::Separator;
 use crate::tables::layout::{Column, Take};
 use crate::tables::number::Decimal;

@@ -46,8 +46,8 @@ impl<'t> Findings<'t> {
         self.warn(&first, message, help);
     }
 
-    /// Adds an error about the value at the key path `key`, with its remedy `help`. Nothing is added
-    /// about a value that was left out.
+    /// Adds an error about the value at the key path `key`, with its remedy `help`. Nothing is
+    /// added about a value that was left out.
     pub(crate) fn error(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         if !self.faults.cover(key) {
             self.errors.push(self.document.at(key, message).help(help));

@@ -3,7 +3,8 @@
 use drape_input::{Quantity, laboratory_schema, unit_schema};
 use serde_json::{Map, Value, json};
 
-use crate::sheets::axis::{Zero, deformation_quantities, load_quantities};
+use crate::sheets::axis::{deformation_quantities, load_quantities};
+use crate::sheets::file::forms::Zero;
 use crate::sheets::model::Model;
 use crate::sheets::spelling::{DIRECTIONS, KEYS, pattern};
 use crate::tables::grid::Separator;

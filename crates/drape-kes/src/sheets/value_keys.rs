@@ -2,9 +2,9 @@
 
 use crate::scatter::{self, OtherScatter, Scatter};
 use crate::sheets::checks::plausible;
+use crate::sheets::file::stated::{Measured, Stated, laboratory_value};
 use crate::sheets::file::{SheetFile, ValuesFile};
 use crate::sheets::findings::Findings;
-use crate::sheets::stated::{Measured, Stated, laboratory_value};
 use crate::symbol::Symbol;
 use crate::test::Direction;
 use crate::values::Values;

@@ -3,8 +3,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::sheets::file::stated::Measured;
 use crate::sheets::findings::Findings;
-use crate::sheets::stated::Measured;
 use crate::test::Direction;
 use drape_input::Quantity;
 

@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 
 use crate::curves::branch::Branch;
 use crate::curves::curve::{Curve, Point};
-use crate::sheets::axis::Zero;
+use crate::sheets::file::forms::Zero;
 use crate::sheets::findings::Findings;
 use crate::test::Test;
 use drape_input::{Quantity, Unit, parse_unit};

@@ -3,8 +3,8 @@
 use drape_input::{FromLiteral, Length, Literal, Refusal, deserialize_literal, unknown_word};
 use serde::{Deserialize, Deserializer};
 
+use crate::sheets::file::stated::{Stated, refusal};
 use crate::sheets::model::Model;
-use crate::sheets::stated::{Stated, refusal};
 use crate::tables::layout::{Column, Take};
 
 /// Column of a table file, or one length for all rows.
@@ -196,4 +196,31 @@ fn whole(value: &Literal) -> Result<usize, Refusal> {
 /// Returns whether `text` begins with a digit, a sign or a point.
 fn starts_with_number(text: &str) -> bool {
     text.trim_start().starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+}
+
+/// Meaning of a length from which a deformation is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Zero {
+    /// Extension of the specimen: zero at the gauge length.
+    Extension,
+    /// Distance of the clamps: the gauge length at the start.
+    Distance,
+    /// Position of a clamp: arbitrary at the start.
+    Position,
+}
+
+#[cfg(feature = "schema")]
+impl Zero {
+    /// All meanings.
+    pub(crate) const ALL: [Self; 3] = [Self::Extension, Self::Distance, Self::Position];
+
+    /// Returns the name in sheets: `"extension"` for [`Zero::Extension`].
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Extension => "extension",
+            Self::Distance => "distance",
+            Self::Position => "position",
+        }
+    }
 }

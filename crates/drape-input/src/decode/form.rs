@@ -13,7 +13,7 @@ use std::marker::PhantomData;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, de};
 
-use crate::unit::ValueError;
+use crate::diagnostic::value_error::ValueError;
 
 /// Token by which [`Document`](crate::Document) recognises [`FromLiteral`].
 pub(crate) const TOKEN: &str = "$drape-input:FromLiteral";
