@@ -29,7 +29,7 @@ fn mistakes_and_their_edits_have_the_keys_as_they_are_written() {
     let text = "name = \"a\"\n\"2HB (weft)\" = 1\n\"2HB weft\" = -1\nW = \"150 g/m\"\n[Kette]\nemt = \"0.04 m/mm\"\n\
                 2hbb = 0.1\n";
     let found = mistakes(read(text, GOOD_CURVE));
-    let told: Vec<_> = found.iter().map(|mistake| mistake.message.as_str()).collect();
+    let messages: Vec<_> = found.iter().map(|mistake| mistake.message.as_str()).collect();
     let expected = [
         "\"2HB (weft)\": there is no such key",
         "\"2HB weft\": -1 is negative",
@@ -37,7 +37,7 @@ fn mistakes_and_their_edits_have_the_keys_as_they_are_written() {
         "Kette.emt: \"m/mm\" is not a unit of ratio",
         "Kette.2hbb: there is no such key",
     ];
-    assert_eq!(told, expected);
+    assert_eq!(messages, expected);
     let keys: Vec<_> = found.iter().map(|mistake| mistake.key.clone().expect("a key")).collect();
     assert_eq!(keys[3].to_string(), "Kette.emt");
 

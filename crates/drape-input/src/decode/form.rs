@@ -49,7 +49,8 @@ pub(crate) const TOKEN: &str = "$drape-input:FromLiteral";
 /// let read = |text| Document::new("a.toml", text).decode::<File>();
 /// assert_eq!(read("column = 2")?.column, Column::Number(2));
 /// let message = read("column = true").expect_err("it is neither").0[0].message.clone();
-/// assert_eq!(message, "column: is true or false where a name in quotes, or a number from 1 is needed");
+/// let forms = "a name in quotes, or a number from 1";
+/// assert_eq!(message, format!("column: is true or false where {forms} is needed"));
 /// # Ok::<(), drape_input::Diagnostics>(())
 /// ```
 pub trait FromLiteral: Sized {
@@ -235,5 +236,82 @@ impl<'de> Visitor<'de> for LiteralVisitor {
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Literal, A::Error> {
         while entries.next_entry::<de::IgnoredAny, de::IgnoredAny>()?.is_some() {}
         Ok(Literal::Table)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Document;
+
+    /// Part of a whole in percent, or `"none"`.
+    #[derive(Debug, PartialEq)]
+    struct Share(f64);
+
+    impl FromLiteral for Share {
+        const FORMS: &'static [&'static str] = &["a number", "\"none\"", "a list of numbers"];
+
+        fn from_literal(value: &Literal) -> Result<Self, Refusal> {
+            match value {
+                Literal::Text(word) if word == "none" => Ok(Self(0.0)),
+                Literal::Text(word) => Err(crate::unknown_word(word, &["none"]).into()),
+                Literal::List(items) => items
+                    .iter()
+                    .map(|item| item.number().ok_or(Refusal::Form))
+                    .sum::<Result<_, _>>()
+                    .map(Self),
+                value => value.number().map(Self).ok_or(Refusal::Form),
+            }
+        }
+
+        fn stand_in() -> Self {
+            Self(1.0)
+        }
+    }
+
+    impl<'de> Deserialize<'de> for Share {
+        fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            deserialize_literal(deserializer)
+        }
+    }
+
+    #[derive(Debug, PartialEq, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        first: Share,
+        second: Option<Share>,
+        #[serde(default)]
+        others: Vec<Share>,
+    }
+
+    #[test]
+    fn every_form_is_read() {
+        let text = "first = 1\nothers = [0.5, \"none\", [1, 2]]\n";
+        let file: File = Document::new("a.toml", text).decode().expect("the text is right");
+        let others = [0.5, 0.0, 3.0].map(Share).into();
+        assert_eq!(file, File { first: Share(1.0), second: None, others });
+    }
+
+    #[test]
+    fn refused_and_missing_values_are_reported_with_all_other_mistakes() {
+        let text = "second = \"nome\"\nothers = [true, 2, { a = 1 }]\nthird = 1\n";
+        let mistakes = Document::new("a.toml", text).decode::<File>().expect_err("it is wrong").0;
+        let messages: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+        let forms = "a number, \"none\", or a list of numbers";
+        let expected = [
+            format!("a.toml: first: is missing\n  help: add first = …, {forms}"),
+            "a.toml:1:10: second: there is no \"nome\"\n  help: did you mean \"none\"?".to_owned(),
+            format!(
+                "a.toml:2:11: others[0]: is true or false where {forms} is needed\n  help: write {forms}"
+            ),
+            format!(
+                "a.toml:2:20: others[2]: is a table where {forms} is needed\n  help: write {forms}"
+            ),
+            "a.toml:3:1: third: there is no such key\n  help: known here: first, second, others"
+                .to_owned(),
+        ];
+        assert_eq!(messages, expected);
+        let [edit] = mistakes[1].edits.as_slice() else { panic!("{:?}", mistakes[1]) };
+        assert_eq!((edit.key.as_str(), edit.new.as_deref()), ("second", Some("\"none\"")));
     }
 }

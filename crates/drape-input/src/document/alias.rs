@@ -172,3 +172,56 @@ impl Node {
         Some((entries, place))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{Alias, Document};
+
+    fn with_aliases(text: &str, aliases: &[(&str, &str)]) -> (Document, Vec<String>) {
+        let aliases: Vec<Alias> = aliases
+            .iter()
+            .map(|(written, meant)| Alias { written: (*written).into(), meant: (*meant).into() })
+            .collect();
+        let (document, mistakes) = Document::new("a.toml", text).with_aliases(&aliases);
+        (document, mistakes.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn values_move_into_tables_and_keep_their_places() {
+        let text = "[Kette]\n\"b 1\" = 2\n[x]\ny = [{ z = 3 }]\n";
+        let aliases = [("Kette", "warp"), ("warp.\"b 1\"", "warp.b"), ("x.y", "list")];
+        let (document, mistakes) = with_aliases(text, &aliases);
+        assert!(mistakes.is_empty(), "{mistakes:?}");
+        assert_eq!(document.keys(""), ["warp", "x", "list"]);
+        let message_at = |key: &str| document.at(key, "is wrong").to_string();
+        assert_eq!(message_at("warp.b"), "a.toml:2:9: Kette.\"b 1\": is wrong");
+        assert_eq!(message_at("warp.c"), "a.toml:1:2: Kette.c: is wrong");
+        assert_eq!(message_at("list[0].z"), "a.toml:4:12: x.y[0].z: is wrong");
+        let edit = document.edit("warp.b", Some("5")).expect("it is in the text");
+        assert_eq!((edit.key.as_str(), edit.old.as_deref()), ("Kette.\"b 1\"", Some("2")));
+        let text = crate::apply_edits(text, &[edit]).expect("it fits");
+        assert!(text.starts_with("[Kette]\n\"b 1\" = 5\n"), "{text}");
+    }
+
+    #[test]
+    fn a_second_value_is_a_mistake_and_the_first_one_stays() {
+        let text = "a = 1\nA = 2\nb = 3\nB = 4\n_b = 5\n";
+        let (document, mistakes) = with_aliases(text, &[("A", "a"), ("B", "x.b"), ("_b", "x.b")]);
+        let expected = [
+            "a.toml:2:5: A: means a, which is there too\n  help: keep one of them",
+            "a.toml:5:6: _b: means x.b, as B does\n  help: keep one of them",
+        ];
+        assert_eq!(mistakes, expected);
+        let table: toml::Table = document.decode().expect("the rest is right");
+        let expected = "a = 1\nb = 3\nx.b = 4\n".parse::<toml::Table>().expect("TOML");
+        assert_eq!(table, expected);
+    }
+
+    #[test]
+    fn an_alias_that_leads_nowhere_changes_nothing() {
+        let (document, mistakes) = with_aliases("a = 1\n", &[("b", "c"), ("a.b", "c")]);
+        assert!(mistakes.is_empty(), "{mistakes:?}");
+        assert_eq!(document.keys(""), ["a"]);
+        assert_eq!(document.keys("a"), [""; 0]);
+    }
+}
