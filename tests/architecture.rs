@@ -45,7 +45,6 @@ const LONG_FILES: &[(&str, &str)] = &[
     ("crates/drape-input/src/unit.rs", "one table of units"),
     ("crates/drape-kes/src/exports/file_curves.rs", "one reader of exports, with its tests"),
     ("crates/drape-kes/src/results/label.rs", "one table of labels"),
-    ("crates/drape-kes/src/sheets/section.rs", "one decoder, which is to go"),
     ("crates/drape-kes/src/tables/find.rs", "one search, with its tests"),
     ("crates/drape-kes/tests/drafts.rs", "a table of exports"),
     ("crates/drape-kes/tests/exports.rs", "a table of exports"),

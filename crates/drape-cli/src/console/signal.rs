@@ -4,7 +4,8 @@
 //! long. A later signal ends the program at once.
 
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
-use std::sync::{Arc, LazyLock, Once, OnceLock};
+use std::sync::{Arc, LazyLock, Once, OnceLock, mpsc};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use rustix::process::Signal;
@@ -40,26 +41,45 @@ pub(crate) fn let_large_files_fail() {
 /// the program.
 pub(crate) fn watch() {
     WATCH.call_once(|| {
-        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
-        std::thread::spawn(move || {
-            // A thread waits for signals, because a handler may do little more than set a flag.
+        let (sender, receiver) = mpsc::channel();
+
+        // A thread waits for signals, because a handler may do little more than set a flag. The
+        // thread registers the signals itself: without a thread they must end the program.
+        let watcher = thread::Builder::new().spawn(move || {
+            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+            let _ = sender.send(());
             let mut first_time = None;
             for signal in signals.forever() {
-                let number = u8::try_from(signal).unwrap_or_default();
-                let begin = *first_time.get_or_insert_with(Instant::now);
-                if RECEIVED.load(Ordering::Relaxed) == 0 {
-                    RECEIVED.store(number, Ordering::Relaxed);
-                    let _ = FIRST_SIGNAL_TIME.set(Instant::now());
-                    std::thread::spawn(|| {
-                        std::thread::sleep(PATIENCE);
-                        CANCEL_STEP.store(true, Ordering::Relaxed);
-                    });
-                } else if begin.elapsed() > DUPLICATE_WINDOW {
-                    std::process::exit(128 + signal);
-                }
+                record(signal, *first_time.get_or_insert_with(Instant::now));
             }
         });
+        if watcher.is_ok() {
+            // An error means that no signal was registered.
+            let _ = receiver.recv();
+        }
     });
+}
+
+/// Records a `signal`, where the first signal came at `first_time`. A signal that the user sent
+/// after the first one ends the program.
+fn record(signal: i32, first_time: Instant) {
+    if RECEIVED.load(Ordering::Relaxed) != 0 {
+        if first_time.elapsed() > DUPLICATE_WINDOW {
+            std::process::exit(128 + signal);
+        }
+        return;
+    }
+    RECEIVED.store(u8::try_from(signal).unwrap_or_default(), Ordering::Relaxed);
+    let _ = FIRST_SIGNAL_TIME.set(Instant::now());
+
+    // A machine without memory for a thread cannot wait: the step is cancelled at once.
+    let patience = thread::Builder::new().spawn(|| {
+        thread::sleep(PATIENCE);
+        CANCEL_STEP.store(true, Ordering::Relaxed);
+    });
+    if patience.is_err() {
+        CANCEL_STEP.store(true, Ordering::Relaxed);
+    }
 }
 
 /// Returns the number of the first signal, or `None` before it.
