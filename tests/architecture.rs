@@ -41,7 +41,6 @@ const LONG_FILES: &[(&str, &str)] = &[
         "one layout in memory, with its tests",
     ),
     ("crates/drape-input/src/decode/reader.rs", "one deserialiser"),
-    ("crates/drape-input/src/document.rs", "one type, with its tests"),
     ("crates/drape-input/src/unit.rs", "one table of units"),
     ("crates/drape-kes/src/exports/file_curves.rs", "one reader of exports, with its tests"),
     ("crates/drape-kes/src/results/label.rs", "one table of labels"),

@@ -3,8 +3,8 @@
 //! Every crate that reads TOML uses [`Document`], so that all mistakes are reported in one form.
 
 pub(crate) mod alias;
-pub(crate) mod similar_file;
-pub(crate) mod size_limit;
+mod editing;
+mod lookup;
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -14,18 +14,16 @@ use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
 use crate::decode::{Change, Decoded, Fault, Faults, decode};
-use crate::diagnostic::edit::Edit;
 use crate::diagnostic::subject::Subject;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::figure::cut;
 use crate::file_access::FileAccess;
 use crate::file_access::allowed_folders::{AllowedFolders, ForbiddenPath};
+use crate::file_access::size_limit::SizeLimit;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
-use crate::node::key_path::{KeyPart, KeyPath, key_parts};
-use crate::node::{Node, Value};
+use crate::node::Node;
+use crate::node::key_path::KeyPath;
 use crate::setting::{Setting, SettingError};
-use similar_file::missing_file_help;
-use size_limit::SizeLimit;
 
 /// Limit on the size of TOML files. Sheets, fabrics and scenes have a few kilobytes.
 const LIMIT: SizeLimit = SizeLimit::new("TOML files", 1 << 20);
@@ -185,17 +183,8 @@ impl Document {
     /// The errors of [`read`](Self::read), with the raised limit.
     pub fn read_with(path: impl AsRef<Path>, access: &FileAccess) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
-        let size = match access.held(path) {
-            Some(bytes) => bytes.len() as u64,
-            None => file_size(path)?,
-        };
-        LIMIT.check_file(path, size, access)?;
-
-        let text = match access.held(path) {
-            Some(bytes) => str::from_utf8(bytes).map(str::to_owned).map_err(|e| e.to_string()),
-            None => std::fs::read_to_string(path).map_err(|error| error.to_string()),
-        };
-        let text = text.map_err(|error| {
+        let bytes = LIMIT.read(path, access)?;
+        let text = str::from_utf8(&bytes).map_err(|error| {
             let message = format!("cannot read the file: {error}");
             Diagnostic::new(path, message).help("save it as UTF-8")
         })?;
@@ -265,62 +254,6 @@ impl Document {
         mistake
     }
 
-    /// Returns the edit that replaces the value at the key path `key` by `new`, in TOML, or removes
-    /// the value if `new` is `None`.
-    ///
-    /// Returns `None` if `new` is `None` and there is no value to remove: the value is not in the
-    /// text, was set, or is a table with a heading.
-    #[must_use]
-    pub fn edit(&self, key: &str, new: Option<&str>) -> Option<Edit> {
-        let old = match self.find(key) {
-            Some(located) if located.is_value => {
-                let text = located.node.text.clone().filter(|_| located.setting.is_none());
-                Some(text.and_then(|span| self.text.get(span))?.to_owned())
-            }
-            _ => None,
-        };
-        let (file, key) = (self.path.clone(), self.key_as_written(key));
-        (old.is_some() || new.is_some()).then(|| Edit {
-            file,
-            key,
-            old,
-            new: new.map(str::to_owned),
-        })
-    }
-
-    /// Returns the edits that move the value at the key path `key` to the key path `new`. Returns
-    /// no edits if the value is not in the text.
-    #[must_use]
-    pub fn renamed(&self, key: &str, new: &str) -> Vec<Edit> {
-        let Some(located) = self.find(key).filter(|located| located.is_value) else {
-            return Vec::new();
-        };
-        let values = match &located.node.text {
-            Some(value) => Some(vec![(String::new(), value.clone())]),
-            None => located.node.values(),
-        };
-
-        let Some(values) = values else { return Vec::new() };
-
-        // The old key is removed first. A table with a heading moves value by value.
-        let file = self.path.clone();
-        let old = self.edit(key, None).and_then(|edit| edit.old);
-        let (key, new) = (self.key_as_written(key), self.key_as_written(new));
-        let mut edits = vec![Edit { file, key, old, new: None }];
-        for (path, span) in values {
-            let Some(value) = self.text.get(span) else { return Vec::new() };
-            let (file, key) = (self.path.clone(), format!("{new}{path}"));
-            edits.push(Edit { file, key, old: None, new: Some(value.to_owned()) });
-        }
-        edits
-    }
-
-    /// Returns whether the document has a value at the key path `key`.
-    #[must_use]
-    pub fn has(&self, key: &str) -> bool {
-        self.find(key).is_some_and(|located| located.is_value)
-    }
-
     /// Returns a mistake with the given `message` in the value at the key path `key`, such as
     /// `warp.traction.stiffness` or `curve[2].file`.
     ///
@@ -376,20 +309,6 @@ impl Document {
         located
     }
 
-    /// Returns the value at the key path `key`, if it is a text.
-    #[must_use]
-    pub fn text_at(&self, key: &str) -> Option<String> {
-        self.find(key).filter(|located| located.is_value)?.node.as_text()
-    }
-
-    /// Returns the text of the value at the key path `key`, or `None` if the text has no such
-    /// value.
-    #[must_use]
-    pub fn written(&self, key: &str) -> Option<&str> {
-        let located = self.find(key).filter(|located| located.is_value)?;
-        self.text.get(located.node.text.clone()?)
-    }
-
     /// Returns a mistake at `span`. A span behind the end of the text stands for a setting.
     fn placed(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
         let index = span.as_ref().and_then(|span| span.start.checked_sub(self.text.len() + 1));
@@ -421,32 +340,6 @@ impl Document {
             Content { root: Node::root(table.get_ref()), mistakes }
         })
     }
-
-    /// Returns the value at the key path `key`, or the innermost value on the way to it. Returns
-    /// `None` if the document does not even have the first key.
-    fn find(&self, key: &str) -> Option<LocatedValue<'_>> {
-        let (innermost, is_value) = innermost_value(&self.content().root, key);
-        let node = innermost?;
-        let place = node.first_element_behind(self.text.len());
-        let setting = place.map(|place| place - 1 - self.text.len());
-        Some(LocatedValue { node, is_value, setting })
-    }
-}
-
-/// Returns the size of the file `path`, in bytes.
-///
-/// # Errors
-/// A mistake if the file is missing, or is no file.
-fn file_size(path: &Path) -> Result<u64, Diagnostics> {
-    let metadata = std::fs::metadata(path).map_err(|error| {
-        let message = format!("cannot open the file: {error}");
-        Diagnostic::new(path, message).help(missing_file_help(path))
-    })?;
-    if !metadata.is_file() {
-        let mistake = Diagnostic::new(path, "this is not a file").help("name a TOML file");
-        return Err(mistake.into());
-    }
-    Ok(metadata.len())
 }
 
 /// Values of a text, and the mistakes of grammar in the text.
@@ -471,34 +364,6 @@ impl Lines {
         let ends = text.match_indices('\n').map(|(end, _)| end + 1);
         Self { starts: std::iter::once(0).chain(ends).collect(), is_ascii: text.is_ascii() }
     }
-}
-
-/// Value at a key path, or the innermost value on the way to it.
-struct LocatedValue<'a> {
-    node: &'a Node,
-    /// Whether `node` is the value at the key path.
-    is_value: bool,
-    /// Index of the setting that replaced an element of `node`, if `node` is a list.
-    setting: Option<usize>,
-}
-
-/// Returns the innermost value on the way from `root` along the key path `key`, and whether it is
-/// the value at `key`. Returns no value if `root` does not have the first key.
-fn innermost_value<'a>(root: &'a Node, key: &str) -> (Option<&'a Node>, bool) {
-    let mut node = root;
-    let mut innermost = None;
-    for KeyPart { name, indices } in key_parts(key) {
-        let Some(entry) = node.entry(name) else { return (innermost, false) };
-        node = &entry.node;
-        innermost = Some(node);
-        for index in indices {
-            let Value::List(elements) = &node.value else { return (innermost, false) };
-            let Some(element) = elements.get(index) else { return (innermost, false) };
-            node = element;
-            innermost = Some(node);
-        }
-    }
-    (innermost, true)
 }
 
 /// Returns `mistakes` in the order of the text.
@@ -545,78 +410,6 @@ mod tests {
         let missing = mistake("dt = 1\n[[curve]]\n");
         assert_eq!(missing.message, "curve[0].file: is missing");
         assert_eq!(missing.line, Some(2), "{missing}");
-    }
-
-    #[test]
-    fn a_key_path_finds_its_line_also_in_arrays_and_for_absent_keys() {
-        let text = "dt = 1\n[[curve]]\nfile = \"x\"\n[[curve]]\nfile = \"y\"\n[a.b]\nc = { d = 3 }";
-        let document = Document::new("a.toml", text);
-        let line = |key: &str| document.at(key, "").line;
-        assert_eq!(line("dt"), Some(1));
-        assert_eq!(line("curve[1].file"), Some(5));
-        assert_eq!(line("curve[1].unit"), Some(4));
-        assert_eq!(line("a.b.c.d"), Some(7));
-        assert_eq!(line("a.b.e"), Some(6));
-        assert_eq!(line("nothing"), None);
-    }
-
-    #[test]
-    fn a_key_path_leads_into_lists_of_lists() {
-        let document = Document::new("a.toml", "sides = [[1, 2], [3, 4]]");
-        let column = |key: &str| document.at(key, "").column;
-        assert_eq!(column("sides[1]"), Some(18));
-        assert_eq!(column("sides[1][1]"), Some(22));
-        assert_eq!(column("sides[1][2]"), Some(18));
-    }
-
-    #[test]
-    fn a_key_with_dots_is_found_in_quotes() {
-        let text = "[panel.\"simon.back\"]\ngrain = 3\nfold = [\n1,\n2]";
-        let document = Document::new("a.toml", text);
-        let line = |key: &str| document.at(key, "").line;
-        assert_eq!(line("panel.\"simon.back\".grain"), Some(2));
-        assert_eq!(line("panel.\"simon.back\".fold[1]"), Some(5));
-        assert_eq!(line("panel.\"simon.back\""), Some(1));
-    }
-
-    #[test]
-    fn an_edit_has_the_value_that_stands_there_unless_it_was_set_or_has_a_heading() {
-        let text = "a = 1 # one\nb = { c = [2, \"x\"] }\n[d]\ne.f = 3\n[[g]]\nh = 4\n";
-        let document = Document::new("a.toml", text);
-        let old = |key: &str| document.edit(key, Some("0")).map(|edit| edit.old);
-        let some = |text: &str| Some(Some(text.to_owned()));
-        assert_eq!([old("a"), old("b.c[1]"), old("d.e.f")], [some("1"), some("\"x\""), some("3")]);
-        assert_eq!([old("b"), old("g[0].h")], [some("{ c = [2, \"x\"] }"), some("4")]);
-        assert_eq!([old("d.x"), old("g[1].h")], [Some(None), Some(None)]);
-        assert_eq!([old("d"), old("d.e"), old("g"), old("g[0]")], [const { None }; 4]);
-        assert_eq!(document.edit("d.x", None), None, "there is nothing to remove");
-        let set = document.with_settings(&["a=7".parse().expect("it is one")]).expect("it fits");
-        assert_eq!(set.edit("a", Some("0")), None);
-    }
-
-    #[test]
-    fn slips_of_the_pen_have_their_remedies_as_edits() {
-        let text = "[[curve]]\nfil = \"x\"\n[[curve]]\nfil = { a = 1 }\nfile = \"y\"\n";
-        let document = Document::new("a.toml", format!("dt = 1\n{text}"));
-        let mistakes = document.decode::<Outer>().expect_err("there are slips").0;
-        let edits = |index: usize| -> Vec<_> {
-            let edits = mistakes[index].edits.iter();
-            edits
-                .map(|edit| (edit.key.as_str(), edit.old.as_deref(), edit.new.as_deref()))
-                .collect()
-        };
-        let of_first =
-            [("curve[0].fil", Some("\"x\""), None), ("curve[0].file", None, Some("\"x\""))];
-        assert_eq!(edits(0), of_first, "{:?}", mistakes[0]);
-        assert_eq!(edits(1), [], "there is a file already: {:?}", mistakes[1]);
-
-        // A table takes all of its values along.
-        let text = "[solvr]\nmethod = \"newton\"\nlinear.size = [1, 2] # two\n";
-        let edits = Document::new("a.toml", text).renamed("solvr", "solver");
-        let changed = crate::apply_edits(text, &edits).expect("they fit");
-        let expected = "[solver]\nlinear.size = [1, 2]\nmethod = \"newton\"\n";
-        let table = |text: &str| Document::new("a.toml", text).decode::<toml::Table>();
-        assert_eq!(table(&changed), table(expected), "{changed}");
     }
 
     #[test]

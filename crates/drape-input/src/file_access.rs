@@ -1,6 +1,8 @@
 //! File access: the files that an input may name, how large files may be, and files in memory.
 
 pub(crate) mod allowed_folders;
+pub(crate) mod similar_file;
+pub(crate) mod size_limit;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

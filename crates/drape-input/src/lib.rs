@@ -3,8 +3,7 @@
 //! # Tour
 //!
 //! * `document`: [`Document`], the text of a TOML file with its path. A document decodes the text
-//!   into a structure and locates a key for a message. An [`Alias`] is
-//!   another spelling of a key. [`SizeLimit`] limits the size of files.
+//!   into a structure and locates a key for a message. An [`Alias`] is another spelling of a key.
 //! * `decode`: the decoder, which reports all mistakes at once, and [`Faults`], the mistakes with
 //!   the keys whose values were left out. A type with [`FromLiteral`] may be written in several
 //!   forms.
@@ -16,8 +15,9 @@
 //!   makes such changes.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt word.
 //! * `setting`: [`Setting`], a value that replaces a value of a text, such as on a command line.
-//! * `file_access`: [`FileAccess`], what a reader of a document allows its files, and
-//!   [`AllowedFolders`], the folders with the files that a document may name.
+//! * `file_access`: [`FileAccess`], what a reader of a document allows its files,
+//!   [`AllowedFolders`], the folders with the files that a document may name, and [`SizeLimit`],
+//!   which reads files up to a size.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML, and [`xml_text`], texts
 //!   as XML.
 //! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
@@ -47,8 +47,6 @@ pub use diagnostic::value_error::ValueError;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Document;
 pub use document::alias::Alias;
-pub use document::similar_file::{missing_file_help, similar_file};
-pub use document::size_limit::{SizeLimit, TooLarge};
 pub use figure::{
     Notation, brief, counted, duration_in_words, excerpt, figure, figure_above, figure_below,
     figure_in_decimals, figure_in_digits, figure_in_range, figures, percent, round_decimals,
@@ -56,6 +54,8 @@ pub use figure::{
 };
 pub use file_access::FileAccess;
 pub use file_access::allowed_folders::{AllowedFolders, ForbiddenPath};
+pub use file_access::similar_file::{missing_file_help, similar_file};
+pub use file_access::size_limit::{SizeLimit, TooLarge};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, Metres, MomentPerWidth, PressurePerDistance, Ratio,

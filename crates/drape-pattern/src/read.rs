@@ -244,20 +244,8 @@ fn ending(path: &Path) -> String {
 /// Returns the document of the file `path`. Programs write patterns, so that the file may be larger
 /// than a file that a person writes.
 fn document(path: &Path, access: &FileAccess) -> Result<Document, Diagnostics> {
-    let held = access.held(path);
-    let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
-    let size = held.map(|bytes| bytes.len() as u64).or_else(|| metadata.map(|file| file.len()));
-    let Some(size) = size else {
-        // `Document::read` says what is missing.
-        return Document::read_with(path, access);
-    };
-    LIMIT.check_file(path, size, access)?;
-    let read = held.map_or_else(|| std::fs::read(path), |bytes| Ok(bytes.to_vec()));
-    let bytes = read.map_err(|error| {
-        Diagnostic::new(path, format!("cannot read the file: {error}")).help("make it readable")
-    })?;
-
-    match String::from_utf8(bytes) {
+    let bytes = LIMIT.read(path, access)?;
+    match String::from_utf8(bytes.into_owned()) {
         Ok(text) => Ok(Document::new(path, text).with_access(access)),
         // Older programs write DXF in the code page of their country; only names can have such
         // letters.

@@ -43,31 +43,15 @@ pub(crate) fn read(
     layout: &Layout,
     access: &FileAccess,
 ) -> Result<TableFile, Diagnostics> {
-    if let Some(bytes) = access.held(path) {
-        LIMIT.check_file(path, bytes.len() as u64, access)?;
-        return parse(path, bytes, layout);
-    }
-    if let Some(member) = archive::split_member(path, access) {
+    let member = archive::split_member(path, access).filter(|_| access.held(path).is_none());
+    if let Some(member) = member {
         let bytes = archive::read(&member, LIMIT.bytes(access), access).map_err(|reason| {
             Diagnostic::new(&member.archive, format!("the archive cannot be read: {reason}"))
                 .help("pack it again as .zip without a password, or name the folder of its files")
         })?;
         return parse(path, &bytes, layout);
     }
-    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
-    // The kind is checked before the file is opened, because opening a pipe waits for its writer.
-    if !metadata.is_file() {
-        return Err(Diagnostic::new(path, "this is not a file").help("name a table").into());
-    }
-    LIMIT.check_file(path, metadata.len(), access)?;
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
-    parse(path, &bytes, layout)
-}
-
-/// Returns the mistake of a file at `path` that cannot be read.
-fn unreadable(path: &Path, error: &std::io::Error) -> Diagnostic {
-    Diagnostic::new(path, format!("cannot read the file: {error}"))
-        .help("check the path and that the file can be read")
+    parse(path, &LIMIT.read(path, access)?, layout)
 }
 
 /// Parses the `bytes` of a file. The `path` is used in messages, and for the ending of its name.

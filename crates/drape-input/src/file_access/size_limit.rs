@@ -1,10 +1,12 @@
-//! Limits on the sizes of input files.
+//! Limits on the sizes of input files, and the reader of input files.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::file_access::FileAccess;
+use crate::file_access::similar_file::missing_file_help;
 
 /// Largest size of a kind of input file. The limit keeps a wrong path from filling the memory.
 ///
@@ -46,17 +48,43 @@ impl SizeLimit {
         self.bytes.saturating_mul(u64::from(access.size_factor.max(1)))
     }
 
+    /// Reads the file `path` in memory or on disk. The limit is raised by the factor in `access`.
+    ///
+    /// # Errors
+    /// A mistake if the file is missing, is no file, is larger than the limit, or cannot be read.
+    pub fn read<'a>(
+        self,
+        path: &Path,
+        access: &'a FileAccess,
+    ) -> Result<Cow<'a, [u8]>, Diagnostics> {
+        if let Some(bytes) = access.held(path) {
+            self.check_file(path, bytes.len() as u64, access)?;
+            return Ok(Cow::Borrowed(bytes));
+        }
+
+        // The kind is checked before the file is opened, because opening a pipe waits for its
+        // writer.
+        let metadata = std::fs::metadata(path).map_err(|error| {
+            let message = format!("cannot open the file: {error}");
+            Diagnostic::new(path, message).help(missing_file_help(path))
+        })?;
+        if !metadata.is_file() {
+            return Err(Diagnostic::new(path, "this is not a file").help("name a file").into());
+        }
+        self.check_file(path, metadata.len(), access)?;
+        let bytes = std::fs::read(path).map_err(|error| {
+            let message = format!("cannot read the file: {error}");
+            Diagnostic::new(path, message).help("check that you may read the file")
+        })?;
+        Ok(Cow::Owned(bytes))
+    }
+
     /// Checks that the file `path` of `bytes` bytes is not larger than the limit with the given
     /// `access`.
     ///
     /// # Errors
     /// The mistake, with its remedy, if the file is larger.
-    pub fn check_file(
-        self,
-        path: &Path,
-        bytes: u64,
-        access: &FileAccess,
-    ) -> Result<(), Diagnostics> {
+    fn check_file(self, path: &Path, bytes: u64, access: &FileAccess) -> Result<(), Diagnostics> {
         let refused = self.check(bytes, access);
         refused.map_err(|large| Diagnostic::new(path, large.to_string()).help(large.help()).into())
     }
