@@ -36,9 +36,9 @@ pub struct Manifest {
 pub struct SurfacePart {
     /// Name in the scene.
     pub name: String,
-    /// Number of its vertices.
+    /// Number of vertices of the part.
     pub vertices: usize,
-    /// Number of its triangles.
+    /// Number of triangles of the part.
     pub triangles: usize,
     /// Half of the activation distance, in m. Two parts repel each other if they are closer than
     /// the sum of their halves. 0 if no distance was promised.

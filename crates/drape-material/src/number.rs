@@ -2,7 +2,7 @@
 
 use drape_input::{figure_in_digits, round_digits};
 
-/// Number of digits of a number in a file. No fabric is measured more accurately.
+/// Number of significant digits of a number in a file. Fabrics are measured to fewer digits.
 const DIGITS: usize = 6;
 
 /// Returns `value` with six digits, for a file.

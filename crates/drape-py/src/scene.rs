@@ -160,7 +160,8 @@ impl RunSettings {
         })
     }
 
-    /// Has a run made on threads of its own, whose events are handled by the callbacks.
+    /// Executes `run` on the threads of `detached`. The callbacks receive the events of the run.
+    /// Returns the summary as JSON.
     fn execute(
         &self,
         py: Python<'_>,

@@ -52,7 +52,7 @@ pub enum RepairNote {
     },
     /// Triangles that had no area or occurred twice were left out.
     Dropped {
-        /// Number of these triangles.
+        /// Number of triangles that were left out.
         triangles: usize,
     },
     /// Triangles were turned, so that all face outwards.

@@ -14,7 +14,8 @@ use crate::forward::strip_drive::exponential::ExponentialStrip;
 use crate::forward::strip_drive::strip_state::{StripState, StripStep};
 use crate::forward::strip_drive::weighted::WeightedStrip;
 
-/// Bisections for the strain at which a strip goes slack: the bits of a double.
+/// Number of bisections for the strain at which a strip goes slack. Further bisections would not
+/// change the strain, because a double has 53 significant bits.
 const BISECTIONS: usize = 60;
 
 /// Strip with a law that was prepared.

@@ -146,14 +146,14 @@ impl<'m> RowReader<'m> {
     /// table may follow.
     fn end(&self, r: usize, c: usize) -> usize {
         let row = &self.matrix.rows[r];
-        let begins_another = |next: usize| {
+        let is_other_head = |next: usize| {
             let label = row[next].label.as_ref();
             self.is_transposed
                 && label.is_some_and(|label| !label.name.is_empty())
                 && !self.matrix.rows.iter().any(|row| row[next].is_number)
         };
         (c + 1..row.len())
-            .find(|&next| row[next].has_item() || begins_another(next))
+            .find(|&next| row[next].has_item() || is_other_head(next))
             .unwrap_or(row.len())
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct AxisQuery<'a> {
     pub(crate) by_length: bool,
 }
 
-/// Columns of one curve in a block.
+/// Numbers of the two columns of one curve in a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pair {
     pub(crate) deformation: usize,

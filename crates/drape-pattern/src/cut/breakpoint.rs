@@ -28,7 +28,7 @@ pub(crate) struct Breakpoint {
     pub distance: f64,
     /// Angle between the tangents before and after the point, without sign, in rad.
     pub corner_angle: f64,
-    /// Number of the edge that begins here, if one does.
+    /// Number of the edge that begins at the breakpoint, if an edge does.
     pub edge: Option<usize>,
     /// Number of the class. Breakpoints that are sewn to each other have the same class.
     pub class: usize,

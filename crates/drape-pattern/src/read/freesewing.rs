@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::diagnostic::{diagnostic, syntax};
-use super::marks::{add_notch, grain_of, says_on_fold, unfold};
+use super::marks::{add_notch, grain_angle, says_on_fold, unfold};
 use super::size::{Doubt, wrong_size};
 use crate::edge::{Curve, Edge, distance};
 use crate::note::PatternNote;
@@ -258,7 +258,7 @@ impl Reader<'_> {
         }
 
         // The fold lies along the grain where a draft shows no grainline.
-        let grain = part.macro_line("__macro_grainline").or(fold).map(grain_of);
+        let grain = part.macro_line("__macro_grainline").or(fold).map(grain_angle);
         self.sketch.add_outline(name, &edges);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,

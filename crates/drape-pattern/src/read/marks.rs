@@ -14,9 +14,9 @@ const ALONG: f64 = 0.09;
 /// Distance from the outline below which a mark is a notch of the outline, in m.
 const NOTCH: f64 = 2e-3;
 
-/// Returns the grain, in rad, of the line from `from` to `to` along the warp. The line has no
-/// sense: the warp is taken within a right angle of the y axis.
-pub(crate) fn grain_of([from, to]: [[f64; 2]; 2]) -> f64 {
+/// Returns the angle of the grain, in rad, for the line from `from` to `to` along the warp. The
+/// line may point either way: the warp is taken within a right angle of the y axis.
+pub(crate) fn grain_angle([from, to]: [[f64; 2]; 2]) -> f64 {
     let along = difference(to, from);
     let up = if along[1] < 0.0 { -1.0 } else { 1.0 };
     // The subtraction turns −0 into 0.

@@ -24,7 +24,7 @@ use self::style::Styles;
 use super::chains::joined;
 use super::diagnostic::diagnostic;
 use super::fit::distance_from_segment;
-use super::marks::{Outline, add_notch, grain_of, outlines, unfold_beside};
+use super::marks::{Outline, add_notch, grain_angle, outlines, unfold_beside};
 use super::request::Request;
 use super::size::{Doubt, wrong_size};
 use super::toml_file;
@@ -306,7 +306,7 @@ impl Reader<'_> {
             self.mistakes.push(Diagnostic { line, ..answer });
         }
         match grain {
-            Some(line) => panel.with_grain(grain_of(*line)).ok(),
+            Some(line) => panel.with_grain(grain_angle(*line)).ok(),
             None => {
                 match self.notes.last_mut() {
                     Some(PatternNote::NoGrain { panels }) => panels.push(panel.name().into()),

@@ -245,7 +245,7 @@ impl<'a> Profile<'a> {
     }
 
     /// Returns the height within `range` at which `measure` of the section is largest, in m.
-    /// Returns `None` if it is largest at an end of `range`.
+    /// Returns `None` if the largest measure is at an end of `range`.
     fn peak(&self, range: &RangeInclusive<f64>, measure: impl Fn(&Trunk) -> f64) -> Option<f64> {
         let slices: Vec<&Slice> = self.within(range).collect();
         let measures: Vec<f64> = slices.iter().map(|slice| measure(&slice.trunk)).collect();

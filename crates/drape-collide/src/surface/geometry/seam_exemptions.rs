@@ -66,9 +66,9 @@ impl SeamExemptions {
             || !self.ties.is_empty() && (self.is_tied(first, second) || self.is_tied(second, first))
     }
 
-    /// Returns the classes at which two primitives are joined. `first` and `second` are the classes
-    /// of their vertices. A class may occur twice.
-    /// Returns the classes at which two primitives are joined, each from one or two sides.
+    /// Returns the classes at which two primitives are joined. `first` has the classes of the
+    /// vertices of one primitive, `second` has the classes of the other primitive. A class may be
+    /// returned twice.
     pub(crate) fn joints<'a>(
         &'a self,
         first: &'a [u32],

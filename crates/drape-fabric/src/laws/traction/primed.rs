@@ -4,7 +4,7 @@ use drape_hysteresis::Response;
 
 use crate::laws::traction::toe::toe_end;
 
-/// Smallest toe ratio, a ratio. With one half the fabric would have no stiffness at rest.
+/// Smallest toe ratio. With a toe ratio of one half the fabric would have no stiffness at rest.
 pub const TOE_RATIO_MIN: f64 = 0.505;
 
 /// Priming zone (toe) and linear zone of a tensile curve \[NB04, eq. 3\].

@@ -10,7 +10,7 @@ use crate::panel::Panel;
 use crate::read::chains::joined;
 use crate::read::diagnostic::diagnostic;
 use crate::read::fit::{TURN, distance_from_segment, fitted};
-use crate::read::marks::{add_notch, grain_of, low_corner, says_on_fold, unfold};
+use crate::read::marks::{add_notch, grain_angle, low_corner, says_on_fold, unfold};
 use crate::read::size::wrong_size;
 use crate::read::unit::Unit;
 use crate::sketch::Sketch;
@@ -111,7 +111,7 @@ impl Reader<'_> {
             return None;
         }
         match grain {
-            Some(line) => panel.with_grain(grain_of(line)).ok(),
+            Some(line) => panel.with_grain(grain_angle(line)).ok(),
             None => {
                 self.notes.push(PatternNote::NoGrain { panels: vec![name] });
                 Some(panel)
