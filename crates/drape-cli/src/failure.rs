@@ -125,7 +125,20 @@ impl fmt::Display for Failure {
 
 impl From<drape::frames::Error> for Failure {
     fn from(error: drape::frames::Error) -> Self {
-        Self::Frames(error)
+        use drape::frames::Error;
+        match &error {
+            Error::Occupied { folder } => Self::Usage(format!(
+                "{} holds results already; give another folder, or allow it with --force",
+                folder.display()
+            )),
+            Error::LostFrames { path, found, frames } => Self::Solver(format!(
+                "{} has {found} frames, of {frames} that the checkpoint counts; run the scene anew \
+                 with --force",
+                path.display()
+            )),
+            Error::Write { .. } => Self::Output(error.to_string()),
+            _ => Self::Frames(error),
+        }
     }
 }
 
@@ -133,7 +146,7 @@ impl From<drape::export::Error> for Failure {
     fn from(error: drape::export::Error) -> Self {
         use drape::export::Error;
         match error {
-            Error::Frames(error) => Self::Frames(error),
+            Error::Frames(error) => error.into(),
             Error::Write(_) => Self::Output(format!("cannot write: {error}")),
             error => Self::Usage(error.to_string()),
         }
@@ -195,7 +208,7 @@ impl From<drape::run::Error> for Failure {
             Error::File(error) => error.into(),
             Error::Input(mistakes) => Self::Input(mistakes),
             Error::Dynamics(error) => error.into(),
-            Error::Frames(error) => Self::Frames(error),
+            Error::Frames(error) => error.into(),
             Error::Folder { .. } | Error::LastFrame { .. } => Self::Output(error.to_string()),
             error => Self::Usage(error.to_string()),
         }
@@ -206,8 +219,7 @@ impl From<drape::dynamics::Error> for Failure {
     fn from(error: drape::dynamics::Error) -> Self {
         use drape::dynamics::Error;
         match error {
-            Error::Occupied { .. } => Self::Usage(error.to_string()),
-            Error::Write { .. } => Self::Output(error.to_string()),
+            Error::Frames(error) => error.into(),
             error => Self::Solver(error.to_string()),
         }
     }

@@ -1,7 +1,5 @@
 //! Errors of this crate, each with its remedy.
 
-use std::path::PathBuf;
-
 /// Reason why a scene cannot be run, or why its results cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -21,35 +19,13 @@ pub enum Error {
         /// Description of the part that does not fit.
         reason: String,
     },
-    /// Frames that a checkpoint counts are missing. Take an earlier checkpoint, or run the scene
-    /// again.
-    #[error("{} has {found} frames, of {frames} that the checkpoint counts; run the scene anew with --force", path.display())]
-    LostFrames {
-        /// The list of frames.
-        path: PathBuf,
-        /// Number of frames in the list.
-        found: usize,
-        /// Number of frames that the checkpoint counts.
-        frames: usize,
-    },
-    /// The folder for the results holds results. Give another folder, or allow the replacement.
-    #[error("{} holds results already; give another folder, or allow it with --force", folder.display())]
-    Occupied {
-        /// The folder.
-        folder: PathBuf,
-    },
+    /// Frames cannot be written.
+    #[error(transparent)]
+    Frames(#[from] drape_frames::Error),
     /// Forces, or a motion of a body, that a program sets between steps do not suit the simulation.
     #[error("{reason}")]
     Unsuited {
         /// Description of the fault, with the remedy.
         reason: String,
-    },
-    /// A result could not be written. Check space and permissions.
-    #[error("cannot write {}: {reason}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Error message of the operating system.
-        reason: std::io::Error,
     },
 }

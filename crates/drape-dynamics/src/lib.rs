@@ -14,14 +14,11 @@ mod measure;
 mod record;
 
 pub use error::Error;
-pub use record::frame::Frame;
-pub use record::recorder::{Output, Recorder, SavedRecorder, prepare_folder};
 pub use record::snapshot::{Body, ShownFabric, Snapshot};
 pub use record::step_hashes::StepHashes;
 pub use record::summary::{
     Contacts, GridRecord, Phase, PhaseName, Solver, Status, Strain, Summary,
 };
-pub use record::topology::{SurfacePart, Topology};
 pub use simulation::plan::PlannedPhase;
 pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;

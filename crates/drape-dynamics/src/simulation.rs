@@ -23,6 +23,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use drape_cloth::Interpolation;
+use drape_frames::{Frame, Manifest, Topology};
 use drape_implicit::{Report, Stop};
 use drape_scene::{Relaxation, Scene, Source};
 use serde::{Deserialize, Serialize};
@@ -30,12 +31,11 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
 use crate::measure::{fallen, note_slides};
-use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
 use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
-use crate::record::topology::Topology;
+use crate::record::topology;
 use crate::stepping::statistics::Statistics;
 use crate::stepping::{
     AcceptedStep, PhaseSteps, ReferenceScheme, RestDetector, Scheme, StepMotion, Stepping,
@@ -283,18 +283,20 @@ impl Simulation {
         self.coarser.front().map_or_else(|| self.stepping.ticks(), CoarserGrid::ticks)
     }
 
-    /// Returns the current positions of cloth and bodies as a [`Frame`].
+    /// Returns the current positions of cloth and bodies as a [`Frame`], without pressures.
     #[must_use]
     pub fn frame(&self) -> Frame {
         let bodies = self.world.contact.triangulations();
+        let bodies: Vec<[f64; 3]> = bodies.into_iter().flat_map(|body| body.vertices).collect();
+        let number = self.frame_times.len();
         Frame {
-            number: self.frame_times.len(),
+            number,
             time: self.time(),
-            positions: self.world.state.positions.clone(),
-            bodies: bodies.into_iter().flat_map(|body| body.vertices).flatten().collect(),
             growth_fraction: self.world.contact.growth_fraction(),
-            pressures: None,
-            energy: self.energy(),
+            cloth: self.world.state.positions.as_chunks::<3>().0.to_vec(),
+            bodies_frame: (!bodies.is_empty()).then_some(number),
+            bodies,
+            ..Frame::default()
         }
     }
 
@@ -304,10 +306,16 @@ impl Simulation {
         Snapshot::new(&self.world, &self.parts, self.spacing)
     }
 
-    /// Returns the data that all frames share, as a [`Topology`].
+    /// Returns the triangles and material coordinates that all frames share, as a [`Topology`].
     #[must_use]
     pub fn topology(&self) -> Topology {
-        Topology::new(&self.world, &self.parts)
+        topology::topology(&self.world)
+    }
+
+    /// Returns the panels and bodies that all frames share, as a [`Manifest`].
+    #[must_use]
+    pub fn manifest(&self) -> Manifest {
+        topology::manifest(&self.world, &self.parts)
     }
 
     /// Returns the smallest distance of particles before deformation, in m.

@@ -45,7 +45,7 @@ end = 1.0
 /// Distance of the two nearest particles that are more than two spacings apart along the strip, in
 /// spacings.
 fn nearest(simulation: &Simulation) -> f64 {
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let points: Vec<&[f64]> = positions.chunks_exact(3).collect();
     let coordinates = simulation.coordinates();
     let mut nearest = f64::INFINITY;

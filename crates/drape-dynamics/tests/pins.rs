@@ -84,7 +84,7 @@ fn a_pin_lets_go() {
             pulled = load;
         } else {
             assert_eq!(load, 0.0, "it bears nothing at {} s", step.time);
-            freed = simulation.frame().positions.chunks(3).map(|x| x[1]).fold(f64::MIN, f64::max);
+            freed = simulation.positions().chunks(3).map(|x| x[1]).fold(f64::MIN, f64::max);
         }
         if step.finished {
             break;

@@ -6,7 +6,8 @@
 mod sheet;
 
 use drape_checkpoint::{Checkpoint, Identity};
-use drape_dynamics::{Error, Frame, Progress, SavedSimulation, Simulation, Summary};
+use drape_dynamics::{Energy, Error, Progress, SavedSimulation, Simulation, Summary};
+use drape_frames::Frame;
 use drape_input::Document;
 use drape_scene::Scene;
 
@@ -18,7 +19,7 @@ struct Keeper {
     every: usize,
     steps: usize,
     kept: Vec<Kept>,
-    frames: Vec<Frame>,
+    frames: Vec<(Frame, Option<Energy>)>,
 }
 
 /// Checkpoint with the frames that it counts.
@@ -33,8 +34,8 @@ impl Progress for Keeper {
         self.steps += 1;
     }
 
-    fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
-        self.frames.push(frame.clone());
+    fn frame(&mut self, frame: &Frame, energy: Option<&Energy>) -> Result<(), Error> {
+        self.frames.push((frame.clone(), energy.copied()));
         Ok(())
     }
 
@@ -173,8 +174,8 @@ fn a_run_that_is_interrupted_on_a_coarser_grid_has_a_frame_and_goes_on() {
             self.0.step(step, ticks);
         }
 
-        fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
-            self.0.frame(frame)
+        fn frame(&mut self, frame: &Frame, energy: Option<&Energy>) -> Result<(), Error> {
+            self.0.frame(frame, energy)
         }
 
         fn checkpoint(&mut self, saved: &SavedSimulation) -> Result<(), Error> {

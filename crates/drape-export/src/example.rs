@@ -25,30 +25,14 @@ pub(crate) fn cube() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
 pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::SurfacePart> {
     let parts = names.iter().map(|name| drape_frames::SurfacePart {
         name: (*name).to_owned(),
-        vertices: 0,
-        triangles: 0,
-        half_activation_distance: 0.0,
-        half_min_separation: 0.0,
-        fabric: String::new(),
-        weft: [1.0, 0.0],
-        fabric_colour: None,
+        ..drape_frames::SurfacePart::default()
     });
     parts.collect()
 }
 
 /// Frame with the cloth at positions, in m.
 pub(crate) fn frame(cloth: &[[f64; 3]]) -> Frame {
-    let (cloth, bodies) = (cloth.to_vec(), Vec::new());
-    Frame {
-        number: 0,
-        file: "".into(),
-        time: None,
-        growth: 1.0,
-        cloth,
-        bodies_file: None,
-        bodies,
-        pressures: None,
-    }
+    Frame { cloth: cloth.to_vec(), ..Frame::default() }
 }
 
 /// Positions of the cloth at a time, in m.

@@ -2,7 +2,6 @@
 
 mod strain;
 
-use std::path::PathBuf;
 use std::str::FromStr;
 
 use drape_collide::NearestSurface;
@@ -126,8 +125,9 @@ pub struct Fields<'a> {
     triangles: Vec<RestTriangle>,
     /// Area of the triangles around each vertex at rest, in m².
     areas: Vec<f64>,
-    /// Surfaces of the bodies of the last frame, with the file of their positions.
-    bodies: Option<(PathBuf, Vec<NearestSurface>)>,
+    /// Surfaces of the bodies of the last frame, with the number of the
+    /// first frame that has them.
+    bodies: Option<(usize, Vec<NearestSurface>)>,
 }
 
 impl<'a> Fields<'a> {
@@ -209,9 +209,9 @@ impl<'a> Fields<'a> {
 
     /// Returns the distances of the vertices from the nearest body, in mm.
     fn distances(&mut self, frame: &Frame) -> Option<Vec<f64>> {
-        let file = frame.bodies_file.as_ref()?;
-        if self.bodies.as_ref().is_none_or(|(known, _)| known != file) {
-            self.bodies = Some((file.clone(), surfaces(self.recording, frame)));
+        let number = frame.bodies_frame?;
+        if self.bodies.as_ref().is_none_or(|(known, _)| *known != number) {
+            self.bodies = Some((number, surfaces(self.recording, frame)));
         }
         let (_, surfaces) = self.bodies.as_ref()?;
         let distances = frame.cloth.par_iter().map(|point| {
@@ -253,8 +253,8 @@ fn surfaces(recording: &Recording, frame: &Frame) -> Vec<NearestSurface> {
 
 /// Returns the mean speeds of the vertices since the earlier frame `before`, in m/s.
 fn speeds(frame: &Frame, before: Option<&Frame>) -> Vec<f64> {
-    let (before, seconds) = match (before, frame.time, before.and_then(|before| before.time)) {
-        (Some(before), Some(now), Some(then)) if now > then => (before, now - then),
+    let (before, seconds) = match before {
+        Some(before) if frame.time > before.time => (before, frame.time - before.time),
         _ => return vec![0.0; frame.cloth.len()],
     };
     let pairs = frame.cloth.iter().zip(&before.cloth);

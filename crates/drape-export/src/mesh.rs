@@ -122,7 +122,7 @@ impl Track {
     pub(crate) fn read(clip: &Clip, meshes: &[Mesh]) -> Result<Vec<Track>, Error> {
         let mut tracks = vec![Track::default(); meshes.len()];
         let has_panels = meshes.iter().any(|mesh| matches!(mesh.kind, MeshKind::Panel(_)));
-        let mut bodies_file = None;
+        let mut bodies_frame = None;
         for index in 0..clip.frame_count() {
             let frame = clip.read(index)?;
             let (manifest, topology) = (clip.recording().manifest(), clip.recording().topology());
@@ -133,7 +133,7 @@ impl Track {
             };
 
             // Bodies that have not moved keep their sample: their normals cost most of the time.
-            let bodies_moved = index == 0 || frame.bodies_file != bodies_file;
+            let bodies_moved = index == 0 || frame.bodies_frame != bodies_frame;
             for (mesh, track) in meshes.iter().zip(&mut tracks) {
                 let sample = match (&mesh.kind, track.samples.last()) {
                     (MeshKind::Panel(_), _) => Sample {
@@ -149,7 +149,7 @@ impl Track {
                 };
                 track.samples.push(sample);
             }
-            bodies_file.clone_from(&frame.bodies_file);
+            bodies_frame = frame.bodies_frame;
         }
 
         for track in &mut tracks {

@@ -54,9 +54,12 @@ pub(crate) fn read(folder: &Path, manifest: &Manifest, entry: IndexEntry) -> Res
     };
 
     let vertices = manifest.body_counts().vertices;
-    let bodies_file = bodies.map(|number| folder.join(format!("bodies-{number:05}.npy")));
-    let bodies = match &bodies_file {
-        Some(path) => array::coordinates(path, "vertices", vertices)?,
+    let bodies_frame = bodies;
+    let bodies = match bodies_frame {
+        Some(number) => {
+            let path = folder.join(format!("bodies-{number:05}.npy"));
+            array::coordinates(&path, "vertices", vertices)?
+        }
         None if vertices == 0 => Vec::new(),
         None => {
             let reason = format!("frame {number} names no frame that has its bodies");
@@ -64,5 +67,7 @@ pub(crate) fn read(folder: &Path, manifest: &Manifest, entry: IndexEntry) -> Res
         }
     };
 
-    Ok(Frame { number, file, time: Some(time), growth, cloth, bodies_file, bodies, pressures })
+    let growth_fraction = growth;
+    let file = Some(file);
+    Ok(Frame { number, time, growth_fraction, cloth, bodies, bodies_frame, pressures, file })
 }

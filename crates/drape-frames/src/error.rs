@@ -1,8 +1,8 @@
-//! Errors of reading a folder of frames.
+//! Errors of reading and writing frames.
 
 use std::path::{Path, PathBuf};
 
-/// Reason why recorded frames cannot be read.
+/// Reason why frames cannot be read or written.
 ///
 /// Every variant names one remedy and carries the values that led to it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -50,11 +50,11 @@ pub enum Error {
         /// Fault, in words.
         reason: String,
     },
-    /// The folder has no frame of the given number.
-    #[error("{} has no frame {number}; its frames are 0 to {last}", folder.display())]
+    /// The run has no frame of the given number.
+    #[error("{} has no frame {number}; its frames are 0 to {last}", named(folder.as_deref()))]
     NoFrame {
-        /// The folder.
-        folder: PathBuf,
+        /// The folder, or `None` for frames in memory.
+        folder: Option<PathBuf>,
         /// Requested number.
         number: usize,
         /// Number of the last frame.
@@ -108,12 +108,60 @@ pub enum Error {
         /// Fault, in words.
         reason: &'static str,
     },
+    /// A frame in memory does not fit the parts of its run.
+    #[error("frame {number}: {reason}")]
+    BadFrame {
+        /// Number of the frame, from 0.
+        number: usize,
+        /// Fault, in words.
+        reason: String,
+    },
+    /// The triangles or the material coordinates in memory do not fit the parts of the run.
+    #[error("the topology does not fit the parts: {reason}")]
+    BadTopology {
+        /// Fault, in words.
+        reason: String,
+    },
+    /// Frames that a state of a writer counts are missing.
+    #[error("{} has {found} frames, of {frames} that the checkpoint counts; run the scene again", path.display())]
+    LostFrames {
+        /// The list of frames.
+        path: PathBuf,
+        /// Number of frames in the list.
+        found: usize,
+        /// Number of frames that the state of the writer counts.
+        frames: usize,
+    },
+    /// The folder holds results.
+    #[error("{} holds results already; give another folder, or allow the replacement", folder.display())]
+    Occupied {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file cannot be written.
+    #[error("cannot write {}: {reason}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Answer of the operating system.
+        reason: String,
+    },
+}
+
+/// Returns the name of a run in messages: its `folder`, if it has one.
+fn named(folder: Option<&Path>) -> String {
+    folder.map_or_else(|| "the recording".to_owned(), |folder| folder.display().to_string())
 }
 
 impl Error {
     /// Returns the error of a file or folder `path` that the operating system cannot read.
     pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
         Error::Unreadable { path: path.to_owned(), reason: error.to_string() }
+    }
+
+    /// Returns the error of a file or folder `path` that the operating system cannot write.
+    pub(crate) fn unwritable(path: &Path, error: &std::io::Error) -> Error {
+        Error::Write { path: path.to_owned(), reason: error.to_string() }
     }
 
     /// Returns the error of a fault in a line of the text file `path`.

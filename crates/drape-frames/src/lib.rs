@@ -3,14 +3,17 @@
 //! # Tour
 //!
 //! [`Recording`] opens a folder and reads each [`Frame`]. The [`Manifest`] names the panels and
-//! bodies, the [`Topology`] has their triangles.
+//! bodies, the [`Topology`] has their triangles. A recording may also have its frames in memory, or
+//! from a [`FrameSource`]. [`FrameWriter`] writes a folder.
 //!
 //! Layers, lowest first:
 //!
 //! * `error`.
 //! * `text` and `array` read files.
 //! * `manifest`, `topology`, `index` and `energy_table` are the data that all frames share.
-//! * `array_frames` reads a frame, and `recording` a folder.
+//! * `array_frames` reads a frame.
+//! * `frame_source` and `folder_source` are where `recording` has its frames from.
+//! * `write` writes a folder.
 //!
 //! `surface` measures surfaces of triangles. [`samples`] writes runs for examples and tests.
 
@@ -31,8 +34,13 @@ mod surface;
 
 // Frames.
 mod array_frames;
+mod folder_source;
 mod frame;
+mod frame_source;
 mod recording;
+
+// Writing.
+mod write;
 
 // Runs for examples and tests.
 pub mod samples;
@@ -40,8 +48,10 @@ pub mod samples;
 pub use energy_table::EnergyTable;
 pub use error::Error;
 pub use frame::Frame;
+pub use frame_source::FrameSource;
 pub use manifest::{Manifest, SurfacePart};
 pub use recording::Recording;
 pub use surface::curvature::curvatures;
 pub use surface::vector;
 pub use topology::Topology;
+pub use write::writer::{FrameWriter, SavedWriter, prepare_folder, write_summary};

@@ -2,11 +2,16 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::Error;
 
+/// Format of the folders that this crate reads and writes.
+const FORMAT: u64 = 2;
+
 /// Data that all frames of a run share: the content of `surfaces.json`.
+///
+/// The default has no parts, and its surfaces are not kept apart.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Manifest {
     /// Format of the folder, 2.
@@ -86,6 +91,105 @@ fn hex_colour<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[u8; 3]>, D::
     Ok(Some([red, green, blue]))
 }
 
+impl Default for Manifest {
+    fn default() -> Self {
+        Self {
+            format: FORMAT,
+            surface_contact: false,
+            panels: Vec::new(),
+            bodies: Vec::new(),
+            pinch_fraction: full_separation(),
+            seam_pairs: Vec::new(),
+            ties: Vec::new(),
+        }
+    }
+}
+
+impl Serialize for Manifest {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct File<'a> {
+            format: u64,
+            /// Unit of all lengths.
+            units: &'static str,
+            /// Axis against gravity.
+            up: &'static str,
+            guarded: bool,
+            panels: &'a [SurfacePart],
+            bodies: &'a [SurfacePart],
+            #[serde(skip_serializing_if = "Option::is_none")]
+            thinned: Option<f64>,
+            #[serde(skip_serializing_if = "<[_]>::is_empty")]
+            twins: &'a [[u32; 2]],
+            #[serde(skip_serializing_if = "<[_]>::is_empty")]
+            ties: &'a [[u32; 3]],
+        }
+
+        let thinned = Some(self.pinch_fraction).filter(|fraction| *fraction != full_separation());
+        let file = File {
+            format: self.format,
+            units: "m",
+            up: "y",
+            guarded: self.surface_contact,
+            panels: &self.panels,
+            bodies: &self.bodies,
+            thinned,
+            twins: &self.seam_pairs,
+            ties: &self.ties,
+        };
+        file.serialize(to)
+    }
+}
+
+impl Default for SurfacePart {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            vertices: 0,
+            triangles: 0,
+            half_activation_distance: 0.0,
+            half_min_separation: 0.0,
+            fabric: String::new(),
+            weft: along_width(),
+            fabric_colour: None,
+        }
+    }
+}
+
+impl Serialize for SurfacePart {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct File<'a> {
+            name: &'a str,
+            vertices: usize,
+            triangles: usize,
+            reach: f64,
+            separation: f64,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            fabric: Option<&'a str>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            colour: Option<String>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            weft: Option<[f64; 2]>,
+        }
+
+        let colour = self.fabric_colour;
+        // A body has no fabric, and no weft.
+        let is_panel = !self.fabric.is_empty() || self.weft != along_width();
+        let file = File {
+            name: &self.name,
+            vertices: self.vertices,
+            triangles: self.triangles,
+            reach: self.half_activation_distance,
+            separation: self.half_min_separation,
+            fabric: is_panel.then_some(&self.fabric),
+            colour: colour.map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}")),
+            weft: is_panel.then_some(self.weft),
+        };
+        file.serialize(to)
+    }
+}
+
 impl SurfacePart {
     /// Returns the point of the panel with the weft coordinate `u` and the warp coordinate `v`, in
     /// m.
@@ -101,9 +205,6 @@ impl SurfacePart {
 impl Manifest {
     /// Parses and checks `text`, the content of the file `path`.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, Error> {
-        /// Format that this crate reads.
-        const FORMAT: u64 = 2;
-
         let manifest: Manifest = serde_json::from_str(text)
             .map_err(|error| Error::malformed(path, error.line(), error.to_string()))?;
         if manifest.format != FORMAT {
@@ -118,7 +219,7 @@ impl Manifest {
     ///
     /// # Errors
     /// The fault, in words.
-    fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         /// Largest number of vertices and triangles of all parts together.
         const COUNT_MAX: usize = 1 << 27;
 
@@ -185,16 +286,7 @@ mod tests {
     #[test]
     fn pattern_points_lie_along_the_weft_and_a_quarter_turn_anticlockwise_from_it() {
         for weft in [[1.0, 0.0], [0.6, 0.8], [0.0, 1.0], [-0.8, 0.6]] {
-            let part = SurfacePart {
-                name: "front".to_owned(),
-                vertices: 3,
-                triangles: 1,
-                half_activation_distance: 0.0,
-                half_min_separation: 0.0,
-                fabric: String::new(),
-                weft,
-                fabric_colour: None,
-            };
+            let part = SurfacePart { weft, ..SurfacePart::default() };
             let [x, y] = weft;
             assert_eq!(part.pattern_point([1.0, 0.0]), weft);
             assert_eq!(part.pattern_point([0.0, 1.0]), [-y, x]);

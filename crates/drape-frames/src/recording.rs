@@ -1,32 +1,41 @@
-//! Recording: the folder of a run, whose frames are read one by one.
+//! Recording: the frames of a run, from a folder or from memory, which are taken one by one.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use crate::array_frames;
 use crate::energy_table::EnergyTable;
 use crate::error::Error;
+use crate::folder_source::FolderSource;
 use crate::frame::Frame;
-use crate::index::{self, IndexEntry};
+use crate::frame_source::{FrameList, FrameSource, check_frame};
 use crate::manifest::Manifest;
 use crate::text::read_text;
 use crate::topology::Topology;
-use crate::{array, array_frames};
 
-/// Folder of a run, whose frames are read one by one.
+/// Frames of a run, from a folder or from memory, which are taken one by one.
 ///
 /// ```
-/// use drape_frames::{Error, Recording};
+/// use drape_frames::{Frame, Manifest, Recording, SurfacePart, Topology};
 ///
-/// let folder = tempfile::tempdir()?;
-/// assert!(matches!(Recording::open(folder.path()), Err(Error::NotARun { .. })));
-/// # Ok::<(), std::io::Error>(())
+/// // A program that has frames of its own needs no folder.
+/// let corners = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+/// let topology = Topology { material: corners, cloth: vec![[0, 1, 2]], bodies: Vec::new() };
+/// let flag = SurfacePart { name: "flag".into(), vertices: 3, triangles: 1, ..Default::default() };
+/// let manifest = Manifest { panels: vec![flag], ..Manifest::default() };
+/// let frame = |time: f64| Frame { time, cloth: vec![[time, 0.0, 0.0]; 3], ..Frame::default() };
+///
+/// let recording = Recording::of_frames(manifest, topology, vec![frame(0.0), frame(0.1)])?;
+/// assert_eq!(recording.frame(1)?.cloth[2], [0.1, 0.0, 0.0]);
+/// # Ok::<(), drape_frames::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Recording {
-    folder: PathBuf,
+    /// Folder of the run, or `None` for frames in memory.
+    folder: Option<PathBuf>,
     manifest: Manifest,
     topology: Topology,
-    /// Lines of `frames.csv`.
-    frames: Vec<IndexEntry>,
+    source: Arc<dyn FrameSource>,
     /// Whether the summary says that the run has ended.
     ended: bool,
 }
@@ -53,26 +62,58 @@ impl Recording {
         // A summary exists once the run has ended, and gives the number of its frames.
         let summary = folder.join("summary.json");
         let announced = if summary.exists() { announced_count(&summary)? } else { None };
-        let frames = list_frames(folder, announced)?;
+        let source = Arc::new(FolderSource::open(folder, &manifest, announced)?);
         let topology = array_frames::topology(folder, &manifest)?;
 
-        let (folder, ended) = (folder.to_owned(), announced.is_some());
-        Ok(Recording { folder, manifest, topology, frames, ended })
+        let (folder, ended) = (Some(folder.to_owned()), announced.is_some());
+        Ok(Recording { folder, manifest, topology, source, ended })
     }
 
-    /// Returns the folder that was opened.
+    /// Returns the recording of `frames` in memory, in the order of their times. The frames are
+    /// numbered from 0. Each frame has the vertices of the panels of `manifest` and then of its
+    /// bodies.
+    ///
+    /// # Errors
+    /// [`Error`] if `topology` or a frame does not fit `manifest`, or if there is no frame.
+    pub fn of_frames(
+        manifest: Manifest,
+        topology: Topology,
+        frames: Vec<Frame>,
+    ) -> Result<Recording, Error> {
+        let list = FrameList::new(&manifest, frames)?;
+        Recording::of_source(manifest, topology, Arc::new(list))
+    }
+
+    /// Returns the recording of the frames of `source`.
+    ///
+    /// # Errors
+    /// [`Error`] if `topology` does not fit `manifest`, or if there is no frame. The frames are not
+    /// read.
+    pub fn of_source(
+        manifest: Manifest,
+        topology: Topology,
+        source: Arc<dyn FrameSource>,
+    ) -> Result<Recording, Error> {
+        topology.check(&manifest)?;
+        if source.frame_count() == 0 {
+            return Err(Error::BadFrame { number: 0, reason: "there is no frame".to_owned() });
+        }
+        Ok(Recording { folder: None, manifest, topology, source, ended: true })
+    }
+
+    /// Returns the folder that was opened, or `None` for frames in memory.
     #[must_use]
-    pub fn folder(&self) -> &Path {
-        &self.folder
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
     }
 
     /// Returns the number of frames, which is at least 1.
     #[must_use]
     pub fn frame_count(&self) -> usize {
-        self.frames.len()
+        self.source.frame_count()
     }
 
-    /// Returns whether the summary says that the run has ended.
+    /// Returns whether the summary says that the run has ended. Frames in memory are complete.
     #[must_use]
     pub fn ended(&self) -> bool {
         self.ended
@@ -90,28 +131,26 @@ impl Recording {
         &self.topology
     }
 
-    /// Returns the time of frame `number` in s.
+    /// Returns the time of the frame `number`, in s.
     ///
     /// # Errors
     /// [`Error::NoFrame`] if there is no such frame.
     pub fn time(&self, number: usize) -> Result<f64, Error> {
-        Ok(self.entry(number)?.time)
+        self.check_number(number)?;
+        Ok(self.source.time(number))
     }
 
-    /// Reads frame `number`.
+    /// Returns the frame `number`.
     ///
     /// # Errors
     /// [`Error::NoFrame`] if there is no such frame. Another [`Error`] if a file is missing, or has
-    /// content that no run writes.
+    /// content that no run writes, or if the frame of a source does not fit the parts.
     pub fn frame(&self, number: usize) -> Result<Frame, Error> {
-        let entry = *self.entry(number)?;
-        let mut frame = array_frames::read(&self.folder, &self.manifest, entry)?;
-
-        // Older runs stored only the pressures of the last frame.
-        let file = self.last_pressures();
-        if number + 1 == self.frame_count() && frame.pressures.is_none() && file.exists() {
-            let count = self.manifest.cloth_counts().vertices;
-            frame.pressures = Some(array::exact_pressures(&file, count)?);
+        self.check_number(number)?;
+        let frame = self.source.frame(number)?;
+        // The readers of a folder have checked the frame.
+        if self.folder.is_none() {
+            check_frame(&self.manifest, None, &frame)?;
         }
         Ok(frame)
     }
@@ -119,49 +158,26 @@ impl Recording {
     /// Returns whether the pressure of contact was stored for at least one frame.
     #[must_use]
     pub fn has_pressures(&self) -> bool {
-        let in_list = self.frames.iter().any(|entry| entry.touched.is_some());
-        in_list || self.last_pressures().exists()
+        self.source.has_pressures()
     }
 
-    /// Reads the energy balance at each frame, or returns `None` if the run recorded none.
+    /// Returns the energy balance at each frame, or `None` if the run recorded none.
     ///
     /// # Errors
     /// [`Error`] if the file has content that no run writes.
     pub fn energy(&self) -> Result<Option<EnergyTable>, Error> {
-        let path = self.folder.join("energy.csv");
-        path.exists().then(|| EnergyTable::read(&path, self.frame_count())).transpose()
+        self.source.energy()
     }
 
-    /// Returns the line of frame `number`.
-    fn entry(&self, number: usize) -> Result<&IndexEntry, Error> {
-        self.frames.get(number).ok_or_else(|| {
-            let (folder, last) = (self.folder.clone(), self.frame_count() - 1);
-            Error::NoFrame { folder, number, last }
-        })
+    /// Checks that there is a frame `number`.
+    fn check_number(&self, number: usize) -> Result<(), Error> {
+        let count = self.frame_count();
+        if number < count {
+            return Ok(());
+        }
+        let (folder, last) = (self.folder.clone(), count - 1);
+        Err(Error::NoFrame { folder, number, last })
     }
-
-    /// Returns the file in which older runs stored the pressures of the last frame.
-    fn last_pressures(&self) -> PathBuf {
-        self.folder.join("pressure.npy")
-    }
-}
-
-/// Returns the list of the frames in `folder`. `announced` is the number of frames that the summary
-/// gives, if there is one.
-///
-/// # Errors
-/// [`Error::MissingFrame`] if a frame is missing.
-fn list_frames(folder: &Path, announced: Option<usize>) -> Result<Vec<IndexEntry>, Error> {
-    let entries = index::read(&folder.join("frames.csv"))?;
-    let needed = announced.unwrap_or(1).max(entries.len());
-    let found = (0..entries.len())
-        .take_while(|number| folder.join(array_frames::name(*number)).exists())
-        .count();
-    if found != needed {
-        let (folder, missing) = (folder.to_owned(), array_frames::name(found));
-        return Err(Error::MissingFrame { folder, missing, found, needed });
-    }
-    Ok(entries)
 }
 
 /// Reads the number of frames from the summary in the file `path`.

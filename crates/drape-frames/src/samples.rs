@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-use npyz::{AutoSerialize, WriterBuilder};
+use crate::write::npy;
 
 /// Run that is written to a folder as `drape run` writes frames.
 ///
@@ -103,35 +103,28 @@ impl SampleRun {
     /// A file cannot be written.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         std::fs::write(folder.join("surfaces.json"), format!("{}\n", self.manifest))?;
-        write_array(&folder.join("material.npy"), &self.material)?;
-        write_array(&folder.join("triangles.npy"), &self.triangles)?;
+        npy::write(&mut File::create(folder.join("material.npy"))?, &self.material)?;
+        npy::write(&mut File::create(folder.join("triangles.npy"))?, &self.triangles)?;
         let has_bodies = !self.body_triangles.is_empty();
         if has_bodies {
-            write_array(&folder.join("body-triangles.npy"), &self.body_triangles)?;
+            npy::write(
+                &mut File::create(folder.join("body-triangles.npy"))?,
+                &self.body_triangles,
+            )?;
         }
 
         let mut list = "number,time,growth,bodies\n".to_owned();
         for (number, SampleFrame { time, cloth, bodies }) in self.frames.iter().enumerate() {
-            write_array(&folder.join(format!("frame-{number:05}.npy")), cloth)?;
+            npy::write(&mut File::create(folder.join(format!("frame-{number:05}.npy")))?, cloth)?;
             if has_bodies {
-                write_array(&folder.join(format!("bodies-{number:05}.npy")), bodies)?;
+                npy::write(
+                    &mut File::create(folder.join(format!("bodies-{number:05}.npy")))?,
+                    bodies,
+                )?;
             }
             let bodies_number = if has_bodies { number.to_string() } else { String::new() };
             list += &format!("{number},{time:?},1.0,{bodies_number}\n");
         }
         std::fs::write(folder.join("frames.csv"), list)
     }
-}
-
-/// Writes `rows` as an array of NumPy to the file `path`.
-fn write_array<T: AutoSerialize + Copy, const N: usize>(
-    path: &Path,
-    rows: &[[T; N]],
-) -> io::Result<()> {
-    let file = File::create(path)?;
-    let shape = [rows.len() as u64, N as u64];
-    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
-    let mut writer = options.writer(file).begin_nd()?;
-    writer.extend(rows.iter().flatten().copied())?;
-    writer.finish()
 }

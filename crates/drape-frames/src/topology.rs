@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::manifest::SurfacePart;
+use crate::manifest::{Manifest, SurfacePart};
 
 /// Triangles and material coordinates that all frames share.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Topology {
     /// Weft and warp coordinate of each vertex of the cloth at rest, in m.
     pub material: Vec<[f64; 2]>,
@@ -14,6 +14,37 @@ pub struct Topology {
     pub cloth: Vec<[u32; 3]>,
     /// Triangles of the bodies, body after body: numbers of vertices of the bodies.
     pub bodies: Vec<[u32; 3]>,
+}
+
+impl Topology {
+    /// Checks that the topology has the vertices and triangles of `manifest`, and checks
+    /// `manifest`.
+    ///
+    /// # Errors
+    /// [`Error::BadTopology`] or [`Error::BadTriangle`].
+    pub(crate) fn check(&self, manifest: &Manifest) -> Result<(), Error> {
+        manifest.check().map_err(|reason| Error::BadTopology { reason })?;
+        let (cloth, bodies) = (manifest.cloth_counts(), manifest.body_counts());
+        let counts = [
+            ("material coordinates", self.material.len(), cloth.vertices),
+            ("triangles of cloth", self.cloth.len(), cloth.triangles),
+            ("triangles of bodies", self.bodies.len(), bodies.triangles),
+        ];
+        for (what, found, needed) in counts {
+            if found != needed {
+                let reason = format!("there are {found} {what}, and the parts have {needed}");
+                return Err(Error::BadTopology { reason });
+            }
+        }
+
+        let finite = self.material.iter().flatten().all(|coordinate| coordinate.is_finite());
+        if !finite {
+            let reason = "a material coordinate is no number".to_owned();
+            return Err(Error::BadTopology { reason });
+        }
+        check_corners(Path::new("cloth"), &self.cloth, &manifest.panels)?;
+        check_corners(Path::new("bodies"), &self.bodies, &manifest.bodies)
+    }
 }
 
 /// Checks that the corners of each of `triangles` are three different vertices of its part.

@@ -68,7 +68,7 @@ fn a_folder_gives_the_frame_that_its_files_hold() {
     let frame = read(folder.path()).unwrap();
     assert_eq!(frame.cloth, [[0.0, 2e-4, 0.0], [0.0, 2e-4, 1.0], [1.0, 2e-4, 0.0]]);
     assert_eq!(frame.bodies, [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
-    assert_eq!((frame.time, frame.growth), (Some(0.5), 1.0));
+    assert_eq!((frame.time, frame.growth_fraction), (0.5, 1.0));
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn a_frame_gives_the_fraction_to_which_its_separation_has_grown() {
     let with = |growth: &str| {
         let list = format!("number,time,growth,bodies\n0,0.5,{growth},0\n");
         write(folder.path(), "frames.csv", list.as_bytes());
-        read(folder.path()).map(|frame| frame.growth)
+        read(folder.path()).map(|frame| frame.growth_fraction)
     };
     assert_eq!(
         [with("0.25").unwrap(), with("1e-3").unwrap(), with("1").unwrap()],

@@ -80,27 +80,15 @@ pub(crate) fn of_scene(error: drape::scene::Error) -> PyErr {
     }
 }
 
-/// Returns the exception of stored frames that cannot be read.
+/// Returns the exception of frames that cannot be read or written.
 pub(crate) fn of_frames(error: drape::frames::Error) -> PyErr {
-    failure(Kind::Output, error)
-}
-
-/// Returns the exception of a simulation that cannot go on.
-pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
-    use drape::dynamics::Error;
+    use drape::frames::Error;
     match error {
         Error::Occupied { folder } => failure(
             Kind::Usage,
             format!(
                 "{} holds results already; give another folder, or allow it with replace=True",
                 folder.display()
-            ),
-        ),
-        Error::Unfit { reason } => failure(
-            Kind::Solver,
-            format!(
-                "the checkpoint does not fit the scene: {reason}; run the scene anew with \
-                 replace=True"
             ),
         ),
         Error::LostFrames { path, found, frames } => failure(
@@ -111,8 +99,23 @@ pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
                 path.display()
             ),
         ),
+        error => failure(Kind::Output, error),
+    }
+}
+
+/// Returns the exception of a simulation that cannot go on.
+pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
+    use drape::dynamics::Error;
+    match error {
+        Error::Unfit { reason } => failure(
+            Kind::Solver,
+            format!(
+                "the checkpoint does not fit the scene: {reason}; run the scene anew with \
+                 replace=True"
+            ),
+        ),
+        Error::Frames(error) => of_frames(error),
         Error::Unsuited { reason } => failure(Kind::Usage, reason),
-        Error::Write { .. } => failure(Kind::Output, error),
         error => failure(Kind::Solver, error),
     }
 }

@@ -67,7 +67,7 @@ impl Recording {
     /// Verdicts on all frames, as JSON.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
         let verdicts = py.detach(|| {
-            let verifier = Verifier::open(self.0.folder())?;
+            let verifier = Verifier::new(self.0.clone());
             let verdict = |number| {
                 let verdict = verifier.verify(number)?;
                 let mut value = serde_json::to_value(&verdict).unwrap_or_default();

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
+use drape::dynamics::{self, Energy, Progress, Simulation, Step, Summary};
+use drape::frames::Frame;
 use drape::input::{Document, FileAccess};
 use drape::run::file::FileKind;
 use drape::run::{
@@ -114,7 +115,8 @@ impl Watcher for Reporter<'_> {
     fn frame(&mut self, frame: &Frame) {
         if self.frames {
             let (number, time) = (frame.number, frame.time);
-            self.outbox.send(Event::Frame { number, time, positions: frame.positions.clone() });
+            let positions = frame.cloth.as_flattened().to_vec();
+            self.outbox.send(Event::Frame { number, time, positions });
         }
     }
 
@@ -135,7 +137,7 @@ impl Progress for Unkept<'_> {
         self.reporter.step(step, done);
     }
 
-    fn frame(&mut self, frame: &Frame) -> Result<(), dynamics::Error> {
+    fn frame(&mut self, frame: &Frame, _: Option<&Energy>) -> Result<(), dynamics::Error> {
         self.reporter.frame(frame);
         Ok(())
     }

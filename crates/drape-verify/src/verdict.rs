@@ -32,11 +32,11 @@ const LISTED_MAX: usize = 10;
 pub struct Verdict {
     /// Number of the frame.
     pub number: usize,
-    /// File of the frame.
-    pub file: PathBuf,
-    /// Time of the frame, in s, if the file gives it.
-    pub time: Option<f64>,
-    /// Growth fraction of the minimum separation that the file gives, 0 to 1. The fraction is less
+    /// File of the frame, or `None` for a frame in memory.
+    pub file: Option<PathBuf>,
+    /// Time of the frame, in s.
+    pub time: f64,
+    /// Growth fraction of the minimum separation in the frame, 0 to 1. The fraction is less
     /// than 1 while the separation still grows.
     #[serde(rename = "grown")]
     pub growth: f64,
@@ -160,7 +160,7 @@ struct PromisedDistances {
 
 /// Tests all pairs of triangles of `frame`, except pairs of two bodies.
 pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
-    let Frame { number, file, time, growth, cloth, bodies, .. } = frame;
+    let Frame { number, file, time, growth_fraction: growth, cloth, bodies, .. } = frame;
     let positions = [cloth, bodies].concat();
     let [joints, closed] = [0.0, CLOSED].map(|gap| mesh.sewn.joined_within(gap, &positions));
     let enclosed = enclosed(mesh, &joints, &positions);

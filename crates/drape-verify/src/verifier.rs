@@ -1,4 +1,4 @@
-//! Verifier: tests the frames of a folder.
+//! Verifier: tests the frames of a recording.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use drape_frames::{Error, Recording};
 use crate::mesh::Mesh;
 use crate::verdict::{Verdict, verify};
 
-/// Verifier of the frames of a folder.
+/// Verifier of the frames of a recording.
 #[derive(Debug, Clone)]
 pub struct Verifier {
     recording: Recording,
@@ -20,9 +20,14 @@ impl Verifier {
     /// # Errors
     /// [`Error`] if a file is missing, or has content that no run writes.
     pub fn open(folder: impl AsRef<Path>) -> Result<Verifier, Error> {
-        let recording = Recording::open(folder)?;
+        Ok(Verifier::new(Recording::open(folder)?))
+    }
+
+    /// Returns the verifier of the frames of `recording`, which may be in memory.
+    #[must_use]
+    pub fn new(recording: Recording) -> Verifier {
         let mesh = Mesh::new(recording.manifest(), recording.topology());
-        Ok(Verifier { recording, mesh })
+        Verifier { recording, mesh }
     }
 
     /// Returns the [`Recording`] whose frames are tested.

@@ -51,8 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     while !simulation.step()?.finished {}
 
     // Heights of the upper edge, below the corners.
-    let frame = simulation.frame();
-    let particles = frame.positions.as_chunks::<3>().0;
+    let particles = simulation.positions().as_chunks::<3>().0;
     let top = simulation.coordinates().iter().map(|[_, v]| *v).fold(f64::MIN, f64::max);
     let upper = simulation.coordinates().iter().zip(particles);
     let upper = upper.filter(|([_, v], _)| top - v < 1e-9);

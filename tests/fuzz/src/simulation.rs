@@ -52,26 +52,19 @@ pub fn simulate(bytes: &[u8]) {
         // A step that cannot be solved leaves the last good state, which holds too.
         let ended = simulation.step().is_err();
         let frame = simulation.frame();
-        let all = || frame.positions.iter().chain(&frame.bodies);
+        let all = || frame.cloth.iter().chain(&frame.bodies).flatten();
         assert!(all().all(|x| x.is_finite()), "step {step} of\n{text}");
         if let Some(energy) = simulation.energy() {
             let numbers = serde_json::to_value(energy).expect("JSON");
             let finite = |number: &serde_json::Value| number.is_number();
             assert!(numbers.as_object().is_some_and(|own| own.values().all(finite)), "{numbers}");
         }
-        let cloth = frame.positions.len() / 3;
-        let corner = |positions: &[f64], k: u32| {
-            let first = 3 * k as usize;
-            [positions[first], positions[first + 1], positions[first + 2]]
-        };
-        let of_cloth =
-            topology.triangles.iter().map(|t| (*t, t.map(|k| corner(&frame.positions, k))));
-        let of_bodies = topology
-            .body_triangles
-            .iter()
-            .map(|t| (t.map(|k| k + cloth as u32), t.map(|k| corner(&frame.bodies, k))));
+        let cloth = frame.cloth.len() as u32;
+        let of_cloth = topology.cloth.iter().map(|t| (*t, t.map(|k| frame.cloth[k as usize])));
+        let bodies = topology.bodies.iter();
+        let of_bodies = bodies.map(|t| (t.map(|k| k + cloth), t.map(|k| frame.bodies[k as usize])));
         let triangles: Vec<_> = of_cloth.chain(of_bodies).collect();
-        for (number, (own, place)) in triangles.iter().take(topology.triangles.len()).enumerate() {
+        for (number, (own, place)) in triangles.iter().take(topology.cloth.len()).enumerate() {
             for (other, there) in &triangles[number + 1..] {
                 let joined = own.iter().any(|k| other.contains(k));
                 assert!(

@@ -66,7 +66,6 @@ pub extern "C" fn lowest_height(step_count: u32) -> f64 {
     for _ in 0..step_count {
         simulation.step().expect("a step");
     }
-    let frame = simulation.frame();
-    let heights = frame.positions.chunks_exact(3).map(|position| position[1]);
+    let heights = simulation.positions().chunks_exact(3).map(|position| position[1]);
     1e3 * heights.fold(f64::MAX, f64::min)
 }

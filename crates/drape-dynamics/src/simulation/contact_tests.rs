@@ -2,20 +2,19 @@
 
 use std::path::Path;
 
+use drape_frames::{Frame, Recording};
 use drape_implicit::Settings;
 use drape_input::Document;
 use drape_scene::Scene;
 use drape_verify::{Verdict, Verifier};
 
 use crate::error::Error;
-use crate::record::frame::Frame;
-use crate::record::recorder::{Recorder, prepare_folder};
 use crate::record::summary::{Contacts, Status};
 use crate::simulation::Simulation;
 use crate::simulation::run::Progress;
 use crate::stepping::Scheme;
-use crate::world::Omitted;
 use crate::world::world_tests::FABRIC;
+use crate::world::{Energy, Omitted};
 
 /// A slanting sheet that goes 60 mm in a step, towards a plate of a millimetre.
 const THROWN: &str = r#"spacing = 0.01
@@ -52,11 +51,12 @@ struct End {
     exempt_depth: f64,
 }
 
-struct Film<'a>(Recorder<'a>);
+struct Film(Vec<Frame>);
 
-impl Progress for Film<'_> {
-    fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
-        self.0.frame(frame)
+impl Progress for Film {
+    fn frame(&mut self, frame: &Frame, _: Option<&Energy>) -> Result<(), Error> {
+        self.0.push(frame.clone());
+        Ok(())
     }
 }
 
@@ -73,11 +73,11 @@ fn run_in(folder: &Path, text: &str, omitted: Omitted, stiffness: Option<f64>) -
     scene.contact.stiffness = stiffness.or(scene.contact.stiffness);
     let mut simulation = Simulation::new(scene).expect("a solver");
     simulation.world.contact.surfaces_mut().expect("surfaces").omitted = omitted;
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = prepare_folder(folder.path(), false).expect("an empty folder");
-    let mut film = Film(output.record(&simulation.topology()).expect("it can be written"));
-    let summary = simulation.run(&mut film).expect("frames can be written");
-    let verifier = Verifier::open(folder.path()).expect("a run");
+    let (manifest, topology) = (simulation.manifest(), simulation.topology());
+    let mut film = Film(Vec::new());
+    let summary = simulation.run(&mut film).expect("frames are kept");
+    let recording = Recording::of_frames(manifest, topology, film.0).expect("a run");
+    let verifier = Verifier::new(recording);
     let frames = 0..verifier.recording().frame_count();
     let verdicts = frames.map(|number| verifier.verify(number).expect("a frame"));
     let verdicts: Vec<Verdict> = verdicts.collect();

@@ -2,13 +2,15 @@
 
 use std::time::Duration;
 
+use drape_frames::Frame;
+
 use super::saved::SavedSimulation;
 use super::{Simulation, Step};
 use crate::error::Error;
 use crate::measure::{at_particles, measures, warnings};
-use crate::record::frame::Frame;
 use crate::record::stopwatch::now;
 use crate::record::summary::{Status, Summary};
+use crate::world::Energy;
 
 /// Duration of a step above which the state is copied before the next step, which can then be
 /// rolled back when it is cancelled. The copy takes less than a hundredth of the step.
@@ -19,19 +21,12 @@ pub trait Progress {
     /// Called after each [`Step`], with the time in ticks of the clock.
     fn step(&mut self, _step: &Step, _ticks: usize) {}
 
-    /// Called when a [`Frame`] is due.
+    /// Called when a [`Frame`] is due, with the energy balance since the start, or since the garment
+    /// was sewn, if the scene keeps one.
     ///
     /// # Errors
-    ///
     /// Returns an error if the frame cannot be stored. The run then ends with this error.
-    ///
-    /// # Errors
-    ///
-    /// Returns an error if the frame cannot be stored. The run then ends with this error.
-    ///
-    /// # Errors
-    /// Whatever keeps the frame from being stored; the run then ends with it.
-    fn frame(&mut self, _frame: &Frame) -> Result<(), Error> {
+    fn frame(&mut self, _frame: &Frame, _energy: Option<&Energy>) -> Result<(), Error> {
         Ok(())
     }
 
@@ -45,15 +40,7 @@ pub trait Progress {
     /// Called with the [`SavedSimulation`] from which the run can resume.
     ///
     /// # Errors
-    ///
     /// Returns an error if the state cannot be stored. The run then ends with this error.
-    ///
-    /// # Errors
-    ///
-    /// Returns an error if the state cannot be stored. The run then ends with this error.
-    ///
-    /// # Errors
-    /// Whatever keeps it from being stored; the run then ends with it.
     fn checkpoint(&mut self, _saved: &SavedSimulation) -> Result<(), Error> {
         Ok(())
     }
@@ -80,10 +67,6 @@ struct CountsBefore {
 impl Simulation {
     /// Runs to the end, to rest, or to a step that cannot be solved, and reports to `progress`. The
     /// [`Summary`] says how the run ended.
-    ///
-    /// # Errors
-    ///
-    /// Returns the errors of `progress`, and no others.
     ///
     /// # Errors
     /// Returns the errors of `progress`, and no others.
@@ -205,8 +188,8 @@ impl Simulation {
             return Ok(());
         }
         let mut frame = self.frame();
-        frame.pressures = at_particles(&mut self.world, &frame.positions);
-        progress.frame(&frame)?;
+        frame.pressures = at_particles(&mut self.world, frame.cloth.as_flattened());
+        progress.frame(&frame, self.energy().as_ref())?;
         self.frame_times.push(self.time());
         Ok(())
     }

@@ -123,7 +123,7 @@ fn hang(fullness: u32) {
     let mut simulation = Simulation::new(scene(fullness)).expect("it starts");
     let summary = simulation.run(&mut ()).expect("it runs");
     assert_eq!(summary.status, Status::Ok, "{:?}", summary.reason);
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let pairs = seam_pairs(fullness);
     for [a, b] in &pairs.pairs {
         let place = |node: &u32| &positions[3 * *node as usize..][..3];

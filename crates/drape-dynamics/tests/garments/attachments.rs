@@ -39,13 +39,13 @@ fn run(simulation: &mut Simulation) -> Summary {
 
 /// Least and largest distance of all particles from the axis of the post, in m.
 fn radii(simulation: &Simulation) -> [f64; 2] {
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let radii = positions.chunks_exact(3).map(|x| x[0].hypot(x[2]));
     radii.fold([f64::MAX, 0.0], |[low, high], radius| [low.min(radius), high.max(radius)])
 }
 
 fn highest(simulation: &Simulation) -> f64 {
-    simulation.frame().positions.chunks_exact(3).map(|x| x[1]).fold(f64::MIN, f64::max)
+    simulation.positions().chunks_exact(3).map(|x| x[1]).fold(f64::MIN, f64::max)
 }
 
 #[test]

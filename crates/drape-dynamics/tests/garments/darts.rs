@@ -37,7 +37,7 @@ fn sewn(pattern: &str, spacing: f64) -> (Scene, Simulation) {
 
 /// Returns the length of the section of the cloth at a height, in m.
 fn girth((scene, simulation): &(Scene, Simulation), height: f64) -> f64 {
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let place = |corner: u32| -> [f64; 3] {
         std::array::from_fn(|axis| positions[3 * corner as usize + axis])
     };
@@ -78,7 +78,7 @@ fn a_tube_with_closed_darts_has_the_girth_that_they_leave() {
     // Each seam is closed: the pairs of each are in one place.
     let sewing = scene.sewing.as_ref().unwrap();
     assert_eq!(sewing.seams.len(), 5);
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     assert!(sewing.pairs.gaps(&positions).all(|gap| gap < 1e-12));
     // Between the tips a dart takes in as much as its width there. The weave is soft across its
     // yarns where it is bent to a dome: 2 %.
@@ -118,7 +118,7 @@ fn a_disc_with_an_open_dart_is_the_cone_of_the_angle_that_is_left() {
              [[panel.disc.dart]]\nname = \"gore\"\nedge = \"lower\"\nat = 150\nwidth = {mouth}\nto = [0, 0]\n"
         );
         let (scene, simulation) = sewn(&pattern, 0.01);
-        let positions = simulation.frame().positions;
+        let positions = simulation.positions().to_vec();
         let place = |particle: usize| -> [f64; 3] {
             std::array::from_fn(|axis| positions[3 * particle + axis])
         };

@@ -111,7 +111,7 @@ fn two_tubes_are_sewn_round_each_other_and_the_outer_one_stays_outside() {
     // Their girths are the same, so that they press on each other, or the inner one has a dent:
     // every particle of the outer one is farther from the axis than the inner one is beside it,
     // half a centimetre up or down, in the same direction.
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let places = |panels: [std::ops::Range<usize>; 2]| -> Vec<[f64; 3]> {
         let polar = |x: &[f64]| [x[2].atan2(x[0]), x[1], x[0].hypot(x[2])];
         panels

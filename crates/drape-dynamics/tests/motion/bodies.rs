@@ -11,7 +11,7 @@ fn run(sheet: &Sheet) -> Simulation {
 }
 
 fn middle(simulation: &Simulation) -> [f64; 3] {
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let count = positions.len() as f64 / 3.0;
     let mut sum = [0.0; 3];
     positions.chunks_exact(3).for_each(|x| (0..3).for_each(|axis| sum[axis] += x[axis] / count));

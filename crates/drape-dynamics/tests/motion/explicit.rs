@@ -31,11 +31,11 @@ fn largest(one: &[f64], other: &[f64]) -> f64 {
 fn implicit_and_explicit_steps_lead_to_the_same_motion() {
     // Stability asks for 0.15 ms here.
     let explicit = [8e-5, 4e-5, 2e-5].map(|step| swing(EXPLICIT, step, false));
-    let places = explicit.each_ref().map(|simulation| simulation.frame().positions);
+    let places = explicit.each_ref().map(|simulation| simulation.positions().to_vec());
     // Of first order: twice the finer less the coarser has no error of that order.
     let limit: Vec<f64> = places[2].iter().zip(&places[1]).map(|(f, c)| 2.0 * f - c).collect();
     let distances = [2e-3, 1e-3, 5e-4, 2.5e-4]
-        .map(|step| largest(&swing(None, step, false).frame().positions, &limit));
+        .map(|step| largest(swing(None, step, false).positions(), &limit));
     let orders: Vec<f64> = distances.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
     println!("second order: {distances:?}, {orders:?}");
     let errors = places.each_ref().map(|places| largest(places, &limit));
@@ -57,8 +57,8 @@ fn implicit_and_explicit_steps_lead_to_the_same_motion() {
 fn they_do_so_with_friction_too() {
     let explicit = swing(EXPLICIT, 4e-5, true);
     let implicit = [1e-3, 2.5e-4].map(|step| swing(None, step, true));
-    let places = explicit.frame().positions;
-    let distances = implicit.each_ref().map(|i| largest(&i.frame().positions, &places));
+    let places = explicit.positions().to_vec();
+    let distances = implicit.each_ref().map(|i| largest(i.positions(), &places));
     let lost = |s: &Simulation| s.energy().unwrap().friction_dissipated;
     let frictions = [lost(&explicit), lost(&implicit[0]), lost(&implicit[1])];
     println!("{distances:?} m, friction {frictions:?} J");

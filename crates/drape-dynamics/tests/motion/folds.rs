@@ -81,7 +81,7 @@ impl Folded {
         let mut simulation = Simulation::new(self.scene().unwrap()).unwrap();
         let summary = simulation.run(&mut ()).unwrap();
         assert_eq!(summary.status, Status::Ok, "{summary:?}");
-        let positions = simulation.frame().positions;
+        let positions = simulation.positions().to_vec();
         let at = |k: u32| -> [f64; 3] { std::array::from_fn(|a| positions[3 * k as usize + a]) };
         let (sin, cos) = self.slant.to_radians().sin_cos();
         let (grain_sin, grain_cos) = self.grain.to_radians().sin_cos();
@@ -193,7 +193,7 @@ fn a_seam_has_the_angle_of_its_pattern() {
     let mut simulation = Simulation::new(scene).unwrap();
     let summary = simulation.run(&mut ()).unwrap();
     assert_eq!(summary.status, Status::Ok, "{summary:?}");
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let half = (positions.len() / 6) as u32;
     let mut panels = [[0.0; 3]; 2];
     for triangle in simulation.triangles() {

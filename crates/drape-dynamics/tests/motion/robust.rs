@@ -16,7 +16,7 @@ fn run(sheet: &Sheet) -> Result<(usize, f64), String> {
         }
     }
     let summary = simulation.summary();
-    let sound = simulation.frame().positions.iter().all(|x| x.is_finite());
+    let sound = simulation.positions().iter().all(|x| x.is_finite());
     if !sound || summary.contact.intersections > 0 {
         return Err(format!("{} particles inside", summary.contact.intersections));
     }

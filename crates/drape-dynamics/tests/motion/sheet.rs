@@ -98,6 +98,6 @@ impl Sheet {
 
 /// Largest distance of a particle in two simulations, m.
 pub fn apart(one: &Simulation, other: &Simulation) -> f64 {
-    let (one, other) = (one.frame().positions, other.frame().positions);
+    let (one, other) = (one.positions().to_vec(), other.positions().to_vec());
     one.iter().zip(&other).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
 }

@@ -79,8 +79,8 @@ fn owners(parts: &[SurfacePart]) -> Vec<u32> {
 fn bodies_move(clip: &Clip) -> Result<bool, Error> {
     let first = clip.read(0)?;
     for index in 1..clip.frame_count() {
-        let Frame { bodies_file, bodies, .. } = clip.read(index)?;
-        if bodies_file != first.bodies_file && bodies != first.bodies {
+        let Frame { bodies_frame, bodies, .. } = clip.read(index)?;
+        if bodies_frame != first.bodies_frame && bodies != first.bodies {
             return Ok(true);
         }
     }

@@ -70,10 +70,7 @@ pub fn write_rest_obj(recording: &Recording, frame: &Frame, mut to: impl Write) 
 
 /// Writes the unit and the time of `frame` as a comment.
 fn head(frame: &Frame, to: &mut impl Write) -> io::Result<()> {
-    match frame.time {
-        Some(time) => writeln!(to, "# metres, y up; t = {time} s"),
-        None => writeln!(to, "# metres, y up"),
-    }
+    writeln!(to, "# metres, y up; t = {} s", frame.time)
 }
 
 /// Writes `positions` as vertices.

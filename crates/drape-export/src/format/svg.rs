@@ -179,10 +179,10 @@ impl Page {
     fn new(map: &PatternMap, sheet: [f64; 2], text: f64) -> Page {
         let margin = 1.5 * text;
         let label = format!("{}, {}", map.field.label(), map.field.unit());
-        let time = map.frame.time.map_or(String::new(), |time| format!(", {time:.3} s"));
+        let (number, time) = (map.frame.number, map.frame.time);
         let longest = sheet[0].max(sheet[1]).max(1e-3);
         Page {
-            title: format!("{label}: frame {}{time}", map.frame.number),
+            title: format!("{label}: frame {number}, {time:.3} s"),
             label,
             range: scale::range(map.values.iter().copied(), map.field.is_signed()),
             is_signed: map.field.is_signed(),

@@ -60,9 +60,7 @@ pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>"
     )?;
     // Data of the whole surface.
-    if let Some(time) = frame.time {
-        numbers("TimeValue", &[[time]], &mut to)?;
-    }
+    numbers("TimeValue", &[[frame.time]], &mut to)?;
     words("units", ["m"], &mut to)?;
     words("up", ["y"], &mut to)?;
     words("names", parts.iter().map(|part| &*part.name), &mut to)?;

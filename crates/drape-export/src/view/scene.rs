@@ -1,5 +1,7 @@
 //! Scene: one run as the elements of a page.
 
+use std::path::Path;
+
 use drape_frames::{EnergyTable, Error, Frame, Recording, SurfacePart};
 use serde_json::{Value, json};
 
@@ -58,7 +60,7 @@ impl Scene {
         let ShownSamples { frames, fields } = samples.shown(&chosen);
         let content = Content::new(recording, &frames, &fields);
         let data = deflated(&content.bytes).map_err(|error| Error::Unreadable {
-            path: recording.folder().to_owned(),
+            path: recording.folder().unwrap_or(Path::new("page")).to_owned(),
             reason: error.to_string(),
         })?;
         let mut meta = meta(run, &frames, &fields, &content)?;
@@ -142,7 +144,7 @@ fn body_states(frames: &[&Frame]) -> Vec<usize> {
         let state = match k.checked_sub(1) {
             None => 0,
             Some(before) => {
-                let moved = frames[before].bodies_file != frame.bodies_file;
+                let moved = frames[before].bodies_frame != frame.bodies_frame;
                 states[before] + usize::from(moved)
             }
         };
@@ -188,7 +190,7 @@ fn body_entry(part: &SurfacePart, bounds: &Bounds) -> Value {
 /// without bodies.
 fn frame_entry(frame: &Frame, body_state: Option<usize>) -> Value {
     json!({
-        "number": frame.number, "time": frame.time.unwrap_or(frame.number as f64),
+        "number": frame.number, "time": frame.time,
         "bodies": body_state.map_or(-1, |state| state as i64),
     })
 }
@@ -227,10 +229,11 @@ fn meta(
     let energy = energy.map(|EnergyTable { names, rows }| {
         json!({ "names": names, "rows": frames.iter().map(|frame| &rows[frame.number]).collect::<Vec<_>>() })
     });
-    let summary = run.recording.folder().join("summary.json");
-    // A pipe in its place would wait for its writer.
-    let summary = summary.is_file().then(|| std::fs::read_to_string(summary).ok());
-    let summary = summary.flatten().and_then(|text| serde_json::from_str(&text).ok());
+    // A pipe in place of the summary would wait for its writer.
+    let summary = run.recording.folder().map(|folder| folder.join("summary.json"));
+    let summary = summary.filter(|path| path.is_file());
+    let summary = summary.and_then(|path| std::fs::read_to_string(path).ok());
+    let summary = summary.and_then(|text| serde_json::from_str(&text).ok());
     Ok(json!({
         "name": run.name,
         "note": note(run.recording, frames, &content.bounds),

@@ -4,15 +4,16 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use drape_checkpoint::{Checkpoint, Identity, Store};
-use drape_dynamics::{Error, SavedRecorder, SavedSimulation};
+use drape_dynamics::{Error, SavedSimulation};
+use drape_frames::SavedWriter;
 use drape_scene::Scene;
 
 use super::limits::Limits;
 use super::options::RunOptions;
 use super::status::{Advance, StatusFile};
 
-/// Name of the section of the recorder in a checkpoint.
-const RECORDER: &str = "recorder";
+/// Name of the section of the writer of frames in a checkpoint.
+const FRAMES: &str = "frames";
 
 /// Writer of the checkpoints and the status of a run.
 pub(super) struct CheckpointWriter {
@@ -26,10 +27,10 @@ pub(super) struct CheckpointWriter {
     status: StatusFile,
 }
 
-/// Content of a checkpoint: the states of simulation and recorder.
+/// Content of a checkpoint: the states of the simulation and of the writer of its frames.
 pub(super) struct SavedRun {
     pub(super) simulation: SavedSimulation,
-    pub(super) recorder: SavedRecorder,
+    pub(super) frames: SavedWriter,
 }
 
 impl CheckpointWriter {
@@ -65,15 +66,15 @@ impl CheckpointWriter {
         self.last.elapsed() >= self.every
     }
 
-    /// Writes a checkpoint of a `simulation` and its `recorder`.
+    /// Writes a checkpoint of a `simulation` and of the writer of its `frames`.
     pub(super) fn keep(
         &mut self,
         simulation: &SavedSimulation,
-        recorder: &SavedRecorder,
+        frames: &SavedWriter,
     ) -> Result<(), Error> {
         let mut checkpoint = Checkpoint::new(self.identity.clone());
         simulation.write(&mut checkpoint)?;
-        checkpoint.put(RECORDER, recorder)?;
+        checkpoint.put(FRAMES, frames)?;
         Store::new(&self.folder).write(&checkpoint)?;
         self.last = Instant::now();
         Ok(())
@@ -94,7 +95,7 @@ impl SavedRun {
     /// Returns the states that a `checkpoint` holds.
     pub(super) fn read(checkpoint: &Checkpoint) -> Result<Self, Error> {
         let simulation = SavedSimulation::read(checkpoint)?;
-        Ok(Self { simulation, recorder: checkpoint.get(RECORDER)? })
+        Ok(Self { simulation, frames: checkpoint.get(FRAMES)? })
     }
 }
 

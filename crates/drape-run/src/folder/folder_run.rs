@@ -12,19 +12,18 @@ use super::options::{RunOptions, Watcher};
 use super::request::RunRequest;
 use super::space::check_space;
 use super::status::Advance;
+use drape_checkpoint::Store;
 use drape_dynamics::{
-    Frame, Output, Progress, Recorder, SavedSimulation, Simulation, Snapshot, Status, Step,
-    Summary, prepare_folder,
+    Energy, Progress, SavedSimulation, Simulation, Snapshot, Status, Step, Summary,
 };
 use drape_export::write_obj;
-use drape_frames::Recording;
+use drape_frames::{Frame, FrameWriter, Recording, write_summary};
 use drape_scene::Scene;
 
 /// Run of a scene in a folder that no other run uses.
 pub struct FolderRun {
     pub(super) scene: Scene,
     pub(super) folder: PathBuf,
-    pub(super) output: Output,
     pub(super) writer: CheckpointWriter,
     pub(super) lock: Lock,
     pub(super) give_up: Arc<AtomicBool>,
@@ -45,8 +44,6 @@ pub(super) struct Resumption {
 pub struct EndedRun {
     /// Summary, which is also in `summary.json`.
     pub summary: Summary,
-    /// Folder of the results.
-    pub output: Output,
     /// Cloth and bodies at the end.
     pub last: Snapshot,
     writer: CheckpointWriter,
@@ -89,13 +86,12 @@ impl FolderRun {
 
         check_space(&scene, folder)?;
         let lock = Lock::take(folder)?;
-        let output = prepare_folder(folder, options.replace)?;
+        prepare_folder(folder, options.replace)?;
         request.write(folder)?;
         let writer = CheckpointWriter::new(folder, &scene, request.checkpoint_every, options);
         Ok(Self {
             scene,
             folder: folder.to_owned(),
-            output,
             writer,
             lock,
             give_up: options.give_up.clone(),
@@ -116,29 +112,30 @@ impl FolderRun {
     /// # Errors
     /// The simulation cannot be set up, or results cannot be written.
     pub fn run(self, watcher: &mut dyn Watcher) -> Result<EndedRun, Error> {
-        let Self { scene, folder, output, writer, lock, give_up, state_hash, resumption } = self;
+        let Self { scene, folder, writer, lock, give_up, state_hash, resumption } = self;
         let mut simulation = Simulation::new(scene)?;
         simulation.give_up_when(give_up);
         if state_hash {
             simulation.hash_steps();
         }
-        let recorder = match resumption {
-            None => output.record(&simulation.topology())?,
+        let manifest = simulation.manifest();
+        let frames = match resumption {
+            None => FrameWriter::create(&folder, &manifest, &simulation.topology())?,
             Some(Resumption { saved, extend }) => {
                 simulation.resume(saved.simulation)?;
                 if extend.is_some_and(|seconds| !simulation.extend(seconds)) {
                     return Err(Error::AtRest);
                 }
-                output.resume(saved.recorder)?
+                FrameWriter::resume(&folder, &manifest, saved.frames)?
             }
         };
 
         let goal = Goal::new(&simulation);
-        let mut progress = FolderProgress { recorder, writer, goal, last: None, watcher };
+        let mut progress = FolderProgress { frames, writer, goal, last: None, watcher };
         let mut summary = simulation.run(&mut progress)?;
-        let FolderProgress { mut writer, last, recorder, .. } = progress;
-        let recorded = recorder.save()?;
-        drop(recorder);
+        let FolderProgress { mut writer, last, frames, .. } = progress;
+        let saved_frames = frames.save()?;
+        drop(frames);
 
         if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
             summary.reason = Some(limit.to_owned());
@@ -146,15 +143,15 @@ impl FolderRun {
         // The summary says that the run has ended, so the summary is written after the last frame.
         // A run that is interrupted before repeats its last steps and reaches the same summary.
         save_last(&folder)?;
-        output.summary(&summary)?;
+        write_summary(&folder, &summary)?;
         if matches!(summary.status, Status::Ok | Status::DidNotSettle) {
-            writer.keep(&simulation.saved(), &recorded)?;
+            writer.keep(&simulation.saved(), &saved_frames)?;
         }
         let mut at_end = simulation.snapshot();
         if let Some(frame) = last {
-            at_end.positions = frame.positions;
+            at_end.positions = frame.cloth.into_flattened();
         }
-        Ok(EndedRun { summary, output, last: at_end, writer, _lock: lock })
+        Ok(EndedRun { summary, last: at_end, writer, _lock: lock })
     }
 }
 
@@ -167,6 +164,21 @@ impl EndedRun {
         self.writer.end(state.as_str().unwrap_or("ok"), self.summary.reason.clone());
         self.summary
     }
+}
+
+/// Creates `folder` for a run. If `replace`, the files and checkpoints of an earlier run are removed
+/// from it; files that no run has written stay.
+///
+/// # Errors
+/// The folder holds results and `replace` is false, or it cannot be written.
+pub(super) fn prepare_folder(folder: &Path, replace: bool) -> Result<(), Error> {
+    let store = Store::new(folder);
+    if !replace && folder.exists() && !store.is_empty() {
+        return Err(drape_frames::Error::Occupied { folder: folder.to_owned() }.into());
+    }
+    drape_frames::prepare_folder(folder, replace)?;
+    store.clear().map_err(drape_dynamics::Error::from)?;
+    Ok(())
 }
 
 /// Saves the last frame in `folder` as `last.obj`, which any program opens.
@@ -182,7 +194,7 @@ fn save_last(folder: &Path) -> Result<(), Error> {
 
 /// Progress of a run, which writes its frames and checkpoints.
 struct FolderProgress<'a> {
-    recorder: Recorder<'a>,
+    frames: FrameWriter,
     writer: CheckpointWriter,
     goal: Goal,
     /// Latest frame.
@@ -197,8 +209,12 @@ impl Progress for FolderProgress<'_> {
         self.watcher.step(step, done);
     }
 
-    fn frame(&mut self, frame: &Frame) -> Result<(), drape_dynamics::Error> {
-        self.recorder.frame(frame)?;
+    fn frame(
+        &mut self,
+        frame: &Frame,
+        energy: Option<&Energy>,
+    ) -> Result<(), drape_dynamics::Error> {
+        self.frames.write_with_energy(frame, energy)?;
         self.watcher.frame(frame);
         self.last = Some(frame.clone());
         Ok(())
@@ -209,7 +225,7 @@ impl Progress for FolderProgress<'_> {
     }
 
     fn checkpoint(&mut self, saved: &SavedSimulation) -> Result<(), drape_dynamics::Error> {
-        self.writer.keep(saved, &self.recorder.save()?)
+        self.writer.keep(saved, &self.frames.save()?)
     }
 
     fn is_interrupted(&self) -> bool {

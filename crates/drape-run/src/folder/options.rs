@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::limits::Limits;
-use drape_dynamics::{Frame, Step};
+use drape_dynamics::Step;
+use drape_frames::Frame;
 
 /// Options of a run whose results are stored.
 #[derive(Debug, Clone, Default)]

@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::Error;
 use super::checkpoint_writer::{CheckpointWriter, SavedRun};
-use super::folder_run::{FolderRun, Resumption};
+use super::folder_run::{FolderRun, Resumption, prepare_folder};
 use super::lock::Lock;
 use super::options::RunOptions;
 use super::request::{RunRequest, status_of};
 use drape_checkpoint::{Checkpoint, Store};
-use drape_dynamics::{Output, prepare_folder};
 use drape_input::Diagnostic;
 use drape_scene::Scene;
 
@@ -70,14 +69,12 @@ impl ResumableRun {
             }
         };
 
-        let output = match &resumption {
-            Some(_) => Output::resumed(&folder),
-            None => prepare_folder(&folder, true)?,
-        };
+        if resumption.is_none() {
+            prepare_folder(&folder, true)?;
+        }
         request.write(&folder)?;
         let (give_up, state_hash) = (options.give_up.clone(), request.state_hash);
-        let run =
-            FolderRun { scene, folder, output, writer, lock, give_up, state_hash, resumption };
+        let run = FolderRun { scene, folder, writer, lock, give_up, state_hash, resumption };
         Ok((run, notes))
     }
 }

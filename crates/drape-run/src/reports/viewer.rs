@@ -36,7 +36,7 @@ impl ViewerPage {
 
 /// Returns the name of the run `recording`, which is the name of its folder.
 fn name(recording: &Recording) -> String {
-    let folder = recording.folder();
+    let Some(folder) = recording.folder() else { return "run".to_owned() };
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     whole.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -238,7 +238,7 @@ impl Drapemeter {
         /// Prominence of a fold, in m.
         const PROMINENCE: f64 = 3e-3;
 
-        let positions = simulation.frame().positions;
+        let positions = simulation.positions().to_vec();
         let shadow = Shadow::new(
             Surface {
                 triangles: simulation.triangles(),

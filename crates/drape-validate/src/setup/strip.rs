@@ -188,7 +188,7 @@ impl Strip {
     #[must_use]
     pub fn line(&self, simulation: &Simulation) -> Vec<LinePoint> {
         let coordinates = simulation.coordinates();
-        let positions = simulation.frame().positions;
+        let positions = simulation.positions().to_vec();
 
         // The line is the row of particles nearest to the middle, or the lower of two such rows.
         let across = coordinates.iter().map(|c| c[1]).fold(f64::MIN, f64::max);

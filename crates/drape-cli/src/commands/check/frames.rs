@@ -58,7 +58,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<VerifiedRuns, F
                 say(describe(recording, &verdict))?;
             }
             if !verdict.holds() {
-                broken.push(verdict.file.clone());
+                broken.extend(verdict.file.clone());
             }
             verdicts.push(verdict);
         }
@@ -106,9 +106,9 @@ fn millimetres(distance: f64) -> String {
 fn describe(recording: &Recording, verdict: &Verdict) -> String {
     let manifest = recording.manifest();
     let mut text = format!(
-        "frame {:>5}{}: {} triangles, {}, {}, smallest distance {}",
+        "frame {:>5} at {:.4} s: {} triangles, {}, {}, smallest distance {}",
         verdict.number,
-        verdict.time.map_or(String::new(), |time| format!(" at {time:.4} s")),
+        verdict.time,
         verdict.triangles,
         counted(verdict.pairs, "pair", "pairs"),
         counted(verdict.intersections, "intersection", "intersections"),

@@ -143,7 +143,7 @@ impl OutputFiles<'_> {
 
             // Frames between which no body moves share the file of the bodies.
             if has_bodies {
-                let source = frame.bodies_file.clone();
+                let source = frame.bodies_frame;
                 let file = match bodies.take().filter(|(earlier, _)| *earlier == source) {
                     Some((_, file)) => file,
                     None => {

@@ -120,38 +120,38 @@ fn draw(
     ended: &EndedRun,
     folder: &Path,
 ) -> Result<Vec<DrawnFile>, Failure> {
-    let EndedRun { summary, output, last, .. } = ended;
+    let EndedRun { summary, last, .. } = ended;
     let FinalView { view, is_garment } = final_view;
     let mut drawn = Vec::new();
     if let Some(since) = signal::time_since_first() {
         if since <= PICTURE_MAX {
             let picture = SnapshotPictures::new(last)?.draw(*view, picture::SIZE)?;
-            save(&picture, &output.path("picture.png"))?;
+            save(&picture, &folder.join("picture.png"))?;
             drawn.push(DrawnFile { kind: "picture", path: folder.join("picture.png") });
         }
         return Ok(drawn);
     }
 
     let page = ViewerPage::new(&[Recording::open(folder)?], VIEWER_SIZE_MAX)?;
-    file::write(&output.path("view.html"), page.html)?;
+    file::write(&folder.join("view.html"), page.html)?;
 
     let pictures = SnapshotPictures::new(last)?;
     let picture = match (is_garment, view) {
         (true, [None, None]) => pictures.draw_garment()?,
         _ => pictures.draw(*view, picture::SIZE)?,
     };
-    save(&picture, &output.path("picture.png"))?;
+    save(&picture, &folder.join("picture.png"))?;
     drawn.push(DrawnFile { kind: "picture", path: folder.join("picture.png") });
     drawn.push(DrawnFile { kind: "page", path: folder.join("view.html") });
 
     if let Some(place) = summary.place {
         let detail = picture::detail(last, place);
         let picture = SnapshotPictures::new(&detail)?.draw(*view, picture::SIZE)?;
-        save(&picture, &output.path("place.png"))?;
+        save(&picture, &folder.join("place.png"))?;
         drawn.push(DrawnFile { kind: "picture of the seam", path: folder.join("place.png") });
     }
     if *is_garment {
-        file::write(&output.path("strain.svg"), draw_strains(last, &pictures)?)?;
+        file::write(&folder.join("strain.svg"), draw_strains(last, &pictures)?)?;
     }
     Ok(drawn)
 }

@@ -36,8 +36,7 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     arguments.runs.iter().try_for_each(|run| input::expect(run, &[FileKind::Run]))?;
     let recordings =
         arguments.runs.iter().map(Recording::open).collect::<Result<Vec<Recording>, _>>()?;
-    let default = recordings[0].folder().join("view.html");
-    let path = arguments.output.clone().unwrap_or(default);
+    let path = arguments.output.clone().unwrap_or_else(|| arguments.runs[0].join("view.html"));
     let page = ViewerPage::new(&recordings, arguments.size)?;
     page.thinned.iter().for_each(note);
     file::write(&path, page.html)?;

@@ -147,7 +147,7 @@ fn swing(fabric: &Fabric) -> Result<Swing, ValidationError> {
 /// Returns the points along the middle of the strip in `simulation`, from its tip to the clamp:
 /// distance to the side and height, in m.
 fn middle(simulation: &Simulation) -> Vec<[f64; 2]> {
-    let positions = simulation.frame().positions;
+    let positions = simulation.positions().to_vec();
     let points = simulation.coordinates().iter().zip(positions.chunks_exact(3));
     let mut middle: Vec<(f64, [f64; 2])> = points
         .filter(|(c, _)| (c[0] - 0.5 * WIDTH).abs() < 0.25 * simulation.spacing())

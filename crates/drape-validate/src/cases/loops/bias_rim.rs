@@ -151,7 +151,7 @@ fn bend(mesh: Mesh, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationError> {
     let [mut curvatures, mut moments] = [Vec::new(), Vec::new()];
     for _ in 0..STEPS {
         simulation.step()?;
-        let frame = simulation.frame().positions;
+        let frame = simulation.positions().to_vec();
         let positions = frame.as_chunks::<3>().0;
 
         // Middles of the measured particles and of the particles in the clamp.

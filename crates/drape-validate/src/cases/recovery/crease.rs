@@ -181,7 +181,7 @@ impl Arc {
 
         let mut simulation = Simulation::with_reference_scheme(scene, ReferenceScheme::Cholesky)?;
         finish(&mut simulation)?;
-        let positions = simulation.frame().positions;
+        let positions = simulation.positions().to_vec();
         let [from, to] = ends.map(|row| &positions[3 * row..3 * row + 3]);
         Ok((to[1] - from[1]).atan2(to[0] - from[0]))
     }

@@ -75,7 +75,7 @@ fn folded(angle: f64, slant: f64) -> Result<FoldedStrip, ValidationError> {
     let coordinates = scene.panels[0].lattice.panel_coordinates();
     let mut simulation = Simulation::new(scene)?;
     finish(&mut simulation)?;
-    let frame = simulation.frame().positions;
+    let frame = simulation.positions().to_vec();
     let positions: Vec<Vector3<f64>> =
         frame.chunks_exact(3).map(Vector3::from_column_slice).collect();
 

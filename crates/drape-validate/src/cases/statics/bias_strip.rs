@@ -88,7 +88,7 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
     let starts: Vec<f64> = scene.start.positions.chunks_exact(3).map(|place| place[1]).collect();
     let mut simulation = Simulation::new(scene)?;
     finish(&mut simulation)?;
-    let ends = simulation.frame().positions;
+    let ends = simulation.positions().to_vec();
     let moved = starts.iter().zip(ends.chunks_exact(3)).map(|(start, end)| end[1] - start);
 
     // Least squares of the displacements over the four terms. The first term gives 1/E.

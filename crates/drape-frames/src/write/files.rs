@@ -1,8 +1,10 @@
-//! Manifest: the files of a run in its folder, found from its list of frames.
+//! Files of a run in its folder, which are found from its list of frames.
 
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+
+use crate::error::Error;
 
 /// Name of the file of the summary. A folder with this file holds results.
 pub(crate) const SUMMARY: &str = "summary.json";
@@ -68,14 +70,13 @@ pub(crate) fn frames_from(folder: &Path, first: u64) -> io::Result<Vec<PathBuf>>
 /// Removes `files`. For a symbolic link, the link is removed and not its target.
 ///
 /// # Errors
-///
-/// Returns the first file that cannot be removed, with the reason.
-pub(crate) fn remove(files: &[PathBuf]) -> Result<(), (PathBuf, io::Error)> {
+/// [`Error::Write`] for the first file that cannot be removed.
+pub(crate) fn remove(files: &[PathBuf]) -> Result<(), Error> {
     // The list is removed last, because the remaining files are found from it.
     let (list, others): (Vec<_>, Vec<_>) =
         files.iter().partition(|path| path.file_name().is_some_and(|name| name == FRAMES));
     let mut all = others.into_iter().chain(list);
-    all.try_for_each(|path| fs::remove_file(path).map_err(|reason| (path.clone(), reason)))
+    all.try_for_each(|path| fs::remove_file(path).map_err(|error| Error::unwritable(path, &error)))
 }
 
 /// Returns the numbers of the frames in `folder`, and the number after them.
@@ -99,17 +100,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_files_of_the_run_are_its_own() {
+    fn only_files_of_the_run_are_removed() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let at = |name: &str| folder.path().join(name);
-        let own = ["frames.csv", "frame-00000.npy", "bodies-00000.npy", "frame-00001.npy"];
+        let written = ["frames.csv", "frame-00000.npy", "bodies-00000.npy", "frame-00001.npy"];
         let others = ["frame-mine.npy", "frame-00007.npy", "notes.txt", "pressure-a.npy"];
-        for name in own.into_iter().chain(others) {
+        for name in written.into_iter().chain(others) {
             fs::write(at(name), "").expect("written");
         }
         fs::write(at("frames.csv"), "number,time\n0,0.0\n").expect("written");
         remove(&files(folder.path()).expect("listed")).expect("removed");
-        for (names, there) in [(&own, false), (&others, true)] {
+        for (names, there) in [(&written, false), (&others, true)] {
             for name in names {
                 assert_eq!(at(name).exists(), there, "{name}");
             }
