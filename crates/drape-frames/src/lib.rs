@@ -10,9 +10,9 @@
 //!
 //! * `error`.
 //! * `text` and `array` read files.
-//! * `manifest`, `topology`, `index` and `energy_table` are the data that all frames share.
-//! * `array_frames` reads a frame.
-//! * `frame_source` and `folder_source` are where `recording` has its frames from.
+//! * `manifest`, `topology` and `energy_table` are the data that all frames share.
+//! * `frame` is one frame, and `source` is where frames come from: a folder, memory, or a program.
+//! * `recording` gives the frames of a source one by one.
 //! * `write` writes a folder.
 //!
 //! `surface` measures surfaces of triangles. [`samples`] writes runs for examples and tests.
@@ -25,7 +25,6 @@ mod text;
 
 // Data that all frames share.
 mod energy_table;
-mod index;
 mod manifest;
 mod topology;
 
@@ -33,11 +32,9 @@ mod topology;
 mod surface;
 
 // Frames.
-mod array_frames;
-mod folder_source;
 mod frame;
-mod frame_source;
 mod recording;
+mod source;
 
 // Writing.
 mod write;
@@ -48,9 +45,9 @@ pub mod samples;
 pub use energy_table::EnergyTable;
 pub use error::Error;
 pub use frame::Frame;
-pub use frame_source::FrameSource;
 pub use manifest::{Manifest, SurfacePart};
 pub use recording::Recording;
+pub use source::FrameSource;
 pub use surface::curvature::curvatures;
 pub use surface::vector;
 pub use topology::Topology;

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::array_frames;
 use crate::energy_table::EnergyTable;
 use crate::error::Error;
-use crate::folder_source::FolderSource;
 use crate::frame::Frame;
-use crate::frame_source::{FrameList, FrameSource, check_frame};
 use crate::manifest::Manifest;
+use crate::source::folder::FolderSource;
+use crate::source::list::FrameList;
+use crate::source::{FrameSource, array_frames, check_frame};
 use crate::text::read_text;
 use crate::topology::Topology;
 

@@ -21,8 +21,8 @@ pub trait Progress {
     /// Called after each [`Step`], with the time in ticks of the clock.
     fn step(&mut self, _step: &Step, _ticks: usize) {}
 
-    /// Called when a [`Frame`] is due, with the energy balance since the start, or since the garment
-    /// was sewn, if the scene keeps one.
+    /// Called when a [`Frame`] is due, with the energy balance since the start, or since the
+    /// garment was sewn, if the scene keeps one.
     ///
     /// # Errors
     /// Returns an error if the frame cannot be stored. The run then ends with this error.

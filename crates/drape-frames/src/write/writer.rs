@@ -12,8 +12,8 @@ use super::files::{self, ARRAYS, ENERGY, FRAMES, SUMMARY, SURFACES};
 use super::npy;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::frame_source::check_frame;
 use crate::manifest::Manifest;
+use crate::source::check_frame;
 use crate::topology::Topology;
 
 /// Writer of the frames of a run to a folder, which [`Recording`](crate::Recording) reads.
@@ -138,8 +138,8 @@ impl FrameWriter {
     /// frames and the summary are removed. `manifest` has the parts of the run.
     ///
     /// # Errors
-    /// [`Error::LostFrames`] if frames that `saved` counts are missing, or [`Error::Write`] if files
-    /// cannot be written.
+    /// [`Error::LostFrames`] if frames that `saved` counts are missing, or [`Error::Write`] if
+    /// files cannot be written.
     pub fn resume(
         folder: &Path,
         manifest: &Manifest,

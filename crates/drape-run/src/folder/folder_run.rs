@@ -166,8 +166,8 @@ impl EndedRun {
     }
 }
 
-/// Creates `folder` for a run. If `replace`, the files and checkpoints of an earlier run are removed
-/// from it; files that no run has written stay.
+/// Creates `folder` for a run. If `replace`, the files and checkpoints of an earlier run are
+/// removed from it. Files that no run has written stay.
 ///
 /// # Errors
 /// The folder holds results and `replace` is false, or it cannot be written.

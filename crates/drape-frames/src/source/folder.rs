@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::array;
 use crate::energy_table::EnergyTable;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::frame_source::FrameSource;
-use crate::index::{self, IndexEntry};
 use crate::manifest::Manifest;
-use crate::{array, array_frames};
+use crate::source::FrameSource;
+use crate::source::array_frames;
+use crate::source::index::{self, IndexEntry};
 
 /// Frames in the files of a folder.
 #[derive(Debug)]

@@ -1,5 +1,10 @@
 //! Source of frames: where a recording takes its frames from.
 
+pub(crate) mod array_frames;
+pub(crate) mod folder;
+mod index;
+pub(crate) mod list;
+
 use std::fmt::Debug;
 
 use crate::array::COORDINATE_MAX;
@@ -37,34 +42,6 @@ pub trait FrameSource: Debug + Send + Sync {
     /// [`Error`] if the balance cannot be read.
     fn energy(&self) -> Result<Option<EnergyTable>, Error> {
         Ok(None)
-    }
-}
-
-/// Frames in memory, in the order of their times.
-#[derive(Debug)]
-pub(crate) struct FrameList(Vec<Frame>);
-
-impl FrameList {
-    /// Returns the list of `frames` of a run with the parts of `manifest`. The frames are numbered
-    /// anew.
-    ///
-    /// # Errors
-    /// [`Error::BadFrame`] if there is no frame, or if a frame does not fit `manifest`.
-    pub(crate) fn new(manifest: &Manifest, mut frames: Vec<Frame>) -> Result<Self, Error> {
-        if frames.is_empty() {
-            return Err(Error::BadFrame { number: 0, reason: "there is no frame".to_owned() });
-        }
-        for number in 0..frames.len() {
-            let (earlier, rest) = frames.split_at_mut(number);
-            let frame = &mut rest[0];
-            frame.number = number;
-            check_frame(manifest, earlier.last().map(|earlier| earlier.time), frame)?;
-
-            let unmoved = earlier.last().filter(|last| last.bodies == frame.bodies);
-            let first = unmoved.map_or(Some(number), |last| last.bodies_frame);
-            frame.bodies_frame = if frame.bodies.is_empty() { None } else { first };
-        }
-        Ok(Self(frames))
     }
 }
 
@@ -109,22 +86,4 @@ pub(crate) fn check_frame(
         return fault(format!("{} s is no time after the frame before", frame.time));
     }
     Ok(())
-}
-
-impl FrameSource for FrameList {
-    fn frame_count(&self) -> usize {
-        self.0.len()
-    }
-
-    fn time(&self, number: usize) -> f64 {
-        self.0[number].time
-    }
-
-    fn frame(&self, number: usize) -> Result<Frame, Error> {
-        Ok(self.0[number].clone())
-    }
-
-    fn has_pressures(&self) -> bool {
-        self.0.iter().any(|frame| frame.pressures.is_some())
-    }
 }

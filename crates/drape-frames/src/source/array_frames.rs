@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::array;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::index::IndexEntry;
 use crate::manifest::{Manifest, SurfacePart};
+use crate::source::index::IndexEntry;
 use crate::topology::{Topology, check_corners};
 
 /// Returns the name of the file of frame `number`.
