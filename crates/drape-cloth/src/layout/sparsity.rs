@@ -40,6 +40,12 @@ impl Sparsity {
         Some(self.offsets[row] + index)
     }
 
+    /// Returns the columns of the blocks of each row, in the order of the rows. A solver takes its
+    /// own sparsity from them, such as `Sparsity::from_rows` of `drape-implicit`.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[usize]> {
+        self.offsets.windows(2).map(|ends| &self.columns[ends[0]..ends[1]])
+    }
+
     /// Returns the number of blocks, the length of `columns`.
     #[must_use]
     pub fn blocks(&self) -> usize {

@@ -32,6 +32,33 @@ const ROUNDING_ERROR: f64 = 1e-6;
 /// assert!((panel.area() - (0.01 * 0.01 + 0.5 * 0.01 * 0.008)).abs() < 1e-18);
 /// # Ok::<(), drape_cloth::Error>(())
 /// ```
+///
+/// A mesh of triangles alone has no grid. `spacing` is then the size of the triangles.
+///
+/// ```
+/// use drape_cloth::{Cloth, Grain, Lattice, Mesh};
+/// use drape_fabric::samples;
+///
+/// // A hexagon of six triangles about its middle.
+/// let corner = |k: u32| {
+///     let (sine, cosine) = (std::f64::consts::FRAC_PI_3 * f64::from(k)).sin_cos();
+///     [0.02 * cosine, 0.02 * sine]
+/// };
+/// let mesh = Mesh {
+///     spacing: [0.02; 2],
+///     coordinates: std::iter::once([0.0; 2]).chain((0..6).map(corner)).collect(),
+///     triangles: (0..6).map(|k| [0, k + 1, (k + 1) % 6 + 1]).collect(),
+///     ..Mesh::default()
+/// };
+/// let panel = Lattice::from_mesh(mesh, Grain::default())?;
+/// let cloth = Cloth::new(&[(&panel, &samples::plain_weave())]);
+/// let flat: Vec<f64> = cloth.coordinates().iter().flat_map(|&[u, v]| [u, v, 0.0]).collect();
+/// let mut state = cloth.state(flat.clone())?;
+/// let wide: Vec<f64> = flat.iter().map(|x| 1.01 * x).collect();
+/// assert!(cloth.potential(&state, &wide) > cloth.potential(&state, &flat));
+/// cloth.commit(&mut state, &wide, &[0.0; 21]);
+/// # Ok::<(), drape_cloth::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     /// Distance of the nodes of the grid along the weft and along the warp, in m.

@@ -67,10 +67,8 @@ impl Scatter {
 
 /// Returns the row and the column of each block of `connectors`.
 fn blocks(connectors: &drape_cloth::Sparsity) -> impl Iterator<Item = [usize; 2]> {
-    (0..connectors.offsets.len() - 1).flat_map(|row| {
-        let columns = &connectors.columns[connectors.offsets[row]..connectors.offsets[row + 1]];
-        columns.iter().map(move |&column| [row, column])
-    })
+    let rows = connectors.rows().enumerate();
+    rows.flat_map(|(row, columns)| columns.iter().map(move |&column| [row, column]))
 }
 
 /// Returns the sparsity of `connectors` and of the further pairs `added`.

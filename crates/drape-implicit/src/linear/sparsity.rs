@@ -96,6 +96,33 @@ impl Sparsity {
         Self::new(offsets, columns)
     }
 
+    /// Returns the sparsity with the `rows`, in order: the columns of the blocks of each row. The
+    /// first column of row `i` is `i`, and the others follow in ascending order.
+    ///
+    /// ```
+    /// use drape_implicit::Sparsity;
+    ///
+    /// // A chain of three particles.
+    /// let rows: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2]];
+    /// let sparsity = Sparsity::from_rows(rows)?;
+    /// assert_eq!(sparsity, Sparsity::from_pairs(3, [[0, 1], [1, 2]])?);
+    /// # Ok::<(), drape_implicit::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Sparsity`], as in [`new`](Self::new).
+    pub fn from_rows<'a>(rows: impl IntoIterator<Item = &'a [usize]>) -> Result<Self, Error> {
+        let (mut offsets, mut columns) = (vec![0], Vec::new());
+        for (row, list) in rows.into_iter().enumerate() {
+            for &column in list {
+                let fault = "a column lies outside the matrix";
+                columns.push(u32::try_from(column).map_err(|_| Error::Sparsity { row, fault })?);
+            }
+            offsets.push(columns.len());
+        }
+        Self::new(offsets, columns)
+    }
+
     /// Returns the number of particles, which is the number of block rows.
     #[must_use]
     pub fn particles(&self) -> usize {
