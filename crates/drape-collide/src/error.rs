@@ -92,6 +92,24 @@ pub enum Error {
         vertices: usize,
     },
 
+    /// A mesh or a point cloud has no vertices.
+    #[error("the mesh has no vertices; give at least one position")]
+    NoVertices,
+
+    /// An edge of a mesh names a vertex twice, or a vertex that does not exist.
+    #[error(
+        "edge {edge} has the ends {ends:?}; they must differ, and the mesh has {vertices} vertices \
+         (numbered from 0)"
+    )]
+    InvalidEdge {
+        /// Number of the edge, from 0.
+        edge: usize,
+        /// Vertex numbers of the edge.
+        ends: [u32; 2],
+        /// Number of vertices.
+        vertices: usize,
+    },
+
     /// A triangle refers to a vertex that does not exist.
     #[error(
         "triangle {triangle} refers to vertex {index}, but the mesh has {vertices} vertices \

@@ -15,6 +15,9 @@ mod barrier;
 mod particle;
 mod surface;
 
+// Distance and time of impact of meshes that a caller moves.
+mod proximity;
+
 pub use body::{Body, Mesh, NearestSurface, Pose, Shape, SignedDistance};
 pub use error::Error;
 pub use mesh_io::{
@@ -25,6 +28,10 @@ pub use mesh_repair::{
     repair,
 };
 pub use particle::{NearestParticle, ParticleContact, ParticleSettings, ParticleSummary};
+pub use proximity::{
+    Impact, MeshDistance, MeshMotion, Primitive, PrimitivePair, ProximityMesh, earliest_impact,
+    earliest_self_impact, mesh_distance,
+};
 pub use surface::{
     CandidatePairs, CcdFilter, ContactDistances, Detector, FractionLimit, FrictionEnergy, Gap,
     GaussNewton, Gradient, Hessian, Intersection, OpenStep, Pair, PairDistance, PairKind,

@@ -39,9 +39,11 @@ pub use contact::{
 };
 pub use contact_surface::Surface;
 pub use detector::Detector;
+pub(crate) use distance::{ClosestPoints, height};
 pub use exact::segment_meets_triangle;
 pub use exact::{Intersection, intersections};
 pub use friction::FrictionEnergy;
 pub use geometry::{ContactDistances, SurfaceParts, equivalence_classes};
+pub(crate) use pair::closest;
 pub use pair::{Pair, PairKind};
 pub use step_filter::{CcdFilter, FractionLimit, StepFraction, SurfaceTrial, Truncation};
