@@ -185,20 +185,12 @@ impl<'a> Earliest<'a> {
 
     /// Takes the earliest impact of the primitives of two `leaves` whose boxes meet at `entry`.
     fn take_leaves(&mut self, leaves: [NumberedLeaf<'_>; 2], entry: f64) {
-        // Only boxes that overlap at the start may hold primitives that intersect there.
-        if entry == 0.0 {
-            self.take_intersection(leaves);
-        }
         for_each_pair(leaves, |pair| self.take(pair));
-    }
-
-    /// Takes an intersection of `leaves` at the start.
-    fn take_intersection(&mut self, leaves: [NumberedLeaf<'_>; 2]) {
-        let [one, two] = leaves.map(|leaf| leaf.leaf.corners);
-        if self.of_one_mesh && one.iter().any(|corner| two.contains(corner)) {
-            return;
-        }
-        if let Some((pair, _)) = intersection(leaves, self.starts) {
+        // Only boxes that overlap at the start may hold primitives that intersect there.
+        if entry == 0.0
+            && self.limit() > 0.0
+            && let Some((pair, _)) = intersection(leaves, self.starts, self.of_one_mesh)
+        {
             self.impact = Some(Impact { fraction: 0.0, pair, normal: [0.0; 3] });
         }
     }

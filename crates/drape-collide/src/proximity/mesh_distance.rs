@@ -118,7 +118,7 @@ impl Nearest {
     /// Takes an edge of one of `leaves` that intersects the triangle of the other, if there is one.
     fn take_intersection(&mut self, leaves: [NumberedLeaf<'_>; 2], positions: [&[Vector]; 2]) {
         if self.square > 0.0
-            && let Some((pair, point)) = intersection(leaves, positions)
+            && let Some((pair, point)) = intersection(leaves, positions, false)
         {
             let (distance, points) = (0.0, [point; 2]);
             self.found = MeshDistance { distance, pair, points };
@@ -128,10 +128,12 @@ impl Nearest {
 }
 
 /// Returns the edge of one of `leaves` and the triangle of the other that intersect at `positions`,
-/// with a common point, if there are such.
+/// with a common point, if there are such. With `of_one_mesh`, both leaves are of one mesh, and an
+/// edge with a corner of the triangle is left out.
 pub(super) fn intersection(
     leaves: [NumberedLeaf<'_>; 2],
     positions: [&[Vector]; 2],
+    of_one_mesh: bool,
 ) -> Option<(PrimitivePair, Vector)> {
     for mesh in 0..2 {
         let face = leaves[1 - mesh];
@@ -139,6 +141,9 @@ pub(super) fn intersection(
         let is_triangle = matches!(face.primitive(), Primitive::Triangle(_)) && a != c;
         let corners = face.leaf.corners.map(|corner| positions[1 - mesh][corner as usize]);
         for edge in leaves[mesh].leaf.edges().filter(|_| is_triangle) {
+            if of_one_mesh && edge.iter().any(|end| face.leaf.corners.contains(end)) {
+                continue;
+            }
             let ends = edge.map(|end| positions[mesh][end as usize]);
             if segment_meets_triangle(ends, corners) {
                 let pair = [Primitive::Edge(edge), face.primitive()];
