@@ -47,6 +47,28 @@ pub enum Error {
         length: f64,
     },
 
+    /// A number that names a body, a vertex or a group does not exist.
+    #[error("there is no {what} {index}; there are {count} (numbered from 0)")]
+    MissingIndex {
+        /// Kind of the thing, in words.
+        what: &'static str,
+        /// Number as given.
+        index: usize,
+        /// Number of things.
+        count: usize,
+    },
+
+    /// A surface has no free vertex, so nothing in it could have contact.
+    #[error(
+        "none of the {vertices} vertices of the surface is free, so none has contact: bodies do \
+         not meet bodies; declare what may move by `free_vertices`, or ask `earliest_impact` or \
+         `mesh_distance` whether bodies meet"
+    )]
+    NothingFree {
+        /// Number of vertices.
+        vertices: usize,
+    },
+
     /// A mesh file cannot be opened or read.
     #[error("mesh file {}: {reason}; check the path and the permissions", path.display())]
     UnreadableFile {
@@ -330,6 +352,16 @@ impl Error {
 /// At this size neighbouring numbers are 1e-10 m apart, a millionth of a usual contact gap. Larger
 /// coordinates are a mistake of unit, and the boxes of a tree would overflow.
 const MAX_COORDINATE: f64 = 1e6;
+
+/// Checks that the list of `what` has the length `found` that is `needed`.
+pub(crate) fn check_length(what: &'static str, found: usize, needed: usize) -> Result<(), Error> {
+    if found == needed { Ok(()) } else { Err(Error::WrongLength { what, found, needed }) }
+}
+
+/// Checks that there is number `index` of `count` things. The error names `what`.
+pub(crate) fn check_index(what: &'static str, index: usize, count: usize) -> Result<(), Error> {
+    if index < count { Ok(()) } else { Err(Error::MissingIndex { what, index, count }) }
+}
 
 /// Checks that `place`, in m, is finite and within [`MAX_COORDINATE`]. The error names `what`.
 pub(crate) fn check_position(what: impl FnOnce() -> String, place: [f64; 3]) -> Result<(), Error> {

@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::equivalence_classes;
 use crate::mesh_io::Triangulation;
+use crate::surface::classes;
 use crate::vector::{Vector, cross, dot, norm, subtract};
 
 /// Plane through a body, with two axes in the plane.
@@ -137,7 +137,7 @@ impl SectionPlane {
         }
 
         // A line is a class of sides that pieces join. Points are in the order of the sides.
-        let class = equivalence_classes(edges.len(), &pieces);
+        let class = classes(edges.len(), &pieces);
         let mut place = vec![0; edges.len()];
         let (mut points, mut classes) = (Vec::new(), Vec::new());
         for (edge, number) in edges {

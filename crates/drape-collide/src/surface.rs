@@ -43,6 +43,7 @@ pub(crate) use distance::{ClosestPoints, height};
 pub use exact::segment_meets_triangle;
 pub use exact::{Intersection, intersections};
 pub use friction::FrictionEnergy;
+pub(crate) use geometry::classes;
 pub use geometry::{ContactDistances, SurfaceParts, equivalence_classes};
 pub(crate) use pair::closest;
 pub use pair::{Pair, PairKind};

@@ -327,7 +327,7 @@ impl Stepping {
         world.balance = start.balance;
         world.internal.restore_seams(start.seams);
         if let (Some(surfaces), Some(memory)) = (world.contact.surfaces_mut(), start.surfaces) {
-            surfaces.contact.restore(&memory);
+            surfaces.contact.restore(&memory).expect("the memory is of this contact");
         }
     }
 }

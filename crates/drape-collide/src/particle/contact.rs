@@ -7,8 +7,8 @@ use super::friction::Friction;
 use super::settings::ParticleSettings;
 use super::summary::{ParticleSummary, touching_particle_count};
 use crate::barrier::Barrier;
-use crate::body::{Body, Pose, SignedDistance, Solid};
-use crate::error::Error;
+use crate::body::{Body, BodyFrame, Pose, SignedDistance, Solid};
+use crate::error::{Error, check, check_index, check_length};
 use crate::vector::{Vector, at, combine, dot, outer};
 
 /// Contact of cloth particles with rigid bodies: potential, forces and stiffness.
@@ -89,11 +89,13 @@ impl ParticleContact {
     /// A particle that comes into contact during the step has no friction until the next step.
     /// Without an open step, contact is frictionless.
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// If there are not three coordinates per particle, like all methods that take positions.
-    pub fn begin(&mut self, start: &[f64], dt: f64) {
-        self.detect(start);
+    /// There are not three coordinates for each particle, as for all methods that take positions;
+    /// or `dt` is not finite.
+    pub fn begin(&mut self, start: &[f64], dt: f64) -> Result<(), Error> {
+        check("the length of a step (s)", dt, "finite", true)?;
+        self.detect(start)?;
         self.sticking_slip = if dt > 0.0 { self.settings.slip_speed * dt } else { f64::NAN };
         // The list is taken out while `self` is read, and keeps its memory.
         let mut frictions = std::mem::take(&mut self.frictions);
@@ -113,19 +115,21 @@ impl ParticleContact {
             }
         }
         self.frictions = frictions;
+        Ok(())
     }
 
     /// Moves `body` to `pose` within the open step. Friction resists the slip of the cloth over the
     /// body.
     ///
     /// # Errors
-    /// The pose is out of range.
+    /// There is no such body, or the pose is out of range. Then the body stays where it is.
     pub fn move_body(&mut self, body: usize, pose: Pose) -> Result<(), Error> {
+        check_index("body", body, self.bodies.len())?;
         if self.bodies[body].pose == pose {
             return Ok(());
         }
+        let frame = BodyFrame::new(&pose, &self.bodies[body].name)?;
         self.bodies[body].pose = pose;
-        let frame = self.bodies[body].frame()?;
         let before = std::mem::replace(&mut self.solids[body].frame, frame);
         let frame = &self.solids[body].frame;
         for friction in self.frictions.iter_mut().filter(|friction| friction.body == body) {
@@ -138,40 +142,59 @@ impl ParticleContact {
 
     /// Returns the work of friction that the moved bodies did on the cloth at `positions` in the
     /// open step, in J.
-    #[must_use]
-    pub fn body_friction_work(&self, positions: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    ///
+    /// There are not three coordinates for each particle.
+    pub fn body_friction_work(&self, positions: &[f64]) -> Result<f64, Error> {
+        self.check_coordinates("positions", positions)?;
         let works = self.frictions.iter().map(|friction| {
             let force = friction.force(at(positions, friction.particle), self.sticking_slip);
             dot(force, friction.carried)
         });
-        works.sum()
+        Ok(works.sum())
     }
 
     /// Adds the contact and friction forces at `positions`, in N, to `forces`.
-    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
-        self.detect(positions);
+    ///
+    /// # Errors
+    ///
+    /// There are not three coordinates or three forces for each particle.
+    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) -> Result<(), Error> {
+        self.check_coordinates("forces", forces)?;
+        self.detect(positions)?;
         self.for_each_force(positions, &mut |particle, _, force| {
             for (k, value) in force.iter().enumerate() {
                 forces[3 * particle + k] += value;
             }
         });
+        Ok(())
     }
 
     /// Returns the energy of contact at `positions` plus the friction potential of the step, in J.
-    pub fn potential(&mut self, positions: &[f64]) -> f64 {
-        self.detect(positions);
+    ///
+    /// # Errors
+    ///
+    /// There are not three coordinates for each particle.
+    pub fn potential(&mut self, positions: &[f64]) -> Result<f64, Error> {
+        self.detect(positions)?;
         let barrier = Barrier::new(self.settings.activation_distance);
         let contact: f64 = self
             .active()
             .map(|active| self.areas[active.particle] * barrier.energy(active.signed.distance))
             .sum();
-        self.settings.stiffness * contact + self.friction_potential(positions)
+        Ok(self.settings.stiffness * contact + self.friction_potential(positions)?)
     }
 
     /// Returns the friction part of [`potential`](ParticleContact::potential), in J.
-    #[must_use]
-    pub fn friction_potential(&self, positions: &[f64]) -> f64 {
-        self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.sticking_slip)).sum()
+    ///
+    /// # Errors
+    ///
+    /// There are not three coordinates for each particle.
+    pub fn friction_potential(&self, positions: &[f64]) -> Result<f64, Error> {
+        self.check_coordinates("positions", positions)?;
+        let frictions = self.frictions.iter();
+        Ok(frictions.map(|f| f.energy(at(positions, f.particle), self.sticking_slip)).sum())
     }
 
     /// Calls `add` with the particle and the block `$-\partial f_i / \partial x_i$`, row by row, in
@@ -180,13 +203,17 @@ impl ParticleContact {
     /// A particle's contact depends on its position only, so there are no blocks between particles.
     /// A particle may have several blocks, which add up. With `definite`, the curvature of
     /// surfaces, which softens, is left out and no block has a negative eigenvalue.
+    ///
+    /// # Errors
+    ///
+    /// There are not three coordinates for each particle.
     pub fn add_stiffness(
         &mut self,
         positions: &[f64],
         definite: bool,
         add: &mut dyn FnMut(usize, [f64; 9]),
-    ) {
-        self.detect(positions);
+    ) -> Result<(), Error> {
+        self.detect(positions)?;
         let barrier = Barrier::new(self.settings.activation_distance);
         for active in self.active() {
             let SignedDistance { distance, normal, curvature } = &active.signed;
@@ -200,17 +227,17 @@ impl ParticleContact {
             let position = at(positions, friction.particle);
             add(friction.particle, friction.stiffness(position, self.sticking_slip));
         }
+        Ok(())
     }
 
     /// Returns counts, distances and loads at `positions`.
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// If there are not three coordinates per particle.
-    #[must_use]
-    pub fn summary(&self, positions: &[f64]) -> ParticleSummary {
+    /// There are not three coordinates for each particle.
+    pub fn summary(&self, positions: &[f64]) -> Result<ParticleSummary, Error> {
         let mut current = self.clone();
-        current.detect(positions);
+        current.detect(positions)?;
         let nearest = || current.nearest(positions);
         let bodies = current.bodies.len();
         let mut summary = ParticleSummary::new(current.active(), nearest, positions, bodies);
@@ -219,14 +246,23 @@ impl ParticleContact {
                 *load -= value;
             }
         });
-        summary
+        Ok(summary)
     }
 
     /// Returns the number of particles within the activation distance of at least one body, like
     /// [`summary`](ParticleContact::summary), without allocating memory.
-    pub fn touching_particle_count(&mut self, positions: &[f64]) -> usize {
-        self.detect(positions);
-        touching_particle_count(self.active())
+    ///
+    /// # Errors
+    ///
+    /// There are not three coordinates for each particle.
+    pub fn touching_particle_count(&mut self, positions: &[f64]) -> Result<usize, Error> {
+        self.detect(positions)?;
+        Ok(touching_particle_count(self.active()))
+    }
+
+    /// Checks that `list` has three numbers of `what` for each particle.
+    fn check_coordinates(&self, what: &'static str, list: &[f64]) -> Result<(), Error> {
+        check_length(what, list.len(), 3 * self.areas.len())
     }
 
     /// Calls `visit` with particle, body and force, in N, of every contact. The active particles
@@ -244,16 +280,12 @@ impl ParticleContact {
     }
 
     /// Detects all particles within the activation distance of a body at `positions`.
-    fn detect(&mut self, positions: &[f64]) {
-        assert_eq!(
-            positions.len(),
-            3 * self.areas.len(),
-            "contact needs three coordinates for each particle"
-        );
+    fn detect(&mut self, positions: &[f64]) -> Result<(), Error> {
+        self.check_coordinates("positions", positions)?;
         // Force, potential and stiffness are mostly evaluated at equal positions. NaN is never
         // equal, so positions of NaN are detected each time.
         if self.detected_at == positions {
-            return;
+            return Ok(());
         }
         self.detected_at.clear();
         self.detected_at.extend_from_slice(positions);
@@ -267,6 +299,7 @@ impl ParticleContact {
             let chunks = self.chunks.iter_mut();
             chunks.for_each(|chunk| chunk.detect(solids, activation_distance, positions));
         }
+        Ok(())
     }
 
     /// Returns each [`ActiveParticle`], sorted by particle and body.

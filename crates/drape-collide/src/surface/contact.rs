@@ -66,9 +66,9 @@ impl SurfaceContact {
     /// A step that is still open is rejected, so that a solver may repeat a step. The bodies start
     /// from their positions when the last step was committed.
     ///
-    /// # Panics
-    /// [`SurfaceStart::bodies`] has the wrong number of coordinates.
-    pub fn begin(&mut self, start: SurfaceStart<'_>) -> OpenStep<'_> {
+    /// # Errors
+    /// A list of `start` has the wrong length. Then no step is opened or rejected.
+    pub fn begin(&mut self, start: SurfaceStart<'_>) -> Result<OpenStep<'_>, Error> {
         OpenStep::begin(self, start)
     }
 
@@ -97,14 +97,22 @@ impl SurfaceContact {
     }
 
     /// Returns the [`SurfaceEnergy`] at the `positions` of the free vertices, in m.
-    pub fn energy(&mut self, positions: &[f64]) -> SurfaceEnergy<'_> {
+    ///
+    /// Positions that are not finite have an energy of NaN, which no line search accepts.
+    /// [`detect`](SurfaceContact::detect) returns their error.
+    ///
+    /// # Errors
+    /// There are not three coordinates for each free vertex.
+    pub fn energy(&mut self, positions: &[f64]) -> Result<SurfaceEnergy<'_>, Error> {
         SurfaceEnergy::new(self, positions)
     }
 
     /// Returns the inspection at the `positions` of the free vertices, in m, as a
     /// [`SurfaceInspection`].
-    #[must_use]
-    pub fn inspect<'a>(&'a self, positions: &'a [f64]) -> SurfaceInspection<'a> {
+    ///
+    /// # Errors
+    /// There are not three coordinates for each free vertex.
+    pub fn inspect<'a>(&'a self, positions: &'a [f64]) -> Result<SurfaceInspection<'a>, Error> {
         SurfaceInspection::new(self, positions)
     }
 

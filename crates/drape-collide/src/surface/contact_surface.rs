@@ -2,7 +2,7 @@
 
 use super::broad_phase::close_at_rest;
 use super::geometry::{ContactDistances, Primitives, Separations, SurfaceParts};
-use crate::error::{Error, check_positions};
+use crate::error::{Error, check_index, check_length, check_positions};
 
 /// Surface of all cloth and all bodies: the constant data of their contact.
 ///
@@ -21,7 +21,7 @@ impl Surface {
     ///
     /// A list has the wrong length; an index is out of range; a coordinate is not finite or beyond
     /// 1000 km; a triangle has no area, names a vertex twice or spans two groups; an area is
-    /// negative; a distance is not positive; a minimum separation is not below its activation
+    /// negative; no vertex is free; a distance is not positive; a minimum separation is not below its activation
     /// distance; or two primitives of one group that share no vertex touch at rest.
     pub fn new(parts: SurfaceParts) -> Result<Surface, Error> {
         let rest_positions = parts.rest_positions.clone();
@@ -81,16 +81,29 @@ impl Surface {
     }
 
     /// Returns the group of `vertex`. All primitives with this vertex belong to the group.
-    #[must_use]
-    pub fn group(&self, vertex: u32) -> u32 {
-        self.primitives.group(vertex)
+    ///
+    /// # Errors
+    ///
+    /// `vertex` does not exist.
+    pub fn group(&self, vertex: u32) -> Result<u32, Error> {
+        check_index("vertex", vertex as usize, self.vertex_count())?;
+        Ok(self.primitives.group(vertex))
     }
 
     /// Returns the [`ContactDistances`] between the groups of the vertices `a` and `b`. Pairs that
     /// lie close at rest may have smaller distances.
-    #[must_use]
-    pub fn pair_distances(&self, a: u32, b: u32) -> ContactDistances {
-        self.separations.between_groups([a, b].map(|vertex| self.group(vertex)))
+    ///
+    /// # Errors
+    ///
+    /// `a` or `b` does not exist.
+    pub fn pair_distances(&self, a: u32, b: u32) -> Result<ContactDistances, Error> {
+        check_index("vertex", a.max(b) as usize, self.vertex_count())?;
+        Ok(self.vertex_distances([a, b]))
+    }
+
+    /// Returns the [`ContactDistances`] between the groups of two `vertices` that exist.
+    pub(crate) fn vertex_distances(&self, vertices: [u32; 2]) -> ContactDistances {
+        self.separations.between_groups(vertices.map(|vertex| self.primitives.group(vertex)))
     }
 
     /// Returns the primitives of the surface.
@@ -116,10 +129,7 @@ impl Surface {
 
     /// Checks length and range of the flat `positions` of all vertices, in m.
     pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), Error> {
-        let needed = 3 * self.vertex_count();
-        if positions.len() != needed {
-            return Err(Error::WrongLength { what: "positions", found: positions.len(), needed });
-        }
+        check_length("positions", positions.len(), 3 * self.vertex_count())?;
         check_positions("vertex", positions)
     }
 }

@@ -27,4 +27,5 @@ pub(crate) use primitives::Primitives;
 pub(crate) use separations::{
     PinchState, RestProximity, Separations, THINNED_FRACTION, share_vertex,
 };
+pub(crate) use topology::classes;
 pub use topology::equivalence_classes;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::distance::{ClosestPoints, edge_edge, vertex_face};
+use crate::error::{Error, check_index};
 use crate::vector::{at, dot};
 
 /// Kind of a pair of primitives.
@@ -83,9 +84,19 @@ impl Pair {
     }
 
     /// Returns the distance of the two primitives at the flat `positions`, in m.
-    #[must_use]
-    pub fn distance_at(&self, positions: &[f64]) -> f64 {
-        distance(&closest(self.kind, self.points(positions)))
+    ///
+    /// # Errors
+    ///
+    /// A vertex of the pair has no position.
+    pub fn distance_at(&self, positions: &[f64]) -> Result<f64, Error> {
+        self.check_positions(positions)?;
+        Ok(distance(&closest(self.kind, self.points(positions))))
+    }
+
+    /// Checks that all vertices have a place in the flat `positions`.
+    pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), Error> {
+        let vertices = self.vertices.into_iter();
+        vertices.map(|vertex| check_index("vertex", vertex as usize, positions.len() / 3)).collect()
     }
 }
 

@@ -22,7 +22,7 @@ struct Touched {
 pub(crate) fn at_particles(world: &mut World, positions: &[f64]) -> Option<Vec<f64>> {
     let surfaces = world.contact.surfaces_mut()?;
     let mut forces = vec![0.0; positions.len()];
-    surfaces.contact.energy(positions).add_forces(&mut forces);
+    surfaces.contact.energy(positions).ok()?.add_forces(&mut forces).ok()?;
     let areas = world.cloth.areas();
     let sizes = forces.as_chunks::<3>().0.iter().map(|force| distance(*force, [0.0; 3]));
     Some(sizes.zip(areas).map(|(size, area)| size / area).collect())

@@ -119,7 +119,7 @@ pub(super) fn reduced_masses(rows: &[Row], masses: &[f64]) -> Vec<f64> {
 /// particles are numbered in the order of their first particle of the panels. The two particles of
 /// a pair have the same independent particle.
 pub(super) fn rows(particles: usize, pairs: &SeamPairs) -> Vec<Row> {
-    let first = equivalence_classes(particles, &pairs.pairs);
+    let first = equivalence_classes(particles, &pairs.pairs).expect("pairs name particles");
     let mut ties = vec![None; particles];
     pairs.ties.iter().for_each(|tie| ties[tie.particle as usize] = Some(*tie));
 
@@ -149,7 +149,7 @@ pub(super) fn rows(particles: usize, pairs: &SeamPairs) -> Vec<Row> {
 /// ties. `independent` is the number of independent particles.
 pub(super) fn tied_groups(rows: &[Row], independent: usize) -> Vec<Vec<u32>> {
     let tied: Vec<[u32; 2]> = rows.iter().filter(|row| row.is_tied()).map(|row| row.ends).collect();
-    let first = equivalence_classes(independent, &tied);
+    let first = equivalence_classes(independent, &tied).expect("pairs name particles");
     let mut groups: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     let joined: BTreeSet<u32> = tied.into_iter().flatten().collect();
     for particle in joined {

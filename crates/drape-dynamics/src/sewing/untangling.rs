@@ -56,7 +56,7 @@ impl Untangling {
     /// Returns the untangling of particles with the seams `pairs`. `held` says which particles are
     /// held, and `spacing` is the smallest distance of particles before deformation, in m.
     pub(crate) fn new(pairs: SeamPairs, masses: Vec<f64>, held: Vec<bool>, spacing: f64) -> Self {
-        let first = equivalence_classes(masses.len(), &pairs.pairs);
+        let first = equivalence_classes(masses.len(), &pairs.pairs).expect("pairs name particles");
         let mut merged: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for particle in pairs.pairs.iter().flatten().collect::<BTreeSet<_>>() {
             merged.entry(first[*particle as usize]).or_default().push(*particle);

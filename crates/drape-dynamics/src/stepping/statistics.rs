@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::step_hashes::StepHashes;
 use crate::record::summary::{Contacts, Solver};
-use crate::world::{Contact, World};
+use crate::world::{ALL_PARTICLES, Contact, World};
 
 /// Sums and extremes over the steps of a run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -62,7 +62,8 @@ impl Statistics {
                 near.touching
             }
             Contact::Particles(bodies) => {
-                bodies.contact.touching_particle_count(&world.state.positions)
+                let touching = bodies.contact.touching_particle_count(&world.state.positions);
+                touching.expect(ALL_PARTICLES)
             }
         };
 
@@ -122,8 +123,9 @@ impl Statistics {
 
         match &world.contact {
             Contact::Surfaces(surfaces) => {
+                let inspection = surfaces.contact.inspect(positions);
                 let intersections =
-                    surfaces.contact.inspect(positions).intersections_with_released();
+                    inspection.and_then(|inspection| inspection.intersections_with_released());
                 Contacts {
                     min_distance: Some(self.min_distance).filter(|distance| distance.is_finite()),
                     intersections: intersections
@@ -135,7 +137,7 @@ impl Statistics {
                 }
             }
             Contact::Particles(bodies) => {
-                let near = bodies.contact.summary(positions);
+                let near = bodies.contact.summary(positions).expect(ALL_PARTICLES);
                 Contacts {
                     min_distance: Some(near.min_distance).filter(|distance| distance.is_finite()),
                     intersections: near.inside,

@@ -18,7 +18,7 @@ use drape_scene::Scene;
 use crate::error::Error;
 
 pub(crate) use self::particle_bodies::ParticleBodies;
-pub(crate) use self::step::{ContactEnergy, ContactStep};
+pub(crate) use self::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 #[cfg(test)]
 pub(crate) use self::surfaces::Omitted;
 pub(crate) use self::surfaces::{PlacedSurfaces, SavedGrowth, Surfaces};
@@ -110,16 +110,23 @@ impl Contact {
     /// Adds the contact forces at `positions` to `forces`, in N.
     pub(crate) fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         match self {
-            Self::Particles(bodies) => bodies.contact.add_forces(positions, forces),
-            Self::Surfaces(surfaces) => surfaces.contact.energy(positions).add_forces(forces),
+            Self::Particles(bodies) => {
+                bodies.contact.add_forces(positions, forces).expect(ALL_PARTICLES);
+            }
+            Self::Surfaces(surfaces) => {
+                let mut energy = surfaces.contact.energy(positions).expect(ALL_PARTICLES);
+                energy.add_forces(forces).expect(ALL_PARTICLES);
+            }
         }
     }
 
     /// Returns the potential of contact and friction at `positions`, in J.
     pub(crate) fn potential(&mut self, positions: &[f64]) -> f64 {
         match self {
-            Self::Particles(bodies) => bodies.contact.potential(positions),
-            Self::Surfaces(surfaces) => surfaces.contact.energy(positions).potential(),
+            Self::Particles(bodies) => bodies.contact.potential(positions).expect(ALL_PARTICLES),
+            Self::Surfaces(surfaces) => {
+                surfaces.contact.energy(positions).expect(ALL_PARTICLES).potential()
+            }
         }
     }
 
@@ -133,14 +140,18 @@ impl Contact {
     ) {
         match self {
             Self::Particles(bodies) => {
-                bodies.contact.add_stiffness(positions, definite, &mut |particle, block| {
-                    matrix.add_block(matrix.sparsity().row(particle).start, &block);
-                });
+                let added =
+                    bodies.contact.add_stiffness(positions, definite, &mut |particle, block| {
+                        matrix.add_block(matrix.sparsity().row(particle).start, &block);
+                    });
+                added.expect(ALL_PARTICLES);
             }
             Self::Surfaces(surfaces) => {
-                surfaces.contact.energy(positions).add_stiffness(&mut |[i, j], block| {
-                    matrix.add_coupling(i, j, block);
-                });
+                surfaces.contact.energy(positions).expect(ALL_PARTICLES).add_stiffness(
+                    &mut |[i, j], block| {
+                        matrix.add_coupling(i, j, block);
+                    },
+                );
             }
         }
     }
@@ -148,7 +159,7 @@ impl Contact {
     /// Accepts a step that ends at `positions`: updates the memory of friction.
     pub(crate) fn commit(&mut self, positions: &[f64]) {
         if let Self::Surfaces(surfaces) = self {
-            surfaces.open_step().commit(positions);
+            surfaces.open_step().commit(positions).expect("an accepted step is finite");
         }
     }
 }

@@ -8,7 +8,7 @@ use drape_implicit::{
 };
 
 use super::World;
-use super::contact::{Contact, ContactStep};
+use super::contact::{ALL_PARTICLES, Contact, ContactStep};
 use super::energy_balance::StepEnergy;
 use crate::world::closing_springs::ClosingSprings;
 
@@ -196,7 +196,7 @@ impl World {
 
         match &mut self.contact {
             Contact::Surfaces(surfaces) => {
-                let contact = surfaces.contact.energy(positions);
+                let contact = surfaces.contact.energy(positions).expect(ALL_PARTICLES);
                 let potential = contact.potential();
                 let friction = contact.friction();
                 let dissipated = friction.dissipated;

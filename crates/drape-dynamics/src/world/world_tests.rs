@@ -76,7 +76,10 @@ fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
         let mut world = world(more);
         let motion = moved(&mut world);
         let Contact::Particles(bodies) = &world.contact else { panic!("no surfaces") };
-        assert!(bodies.contact.summary(&motion.positions).touching > 3, "it touches the ball");
+        assert!(
+            bodies.contact.summary(&motion.positions).unwrap().touching > 3,
+            "it touches the ball"
+        );
         let step = |(x, v): (&f64, &f64)| x + 0.004 * v;
         let trial: Vec<f64> = motion.positions.iter().zip(&motion.velocities).map(step).collect();
         let check = check_system(&mut world, &motion.positions, &trial, 0.005).expect("sound");

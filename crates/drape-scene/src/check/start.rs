@@ -139,7 +139,7 @@ fn mistake(checker: &Checker<'_>, key: &str, error: &drape_collide::Error) -> Di
 /// Checks that no particle of `scene` starts inside a body. Adds one mistake about the deepest
 /// particle.
 fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact, scene: &Scene) {
-    let summary = contact.summary(&scene.start.positions);
+    let summary = contact.summary(&scene.start.positions).expect("a scene has all positions");
     if summary.inside > 0 {
         let particle = summary.nearest.map_or(0, |nearest| nearest.particle);
         let panel = scene.panels.iter().find(|panel| panel.particles().contains(&particle));
@@ -163,7 +163,8 @@ fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact,
 /// the first particle of a panel stands for all of its particles.
 fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, scene: &Scene) {
     for panel in &scene.panels {
-        if contact.inspect(&scene.start.positions).is_inside_body(panel.first) {
+        let inspection = contact.inspect(&scene.start.positions);
+        if inspection.is_ok_and(|inspection| inspection.is_inside_body(panel.first) == Ok(true)) {
             let message = format!("all of \"{}\" starts inside a body", panel.name);
             let help = "move or turn the panel so that it starts outside";
             let key = place_key(checker, scene, panel);

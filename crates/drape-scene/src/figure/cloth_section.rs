@@ -88,7 +88,7 @@ impl Surface {
         let triangles = triangles.filter(|corners| particles.contains(&(corners[0] as usize)));
         Self {
             triangles: triangles.copied().collect(),
-            class: equivalence_classes(count, pairs),
+            class: equivalence_classes(count, pairs).expect("pairs name particles"),
             is_sewn,
         }
     }
@@ -118,7 +118,7 @@ impl Surface {
         let open_ends = tied(&cuts, free.collect(), &mut pairs);
 
         // Sum up by classes.
-        let class = equivalence_classes(cuts.len(), &pairs);
+        let class = equivalence_classes(cuts.len(), &pairs).expect("pairs name what they join");
         let mut sections: BTreeMap<u32, ClothSection> = BTreeMap::new();
         for ((cut, class), branched) in cuts.iter().zip(&class).zip(is_branched) {
             let section = sections.entry(*class).or_insert_with(ClothSection::empty);

@@ -127,7 +127,7 @@ impl<'a> RingFinder<'a> {
             }
         }
 
-        let class = equivalence_classes(cuts.len(), &pairs);
+        let class = equivalence_classes(cuts.len(), &pairs).expect("pairs name what they join");
         let mut rings: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         class
             .iter()
@@ -187,7 +187,8 @@ impl<'a> RingFinder<'a> {
         }
         let joined =
             at_side.values().filter_map(|segments| <[u32; 2]>::try_from(&segments[..]).ok());
-        let class = equivalence_classes(segments.len(), &joined.collect::<Vec<_>>());
+        let class = equivalence_classes(segments.len(), &joined.collect::<Vec<_>>())
+            .expect("pairs name what they join");
         let part = |[a, b]: Side| depth(a) / (depth(a) - depth(b));
         let on_cloth = |side: Side| {
             let [a, b] = side.map(|particle| coordinates[particle as usize]);
@@ -244,7 +245,8 @@ pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
     let finder = RingFinder::new(scene);
     let none = Vec::new();
     let pairs = scene.sewing.as_ref().map_or(&none, |sewing| &sewing.pairs.pairs);
-    let class = equivalence_classes(scene.cloth.particles(), pairs);
+    let class =
+        equivalence_classes(scene.cloth.particles(), pairs).expect("pairs name what they join");
     let ends = |edge: &FreeEdge| {
         [edge.particles[0], edge.particles[edge.particles.len() - 1]].map(|p| class[p as usize])
     };

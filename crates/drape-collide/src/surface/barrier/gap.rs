@@ -2,6 +2,7 @@
 
 use super::mollifier::Mollifier;
 use crate::barrier::Barrier;
+use crate::error::Error;
 use crate::surface::distance::ClosestPoints;
 use crate::surface::pair::{Pair, closest, distance};
 use crate::vector::{dot, scale, subtract};
@@ -56,11 +57,16 @@ pub struct Gap {
 impl Gap {
     /// Returns the gap of `pair` at the flat `positions`, in m.
     ///
-    /// # Panics
+    /// # Errors
     ///
     /// A vertex of `pair` has no position.
-    #[must_use]
-    pub fn new(pair: &Pair, positions: &[f64]) -> Gap {
+    pub fn new(pair: &Pair, positions: &[f64]) -> Result<Gap, Error> {
+        pair.check_positions(positions)?;
+        Ok(Gap::at(pair, positions))
+    }
+
+    /// Returns the gap of `pair` at the flat `positions` of all vertices, in m.
+    pub(crate) fn at(pair: &Pair, positions: &[f64]) -> Gap {
         let points = pair.points(positions);
         let closest = closest(pair.kind, points);
         let distance = distance(&closest);

@@ -115,7 +115,7 @@ impl ActivePair {
         if pair.distance - pair.largest_sum(drift) >= pair.activation_distance {
             return None;
         }
-        let gap = Gap::new(pair, positions);
+        let gap = Gap::at(pair, positions);
         // A distance of NaN counts as active.
         (!(gap.distance() >= pair.activation_distance)).then_some(ActivePair { pair: *pair, gap })
     }

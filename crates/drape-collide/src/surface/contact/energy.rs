@@ -2,6 +2,7 @@
 
 use super::active_pairs::{ActivePair, ActivePairs};
 use super::surface_contact::SurfaceContact;
+use crate::error::Error;
 use crate::surface::barrier::Gradient;
 use crate::surface::friction::{FrictionEnergy, SurfaceFriction};
 use crate::vector::{Matrix, outer};
@@ -15,9 +16,16 @@ pub struct SurfaceEnergy<'a> {
 
 impl<'a> SurfaceEnergy<'a> {
     /// Detects the active pairs of `contact` at the `positions` of the free vertices, in m.
-    pub(super) fn new(contact: &'a mut SurfaceContact, positions: &[f64]) -> SurfaceEnergy<'a> {
+    ///
+    /// # Errors
+    /// There are not three coordinates for each free vertex.
+    pub(super) fn new(
+        contact: &'a mut SurfaceContact,
+        positions: &[f64],
+    ) -> Result<SurfaceEnergy<'a>, Error> {
+        contact.check_free("positions", positions)?;
         contact.update(positions);
-        SurfaceEnergy { contact }
+        Ok(SurfaceEnergy { contact })
     }
 
     /// Returns the energy of the contact with the potential of friction, in J. It is infinite or
@@ -41,10 +49,15 @@ impl<'a> SurfaceEnergy<'a> {
 
     /// Adds the forces on the free vertices to `forces`, in N. They are NaN if the positions are
     /// not finite.
-    pub fn add_forces(&mut self, forces: &mut [f64]) {
+    ///
+    /// # Errors
+    /// There are not three forces for each free vertex.
+    pub fn add_forces(&mut self, forces: &mut [f64]) -> Result<(), Error> {
+        self.contact.check_free("forces", forces)?;
         let SurfaceContact { stiffness, active, friction, .. } = &mut *self.contact;
         if active.failure.is_some() {
-            return forces.fill(f64::NAN);
+            forces.fill(f64::NAN);
+            return Ok(());
         }
         for_each_gradient(*stiffness, active, friction, |vertices, gradient| {
             for (corner, &vertex) in vertices.iter().enumerate() {
@@ -56,6 +69,7 @@ impl<'a> SurfaceEnergy<'a> {
                 }
             }
         });
+        Ok(())
     }
 
     /// Calls `add` with two free vertices and the block of the potential's second derivative with

@@ -4,7 +4,7 @@
 use super::open_seams::LEAST;
 use super::pinch::vertices_of;
 use super::surface_contact::SurfaceContact;
-use crate::error::Error;
+use crate::error::{Error, check_index};
 use crate::surface::exact::{Intersection, encloses, exempt_intersections, intersections};
 use crate::surface::placement::Placement;
 use crate::vector::{Vector, at, cross, norm, subtract};
@@ -30,8 +30,12 @@ pub struct SurfaceInspection<'a> {
 
 impl<'a> SurfaceInspection<'a> {
     /// Returns the inspection of `contact` at the `positions` of the free vertices, in m.
-    pub(super) fn new(contact: &'a SurfaceContact, positions: &'a [f64]) -> SurfaceInspection<'a> {
-        SurfaceInspection { contact, positions }
+    pub(super) fn new(
+        contact: &'a SurfaceContact,
+        positions: &'a [f64],
+    ) -> Result<SurfaceInspection<'a>, Error> {
+        contact.check_free("positions", positions)?;
+        Ok(SurfaceInspection { contact, positions })
     }
 
     /// Like [`SurfaceContact::intersections`], but includes cloth that
@@ -44,14 +48,17 @@ impl<'a> SurfaceInspection<'a> {
     }
 
     /// Returns whether the free `vertex` is inside a body.
-    #[must_use]
-    pub fn is_inside_body(self, vertex: usize) -> bool {
+    ///
+    /// # Errors
+    /// `vertex` is not a free vertex.
+    pub fn is_inside_body(self, vertex: usize) -> Result<bool, Error> {
         let surface = &self.contact.surface;
+        check_index("free vertex", vertex, surface.free_count())?;
         let all = self.placed();
         let bodies = surface.free_count()..surface.vertex_count();
-        let mut groups: Vec<u32> = bodies.map(|v| surface.group(v as u32)).collect();
+        let mut groups: Vec<u32> = bodies.map(|v| surface.primitives().group(v as u32)).collect();
         groups.dedup();
-        groups.iter().any(|&group| encloses(surface, group, at(&all, vertex), &all))
+        Ok(groups.iter().any(|&group| encloses(surface, group, at(&all, vertex), &all)))
     }
 
     /// Returns the exempt intersections between the two sides of seams.

@@ -2,10 +2,10 @@
 
 use super::active_pairs::ActivePair;
 use super::energy::{SurfaceEnergy, for_each_gradient};
-use super::obstacles::Obstacles;
+use super::obstacles::{Obstacles, check_bodies};
 use super::pairs::SurfacePairs;
 use super::surface_contact::SurfaceContact;
-use crate::error::Error;
+use crate::error::{Error, check_index, check_length, check_positions};
 use crate::surface::exact::Intersection;
 use crate::surface::friction::ActiveGap;
 use crate::surface::step_filter::SurfaceTrial;
@@ -47,9 +47,9 @@ impl<'a> SurfaceStart<'a> {
 ///
 /// ```compile_fail,E0382
 /// # fn step(contact: &mut drape_collide::SurfaceContact, end: &[f64]) {
-/// let step = contact.begin(drape_collide::SurfaceStart::new(end, &[]));
-/// step.commit(end);
-/// step.commit(end);
+/// let step = contact.begin(drape_collide::SurfaceStart::new(end, &[])).unwrap();
+/// step.commit(end).unwrap();
+/// step.commit(end).unwrap();
 /// # }
 /// ```
 ///
@@ -57,9 +57,9 @@ impl<'a> SurfaceStart<'a> {
 ///
 /// ```compile_fail,E0499
 /// # fn step(contact: &mut drape_collide::SurfaceContact, end: &[f64]) {
-/// let step = contact.begin(drape_collide::SurfaceStart::new(end, &[]));
+/// let step = contact.begin(drape_collide::SurfaceStart::new(end, &[])).unwrap();
 /// contact.setup().unwrap().close_seams();
-/// step.commit(end);
+/// step.commit(end).unwrap();
 /// # }
 /// ```
 #[derive(Debug)]
@@ -69,8 +69,17 @@ pub struct OpenStep<'a> {
 
 impl<'a> OpenStep<'a> {
     /// Opens a step of `contact` from `start`, see [`SurfaceContact::begin`].
-    pub(super) fn begin(contact: &'a mut SurfaceContact, start: SurfaceStart<'_>) -> OpenStep<'a> {
+    pub(super) fn begin(
+        contact: &'a mut SurfaceContact,
+        start: SurfaceStart<'_>,
+    ) -> Result<OpenStep<'a>, Error> {
         let SurfaceStart { positions, bodies, seam_gaps, growth_increment } = start;
+        contact.check_free("positions", positions)?;
+        check_bodies(bodies, contact.obstacles.start.len())?;
+        if let Some(gaps) = seam_gaps {
+            check_length("gaps of seams", gaps.len(), contact.surface.free_count())?;
+        }
+
         if let Some(gaps) = seam_gaps {
             contact.set_seam_gaps(gaps);
         }
@@ -83,7 +92,7 @@ impl<'a> OpenStep<'a> {
         contact.update(positions);
         for ActivePair { pair, gap } in contact.active.iter() {
             let [a, b] = [pair.vertices[0], pair.vertices[3]];
-            let groups = [a, b].map(|vertex| contact.surface.group(vertex));
+            let groups = [a, b].map(|vertex| contact.surface.primitives().group(vertex));
             let active = ActiveGap { pair, gap };
             contact.friction.open_pair(
                 active,
@@ -92,7 +101,7 @@ impl<'a> OpenStep<'a> {
                 contact.stiffness,
             );
         }
-        OpenStep { contact }
+        Ok(OpenStep { contact })
     }
 
     /// Returns the step of `contact` that is open.
@@ -110,16 +119,23 @@ impl<'a> OpenStep<'a> {
     }
 
     /// Returns the [`SurfaceEnergy`] at the `positions` of the free vertices, in m, and at the
-    /// present obstacle time.
-    pub fn energy(&mut self, positions: &[f64]) -> SurfaceEnergy<'_> {
+    /// present obstacle time. See [`SurfaceContact::energy`].
+    ///
+    /// # Errors
+    /// There are not three coordinates for each free vertex.
+    pub fn energy(&mut self, positions: &[f64]) -> Result<SurfaceEnergy<'_>, Error> {
         SurfaceEnergy::new(self.contact, positions)
     }
 
     /// Returns the work of the bodies in this step, in J: their forces at `positions` and the
     /// present obstacle time, times their displacements.
-    pub fn body_work(&mut self, positions: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// There are not three coordinates for each free vertex.
+    pub fn body_work(&mut self, positions: &[f64]) -> Result<f64, Error> {
+        self.contact.check_free("positions", positions)?;
         if !self.contact.obstacles.moves() {
-            return 0.0;
+            return Ok(0.0);
         }
         self.contact.update(positions);
         let free = 3 * self.contact.surface.free_count();
@@ -136,7 +152,7 @@ impl<'a> OpenStep<'a> {
                 }
             }
         });
-        work
+        Ok(work)
     }
 
     /// Returns the energy that the growth of distances in this step added to the contact, in J. See
@@ -151,9 +167,18 @@ impl<'a> OpenStep<'a> {
     ///
     /// All displacements are shortened by a common fraction. Where this would leave little of the
     /// step, they are shortened vertex by vertex. Bodies and held vertices move by a common
-    /// fraction.
-    pub fn limit(&mut self, trial: SurfaceTrial<'_>) -> bool {
+    /// fraction. Where positions or displacements are not finite, nothing moves.
+    ///
+    /// # Errors
+    /// A list of `trial` has the wrong length, or a held vertex is not a free vertex.
+    pub fn limit(&mut self, trial: SurfaceTrial<'_>) -> Result<bool, Error> {
         let SurfaceTrial { start, displacements, held, obstacle_time, obstacle_advance } = trial;
+        self.contact.check_free("positions", start)?;
+        self.contact.check_free("displacements", displacements)?;
+        for &vertex in held {
+            check_index("free vertex", vertex, self.contact.surface.free_count())?;
+        }
+
         let SurfaceContact { surface, obstacles, limiter, tracked, active, .. } =
             &mut *self.contact;
         obstacles.place(start, obstacle_time, &mut limiter.positions);
@@ -167,7 +192,7 @@ impl<'a> OpenStep<'a> {
             limiter.displacements.extend(bodies);
         }
 
-        match limiter.limit(surface, tracked, held) {
+        let is_whole = match limiter.limit(surface, tracked, held) {
             Ok(None) => true,
             Ok(Some(fraction)) => {
                 displacements.copy_from_slice(&limiter.displacements[..displacements.len()]);
@@ -181,7 +206,8 @@ impl<'a> OpenStep<'a> {
                 *obstacle_advance = 0.0;
                 false
             }
-        }
+        };
+        Ok(is_whole)
     }
 
     /// Returns every [`Intersection`] at the `positions` of the free vertices, in m, and at the
@@ -195,8 +221,16 @@ impl<'a> OpenStep<'a> {
 
     /// Commits the step at the `positions` of the free vertices, in m. Slip of friction becomes
     /// permanent, and bodies are at the end of their motion.
-    pub fn commit(self, positions: &[f64]) {
+    ///
+    /// # Errors
+    /// There are not three coordinates for each free vertex, or a coordinate is not finite. Then
+    /// the step stays open.
+    pub fn commit(self, positions: &[f64]) -> Result<(), Error> {
         let contact = self.contact;
+        contact.check_free("positions", positions)?;
+        if positions.iter().any(|coordinate| !coordinate.is_finite()) {
+            check_positions("vertex", positions)?;
+        }
         contact.obstacles.time = 1.0;
         contact.update(positions);
         contact.friction.commit(&contact.active.positions);
@@ -204,6 +238,7 @@ impl<'a> OpenStep<'a> {
         contact.pinch.committed.clone_from(&contact.surface.separations.pinch);
         contact.growth.fraction = contact.surface.separations.growth_fraction;
         contact.is_open = false;
+        Ok(())
     }
 
     /// Rejects the step: bodies, pinched vertices and distances are as they were before the step.

@@ -151,12 +151,12 @@ impl Pinch {
             let direction = scale(gap.normal(), sign);
             let [a, b] = [pair.vertices[0], pair.vertices[3]];
             let face = NearFace {
-                group: surface.group(pair.vertices[corner]),
+                group: surface.primitives().group(pair.vertices[corner]),
                 direction,
                 point,
                 approach: dot(direction, displacement),
                 distance: gap.distance(),
-                min_separation: surface.pair_distances(a, b).min_separation,
+                min_separation: surface.vertex_distances([a, b]).min_separation,
             };
             for k in (0..4).filter(|&k| !is_body[k]) {
                 let order = self.faces.len() as u32;
@@ -181,7 +181,7 @@ impl Pinch {
             let vertices = vertices_of(surface, *intersection);
             for &vertex in &vertices {
                 if let Some(PinchState::Released(group)) = next.get(vertex as usize)
-                    && vertices.iter().any(|&other| surface.group(other) == *group)
+                    && vertices.iter().any(|&other| surface.primitives().group(other) == *group)
                 {
                     inside[vertex as usize] = true;
                 }

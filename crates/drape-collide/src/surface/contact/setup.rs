@@ -5,7 +5,7 @@ use super::obstacles::check_bodies;
 use super::pinch::vertices_of;
 use super::state::SurfaceState;
 use super::surface_contact::SurfaceContact;
-use crate::error::Error;
+use crate::error::{Error, check_length, check_positions};
 
 /// Fraction of the nearest pair's distance that its minimum separation takes after shrinking.
 const SEPARATION_KEPT: f64 = 0.9;
@@ -44,13 +44,11 @@ impl<'a> SurfaceSetup<'a> {
     /// and keep a tenth of the gap, or the usual distances where these are smaller.
     ///
     /// # Errors
-    /// Positions are not finite, or there are too many pairs.
-    ///
-    /// # Panics
-    /// There is not one gap for each free vertex.
+    /// Positions are not finite, there are too many pairs, or there is not one gap for each free
+    /// vertex.
     pub fn open_seams(&mut self, gaps: &[f64], positions: &[f64]) -> Result<(), Error> {
         let contact = &mut *self.contact;
-        assert_eq!(gaps.len(), contact.surface.free_count(), "a gap for each free vertex");
+        check_length("gaps of seams", gaps.len(), contact.surface.free_count())?;
         contact.open_seams.open(&contact.surface);
         contact.set_seam_gaps(gaps);
         contact.detect_pairs(positions)?;
@@ -103,10 +101,11 @@ impl<'a> SurfaceSetup<'a> {
     /// Moves the bodies' vertices to the flat positions `bodies`, in m.
     ///
     /// # Errors
-    /// `bodies` has the wrong number of coordinates.
+    /// `bodies` has the wrong number of coordinates, or one that is not finite or beyond 1000 km.
     pub fn place_bodies(&mut self, bodies: &[f64]) -> Result<(), Error> {
         let SurfaceContact { obstacles, active, .. } = &mut *self.contact;
         check_bodies(bodies, obstacles.start.len())?;
+        check_positions("vertex of a body", bodies)?;
         obstacles.restore(bodies);
         active.invalidate();
         Ok(())
@@ -134,7 +133,7 @@ impl<'a> SurfaceSetup<'a> {
         contact.open_seams = open_seams;
         contact.surface.separations.seam_gaps = seam_gaps;
         contact.drop_pairs();
-        contact.restore(&memory);
+        contact.take_back(&memory);
         placement
     }
 

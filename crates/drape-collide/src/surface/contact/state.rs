@@ -101,7 +101,17 @@ impl<'a> SurfaceState<'a> {
 impl SurfaceContact {
     /// Restores the state `memory`, as if the steps since then had not been committed. A step that
     /// is open ends.
-    pub fn restore(&mut self, memory: &SurfaceMemory) {
+    ///
+    /// # Errors
+    /// `memory` belongs to another surface, or holds numbers that no contact produces.
+    pub fn restore(&mut self, memory: &SurfaceMemory) -> Result<(), Error> {
+        memory.check(self.surface.free_count(), self.obstacles.start.len())?;
+        self.take_back(memory);
+        Ok(())
+    }
+
+    /// Restores the state `memory`, which has been checked.
+    pub(super) fn take_back(&mut self, memory: &SurfaceMemory) {
         let SurfaceMemory { stretches, bodies, pinch, growth_fraction } = memory;
         self.friction.stretches.clone_from(stretches);
         self.pinch.committed.clone_from(pinch);
@@ -133,7 +143,7 @@ impl SurfaceContact {
 
         // An evaluation at the positions reports errors before the saved pairs are restored.
         self.surface.separations.seam_gaps.clone_from(seam_gaps);
-        self.restore(memory);
+        self.take_back(memory);
         self.active.invalidate();
         self.detect_pairs(positions)?;
         self.tracked.restore(&self.surface, tracked)

@@ -7,7 +7,7 @@ use super::open_seams::OpenSeams;
 use super::pairs::SurfacePairs;
 use super::pinch::{Pinch, vertices_of};
 use super::settings::{PinchPolicy, SurfaceSettings};
-use crate::error::Error;
+use crate::error::{Error, check_length, check_positions};
 use crate::surface::contact_surface::Surface;
 use crate::surface::exact::{Intersection, IntersectionTest};
 use crate::surface::friction::SurfaceFriction;
@@ -63,11 +63,11 @@ use crate::surface::tracked_pairs::TrackedPairs;
 /// let (mass, dt) = (1e-3, 1e-3);
 /// let mut velocities = [0.0; 9];
 /// for _ in 0..400 {
-///     let mut step = contact.begin(SurfaceStart::new(&positions, &bodies));
+///     let mut step = contact.begin(SurfaceStart::new(&positions, &bodies))?;
 ///
 ///     // Energy: forces of contact, and weight.
 ///     let mut forces = [0.0, -9.81 * mass, 0.0].repeat(3);
-///     step.energy(&positions).add_forces(&mut forces);
+///     step.energy(&positions)?.add_forces(&mut forces)?;
 ///     let mut displacements: Vec<f64> =
 ///         (0..9).map(|k| dt * (0.9 * velocities[k] + dt * forces[k] / mass)).collect();
 ///
@@ -78,12 +78,12 @@ use crate::surface::tracked_pairs::TrackedPairs;
 ///         held: &[],
 ///         obstacle_time: 0.0,
 ///         obstacle_advance: &mut 1.0,
-///     });
+///     })?;
 ///     let end: Vec<f64> = positions.iter().zip(&displacements).map(|(x, dx)| x + dx).collect();
 ///
 ///     // Test, exactly, before the step is committed.
 ///     assert!(step.intersections(&end)?.is_empty());
-///     step.commit(&end);
+///     step.commit(&end)?;
 ///     (0..9).for_each(|k| velocities[k] = displacements[k] / dt);
 ///     positions = end;
 /// }
@@ -122,7 +122,8 @@ impl SurfaceContact {
     /// Returns the contact of `surface` with its bodies at the flat positions `bodies`, in m.
     ///
     /// # Errors
-    /// A setting is out of range, or `bodies` has the wrong number of vertices.
+    /// A setting is out of range; or `bodies` has the wrong number of vertices, or a coordinate that
+    /// is not finite or beyond 1000 km.
     pub fn new(
         surface: Surface,
         settings: SurfaceSettings,
@@ -131,6 +132,7 @@ impl SurfaceContact {
         let group_count = surface.group_distances().len();
         settings.check(group_count)?;
         check_bodies(&bodies, 3 * (surface.vertex_count() - surface.free_count()))?;
+        check_positions("vertex of a body", &bodies)?;
         let distances = surface.group_distances().iter();
         let activation_distance =
             distances.map(|group| group.activation_distance).fold(0.0, f64::max);
@@ -159,6 +161,11 @@ impl SurfaceContact {
         })
     }
 
+    /// Checks that `list` has three numbers of `what` for each free vertex.
+    pub(super) fn check_free(&self, what: &'static str, list: &[f64]) -> Result<(), Error> {
+        check_length(what, list.len(), 3 * self.surface.free_count())
+    }
+
     /// Returns the [`Surface`] of cloth and bodies.
     #[must_use]
     pub fn surface(&self) -> &Surface {
@@ -170,8 +177,9 @@ impl SurfaceContact {
     /// is exempt.
     ///
     /// # Errors
-    /// Positions are not finite.
+    /// Positions are not finite, or there are not three for each free vertex.
     pub fn intersections(&mut self, positions: &[f64]) -> Result<&[Intersection], Error> {
+        self.check_free("positions", positions)?;
         self.obstacles.place(positions, self.obstacles.time, &mut self.trial);
         self.intersection_test.run_placed(&self.surface, &self.trial)?;
         let surface = &self.surface;
@@ -186,6 +194,7 @@ impl SurfaceContact {
     /// # Errors
     /// Positions are not finite, or there are too many pairs.
     pub(super) fn detect_pairs(&mut self, positions: &[f64]) -> Result<SurfacePairs<'_>, Error> {
+        self.check_free("positions", positions)?;
         self.update(positions);
         match &self.active.failure {
             Some(failure) => Err(failure.clone()),

@@ -13,7 +13,7 @@ use crate::vector::{Vector, at, cross, dot, norm, subtract};
 pub(crate) fn encloses(surface: &Surface, group: u32, point: Vector, positions: &[f64]) -> bool {
     let triangles = surface.triangles().iter();
     let angle: f64 = triangles
-        .filter(|corners| surface.group(corners[0]) == group)
+        .filter(|corners| surface.primitives().group(corners[0]) == group)
         .map(|corners| {
             solid_angle(corners.map(|vertex| subtract(at(positions, vertex as usize), point)))
         })

@@ -49,7 +49,13 @@ pub struct SurfaceParts {
     /// Half distances of each group.
     pub distances: Vec<ContactDistances>,
     /// Number of free vertices, which come first. The others belong to bodies and move as
-    /// prescribed. Pairs without a free vertex are left out.
+    /// prescribed.
+    ///
+    /// Pairs without a free vertex are left out: bodies do not meet bodies. Their motion is given,
+    /// so no force could part them, and a step filter between two bodies would stop all bodies at
+    /// once. [`earliest_impact`](crate::earliest_impact) and
+    /// [`mesh_distance`](crate::mesh_distance) say whether and when bodies meet. Meshes that shall
+    /// meet each other are free, with a group each. A surface without a free vertex is refused.
     pub free_vertices: usize,
     /// Pairs of vertices that a seam joins. Once the seam is closed, primitives that share a vertex
     /// through such pairs are exempt from contact.
@@ -73,6 +79,9 @@ pub(super) fn check_parts(parts: &SurfaceParts) -> Result<(), Error> {
     }
     let free = parts.free_vertices as f64;
     check("the number of free vertices", free, "at most all", parts.free_vertices <= vertices)?;
+    if parts.free_vertices == 0 {
+        return Err(Error::NothingFree { vertices });
+    }
     check_positions("rest position of vertex", &parts.rest_positions)?;
     check_distances(&parts.distances)?;
     for (vertex, &group) in parts.groups.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Vertices that seams join or tie. Primitives at them are exempt from contact once seams close.
 
-use super::topology::equivalence_classes;
+use super::topology::classes;
 
 /// Class of vertices that a seam ties to a point between two other classes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,12 +28,12 @@ impl SeamExemptions {
         seam_pairs: &[[u32; 2]],
         ties: &[[u32; 3]],
     ) -> SeamExemptions {
-        let class = equivalence_classes(vertex_count, seam_pairs);
+        let class = classes(vertex_count, seam_pairs);
 
         // Tied vertices move together with the vertices that they lie between.
         let tied = ties.iter().flat_map(|&[vertex, a, b]| [[vertex, a], [vertex, b]]);
         let moving: Vec<[u32; 2]> = seam_pairs.iter().copied().chain(tied).collect();
-        let moving_class = equivalence_classes(vertex_count, &moving);
+        let moving_class = classes(vertex_count, &moving);
 
         let mut ties: Vec<Tie> = ties
             .iter()

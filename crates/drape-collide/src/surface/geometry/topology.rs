@@ -1,5 +1,6 @@
 //! Edges of triangles, and areas of vertices, edges and triangles.
 
+use crate::error::{Error, check_index};
 use crate::vector::{Vector, add, at, cross, norm, scale, subtract};
 
 /// Edges of a list of triangles.
@@ -95,10 +96,17 @@ pub(crate) fn middle(rest: &[f64], vertices: &[u32]) -> Vector {
 /// Returns the class of each of `vertex_count` vertices: the smallest number among the vertices
 /// that `pairs` join with it, directly or through others.
 ///
-/// # Panics
+/// # Errors
 /// A pair names a vertex that does not exist.
-#[must_use]
-pub fn equivalence_classes(vertex_count: usize, pairs: &[[u32; 2]]) -> Vec<u32> {
+pub fn equivalence_classes(vertex_count: usize, pairs: &[[u32; 2]]) -> Result<Vec<u32>, Error> {
+    for &vertex in pairs.as_flattened() {
+        check_index("vertex", vertex as usize, vertex_count)?;
+    }
+    Ok(classes(vertex_count, pairs))
+}
+
+/// Returns the classes of [`equivalence_classes`] for `pairs` of vertices that exist.
+pub(crate) fn classes(vertex_count: usize, pairs: &[[u32; 2]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertex_count as u32).collect();
     for &[a, b] in pairs {
         let (a, b) = (root(&parent, a), root(&parent, b));

@@ -29,11 +29,15 @@ pub struct CcdFilter {
 }
 
 impl CcdFilter {
-    /// Returns the largest fraction of a step that conservative advancement proves safe for all
-    /// vertices together. The step leads from `positions` along `displacements`, in m.
+    /// Returns a fraction of a step that conservative advancement proves safe for all vertices
+    /// together. The step leads from `positions` along `displacements`, in m.
     ///
-    /// A common fraction keeps the direction of the step. Each listed pair keeps a tenth of its
-    /// clearance.
+    /// The fraction is for the step of a solver, and is less than the time of impact: each listed
+    /// pair keeps a tenth of its clearance above its minimum separation, the proof stops up to a
+    /// fiftieth of this tenth earlier, and no vertex drifts beyond the budget of the pairs. Two
+    /// triangles that close a clearance of 1 mm by 2 mm stop at 0.45 instead of 0.5.
+    /// [`earliest_impact`](crate::earliest_impact) finds the time of impact, with its pair. A common
+    /// fraction keeps the direction of the step.
     ///
     /// # Errors
     ///

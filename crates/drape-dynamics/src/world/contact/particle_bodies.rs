@@ -4,7 +4,7 @@
 use drape_collide::{ParticleContact, Pose, Triangulation};
 use drape_scene::{BodyMotion, RigidMotion, Scene};
 
-use super::step::{ContactEnergy, ContactStep};
+use super::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 use crate::error::Error;
 
 /// Longest time over which contact with a body counts slip in one step of quasi-static relaxation,
@@ -100,14 +100,15 @@ impl ParticleBodies {
     pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
         // A repeated step begins with the bodies where they were at its start.
         self.move_bodies(step.motion_start);
-        self.contact
-            .begin(step.positions, if step.relaxes { step.dt.min(SLIP_TIME_MAX) } else { step.dt });
-        let potential_before = step.with_energy.then(|| self.contact.potential(step.positions));
+        let dt = if step.relaxes { step.dt.min(SLIP_TIME_MAX) } else { step.dt };
+        self.contact.begin(step.positions, dt).expect(ALL_PARTICLES);
+        let potential_before =
+            step.with_energy.then(|| self.contact.potential(step.positions).expect(ALL_PARTICLES));
         self.move_bodies(step.motion_end);
         let potential_before = potential_before?;
 
-        let friction = self.contact.friction_potential(step.positions);
-        let contact = self.contact.potential(step.positions) - friction;
+        let friction = self.contact.friction_potential(step.positions).expect(ALL_PARTICLES);
+        let contact = self.contact.potential(step.positions).expect(ALL_PARTICLES) - friction;
         Some(ContactEnergy { contact, friction, body_work: contact - potential_before })
     }
 
@@ -116,10 +117,10 @@ impl ParticleBodies {
     pub(crate) fn friction_work(&mut self, start: &[f64], end: &[f64], dt: f64) -> FrictionWork {
         let Self { contact, forces: ForcePair { with_friction, without_friction }, .. } = self;
         let potential = evaluate(contact, end, with_friction);
-        let body_work = contact.body_friction_work(end);
+        let body_work = contact.body_friction_work(end).expect(ALL_PARTICLES);
 
         // A step that has just begun has no slip, and therefore no friction.
-        contact.begin(end, dt);
+        contact.begin(end, dt).expect(ALL_PARTICLES);
         let contact_potential = evaluate(contact, end, without_friction);
 
         let moved = end.iter().zip(start).map(|(end, start)| end - start);
@@ -142,6 +143,6 @@ impl ParticleBodies {
 /// J.
 fn evaluate(contact: &mut ParticleContact, positions: &[f64], forces: &mut [f64]) -> f64 {
     forces.fill(0.0);
-    contact.add_forces(positions, forces);
-    contact.potential(positions)
+    contact.add_forces(positions, forces).expect(ALL_PARTICLES);
+    contact.potential(positions).expect(ALL_PARTICLES)
 }

@@ -1,5 +1,9 @@
 //! Opening of a step for contact: its times, and the energy with which it begins.
 
+/// What a world keeps, so that contact never refuses a list: coordinates, forces and gaps of all
+/// particles, and coordinates of all bodies.
+pub(crate) const ALL_PARTICLES: &str = "the world keeps numbers of all its particles and bodies";
+
 /// Step for which contact is prepared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactStep<'a> {

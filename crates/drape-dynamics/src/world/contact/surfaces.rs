@@ -14,7 +14,7 @@ use drape_implicit::{AllowedStep, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 use serde::{Deserialize, Serialize};
 
-use super::step::{ContactEnergy, ContactStep};
+use super::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 
 /// Largest deviation from a straight path of a prescribed motion within a step, as a fraction of
 /// the minimum separation. Faster rotations are divided into more steps.
@@ -310,14 +310,15 @@ impl Surfaces {
             Some(growth) => (1.0 - self.start_growth_fraction) * step.dt / growth.seconds,
             None => 0.0,
         };
-        let mut open_step = self.contact.begin(SurfaceStart {
+        let opened = self.contact.begin(SurfaceStart {
             positions: step.positions,
             bodies: ends,
             seam_gaps: step.seam_gaps,
             growth_increment,
         });
+        let mut open_step = opened.expect(ALL_PARTICLES);
         step.with_energy.then(|| ContactEnergy {
-            contact: open_step.energy(step.positions).potential(),
+            contact: open_step.energy(step.positions).expect(ALL_PARTICLES).potential(),
             friction: 0.0,
             body_work: open_step.growth_work(),
         })
@@ -346,13 +347,14 @@ impl Surfaces {
         let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
         let Self { contact, held, .. } = self;
         let mut open_step = contact.step().expect("the solver begins a step before it limits one");
-        let is_whole = open_step.limit(SurfaceTrial {
+        let limited = open_step.limit(SurfaceTrial {
             start,
             displacements,
             held,
             obstacle_time,
             obstacle_advance: &mut obstacle_advance,
         });
+        let is_whole = limited.expect(ALL_PARTICLES);
         if is_whole { AllowedStep::Whole } else { AllowedStep::Shortened { obstacle_advance } }
     }
 
@@ -363,7 +365,7 @@ impl Surfaces {
         if self.omitted.body_work {
             return 0.0;
         }
-        self.open_step().body_work(positions)
+        self.open_step().body_work(positions).expect(ALL_PARTICLES)
     }
 
     /// Returns whether no surface intersects another at `positions`.
@@ -384,15 +386,17 @@ impl Surfaces {
     /// Returns the exempt intersections at `positions`, in m.
     pub(crate) fn exempt(&self, positions: &[f64]) -> SeamIntersections {
         // Positions that are not finite are reported by the intersection test of the step.
-        self.contact.inspect(positions).seam_intersections().unwrap_or_default()
+        let inspection = self.contact.inspect(positions);
+        inspection.and_then(|inspection| inspection.seam_intersections()).unwrap_or_default()
     }
 
     /// Describes where surfaces are closest to their minimum separation, with the particles at
     /// `positions`, in m. Returns `None` if no surfaces are near each other.
     pub(crate) fn describe_closest(&self, positions: &[f64]) -> Option<String> {
         let PairDistance { pair, distance } = self.contact.pairs().closest()?;
-        let [first_name, second_name] = [pair.vertices[0], pair.vertices[3]]
-            .map(|vertex| &self.names[self.contact.surface().group(vertex) as usize]);
+        let surface = self.contact.surface();
+        let first_name = &self.names[surface.group(pair.vertices[0]).ok()? as usize];
+        let second_name = &self.names[surface.group(pair.vertices[3]).ok()? as usize];
         let start = 3 * pair.vertices.into_iter().min()? as usize;
         let [x, y, z] = positions.get(start..start + 3)?.try_into().ok()?;
         Some(format!(

@@ -153,7 +153,9 @@ pub(crate) fn overlaps(
         {
             if pairs.insert([a.min(b), a.max(b)]) {
                 let group = |triangle: u32| {
-                    surface.group(surface.triangles()[triangle as usize][0]) as usize
+                    surface
+                        .group(surface.triangles()[triangle as usize][0])
+                        .map_or(0, |group| group as usize)
                 };
                 let corners = |triangle: u32| surface.triangles()[triangle as usize].map(at);
                 let place = |ends: &[[f64; 3]]| match distance {
