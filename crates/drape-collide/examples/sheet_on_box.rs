@@ -4,6 +4,9 @@ use drape_collide::{SurfaceContact, SurfaceParts, SurfaceSettings, SurfaceStart,
 use drape_implicit::{AllowedStep, BlockMatrix, IntegratorState, Settings, Sparsity, StepFilter};
 use drape_implicit::{Stepper, Stiffness, System, TrialStep};
 
+/// What the solver keeps, so that contact refuses no list.
+const LISTS: &str = "the solver has three numbers for each vertex";
+
 /// Contact of a triangle of three particles of 1 g with a box, and the positions of the box.
 struct Sheet(SurfaceContact, Vec<f64>);
 
@@ -18,17 +21,17 @@ impl System for Sheet {
     fn particles(&self) -> usize { 3 }
     fn masses(&self) -> &[f64] { &[1e-3; 3] }
     fn held(&self) -> &[bool] { &[false; 3] }
-    fn begin(&mut self, _: f64, _: f64, x: &[f64], _: &mut [f64]) { self.0.begin(SurfaceStart::new(x, &self.1)); }
+    fn begin(&mut self, _: f64, _: f64, x: &[f64], _: &mut [f64]) { self.0.begin(SurfaceStart::new(x, &self.1)).expect(LISTS); }
     fn forces(&mut self, x: &[f64], forces: &mut [f64]) {
         (0..9).for_each(|k| forces[k] = if k % 3 == 1 { -9.81e-3 } else { 0.0 });
-        self.0.energy(x).add_forces(forces);
+        self.0.energy(x).and_then(|mut energy| energy.add_forces(forces)).expect(LISTS);
     }
-    fn potential(&mut self, x: &[f64]) -> f64 { 9.81e-3 * (x[1] + x[4] + x[7]) + self.0.energy(x).potential() }
+    fn potential(&mut self, x: &[f64]) -> f64 { 9.81e-3 * (x[1] + x[4] + x[7]) + self.0.energy(x).expect(LISTS).potential() }
     fn stiffness(&mut self, x: &[f64], _: Stiffness, matrix: &mut BlockMatrix) {
-        self.0.energy(x).add_stiffness(&mut |[i, j], block| matrix.add(i, j, block));
+        self.0.energy(x).expect(LISTS).add_stiffness(&mut |[i, j], block| matrix.add(i, j, block));
     }
     fn sparsity(&self) -> Sparsity { Sparsity::from_pairs(3, [[0, 1], [1, 2], [0, 2]]).expect("three") }
-    fn accept(&mut self, x: &[f64], _: &[f64], _: f64) { self.step().commit(x); }
+    fn accept(&mut self, x: &[f64], _: &[f64], _: f64) { self.step().commit(x).expect(LISTS); }
 }
 #[rustfmt::skip]
 impl StepFilter for Sheet {
@@ -36,7 +39,7 @@ impl StepFilter for Sheet {
         let TrialStep { start, displacements, obstacle_time, obstacle_advance: mut advance } = step;
         let obstacle_advance = &mut advance;
         let trial = SurfaceTrial { start, displacements, held: &[], obstacle_time, obstacle_advance };
-        if self.step().limit(trial) { return AllowedStep::Whole; }
+        if self.step().limit(trial).expect(LISTS) { return AllowedStep::Whole; }
         AllowedStep::Shortened { obstacle_advance: advance }
     }
     fn set_obstacle_time(&mut self, time: f64) { self.step().set_obstacle_time(time); }

@@ -35,8 +35,9 @@ pub use proximity::{
 pub use surface::{
     CandidatePairs, CcdFilter, ContactDistances, Detector, FractionLimit, FrictionEnergy, Gap,
     GaussNewton, Gradient, Hessian, Intersection, OpenStep, Pair, PairDistance, PairKind,
-    PinchPolicy, PinchedVertices, SavedContact, SeamIntersections, SewnPlacement, StepFraction,
-    Surface, SurfaceContact, SurfaceEnergy, SurfaceInspection, SurfaceMemory, SurfacePairs,
-    SurfaceParts, SurfaceSettings, SurfaceSetup, SurfaceStart, SurfaceState, SurfaceSummary,
-    SurfaceTrial, Sweep, Truncation, equivalence_classes, intersections, segment_meets_triangle,
+    PinchPolicy, PinchedVertices, PlainMesh, SavedContact, SeamIntersections, SewnPlacement,
+    StepFraction, Surface, SurfaceContact, SurfaceEnergy, SurfaceInspection, SurfaceMemory,
+    SurfacePairs, SurfaceParts, SurfaceSettings, SurfaceSetup, SurfaceStart, SurfaceState,
+    SurfaceSummary, SurfaceTrial, Sweep, Truncation, equivalence_classes, intersections,
+    segment_meets_triangle,
 };

@@ -44,7 +44,7 @@ pub use exact::segment_meets_triangle;
 pub use exact::{Intersection, intersections};
 pub use friction::FrictionEnergy;
 pub(crate) use geometry::classes;
-pub use geometry::{ContactDistances, SurfaceParts, equivalence_classes};
+pub use geometry::{ContactDistances, PlainMesh, SurfaceParts, equivalence_classes};
 pub(crate) use pair::closest;
 pub use pair::{Pair, PairKind};
 pub use step_filter::{CcdFilter, FractionLimit, StepFraction, SurfaceTrial, Truncation};

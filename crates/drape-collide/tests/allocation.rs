@@ -56,32 +56,35 @@ fn swinging(pinch: PinchPolicy) -> u64 {
         let swing = if step % 2 == 0 { 1e-4 } else { 0.0 };
         end.iter_mut().zip(above(swing)).for_each(|(end, x)| *end = x);
         contact.state().save(&mut memory);
-        contact.begin(SurfaceStart::new(&start, &end));
+        contact.begin(SurfaceStart::new(&start, &end)).unwrap();
         let mut open_step = contact.step().unwrap();
         open_step.set_obstacle_time(0.0);
         for trial in 0..3 {
             let down = |k: usize| if k % 3 == 2 { -1e-2 * f64::from(trial) } else { 0.0 };
             displacements.iter_mut().enumerate().for_each(|(k, dx)| *dx = down(k));
-            let whole = open_step.limit(SurfaceTrial {
-                start: &start,
-                displacements: &mut displacements,
-                held: &[0],
-                obstacle_time: 0.0,
-                obstacle_advance: &mut 1.0,
-            });
+            let whole = open_step
+                .limit(SurfaceTrial {
+                    start: &start,
+                    displacements: &mut displacements,
+                    held: &[0],
+                    obstacle_time: 0.0,
+                    obstacle_advance: &mut 1.0,
+                })
+                .unwrap();
             assert!(trial == 0 || !whole);
             forces.fill(0.0);
-            open_step.energy(&start).add_forces(&mut forces);
-            let energy = open_step.energy(&start).potential() + open_step.body_work(&start);
+            open_step.energy(&start).unwrap().add_forces(&mut forces).unwrap();
+            let energy = open_step.energy(&start).unwrap().potential()
+                + open_step.body_work(&start).unwrap();
             let mut blocks = 0;
-            open_step.energy(&start).add_stiffness(&mut |_, _| blocks += 1);
+            open_step.energy(&start).unwrap().add_stiffness(&mut |_, _| blocks += 1);
             assert!(energy.is_finite() && blocks > 100, "{energy} J, {blocks} blocks");
         }
         open_step.set_obstacle_time(1.0);
         assert!(open_step.intersections(&start).unwrap().is_empty());
-        open_step.commit(&start);
+        open_step.commit(&start).unwrap();
         if step % 3 == 0 {
-            contact.restore(&memory);
+            contact.restore(&memory).unwrap();
         }
     })
 }
@@ -112,12 +115,12 @@ fn steps_of_particles_allocate_nothing() {
             for (k, place) in positions.chunks_exact_mut(3).enumerate() {
                 place.copy_from_slice(&direction(k).map(|x| radius * x));
             }
-            contact.begin(&positions, 1e-2);
+            contact.begin(&positions, 1e-2).unwrap();
             contact.move_body(0, Pose::new([0.0, 1e-6 * (step % 2) as f64, 0.0])).unwrap();
-            contact.add_forces(&positions, &mut forces);
-            assert!(contact.potential(&positions) > 0.0);
-            contact.add_stiffness(&positions, true, &mut |_, _| ());
-            assert!(contact.touching_particle_count(&positions) > 500);
+            contact.add_forces(&positions, &mut forces).unwrap();
+            assert!(contact.potential(&positions).unwrap() > 0.0);
+            contact.add_stiffness(&positions, true, &mut |_, _| ()).unwrap();
+            assert!(contact.touching_particle_count(&positions).unwrap() > 500);
         });
         assert_eq!(counted, 0);
     }

@@ -36,12 +36,12 @@ impl Block {
 
     /// One backward Euler step by Newton's method with the exact stiffness.
     fn step(&mut self) {
-        self.contact.begin(&self.position, DT);
+        self.contact.begin(&self.position, DT).unwrap();
         let start = self.position;
         let mut x = start;
         for _ in 0..60 {
             let mut residual = [0.0, -MASS * GRAVITY, 0.0];
-            self.contact.add_forces(&x, &mut residual);
+            self.contact.add_forces(&x, &mut residual).unwrap();
             for k in 0..3 {
                 residual[k] -= MASS / (DT * DT) * (x[k] - start[k] - DT * self.velocity[k]);
             }
@@ -49,11 +49,13 @@ impl Block {
                 break;
             }
             let mut matrix = [0.0; 9];
-            self.contact.add_stiffness(&x, true, &mut |_, block| {
-                for k in 0..9 {
-                    matrix[k] += block[k];
-                }
-            });
+            self.contact
+                .add_stiffness(&x, true, &mut |_, block| {
+                    for k in 0..9 {
+                        matrix[k] += block[k];
+                    }
+                })
+                .unwrap();
             for k in 0..3 {
                 matrix[4 * k] += MASS / (DT * DT);
             }
@@ -77,7 +79,7 @@ impl Block {
     fn merit(&mut self, x: [f64; 3], start: [f64; 3]) -> f64 {
         let free = [0, 1, 2].map(|k| x[k] - start[k] - DT * self.velocity[k]);
         let inertia: f64 = free.iter().map(|d| 0.5 * MASS / (DT * DT) * d * d).sum();
-        inertia + MASS * GRAVITY * (x[1] - start[1]) + self.contact.potential(&x)
+        inertia + MASS * GRAVITY * (x[1] - start[1]) + self.contact.potential(&x).unwrap()
     }
 
     /// Way gone down the slope.
@@ -112,7 +114,7 @@ fn below_the_friction_angle_a_block_stays() {
     // f1 = 0.91, which is at 0.70 of it.
     let speed = block.descent() / (500.0 * DT);
     assert!((6e-4..8e-4).contains(&speed), "creeps at {speed} m/s");
-    let gap = block.contact.summary(&block.position).min_distance;
+    let gap = block.contact.summary(&block.position).unwrap().min_distance;
     assert!(gap > 0.9e-3, "sank to {gap} m");
 }
 

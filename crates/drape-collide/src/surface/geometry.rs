@@ -16,6 +16,7 @@
 
 mod order;
 mod parts;
+mod plain_mesh;
 mod primitives;
 mod seam_exemptions;
 mod separations;
@@ -23,6 +24,7 @@ mod topology;
 
 pub(crate) use order::{PrimitiveRun, SpatialOrder, WIDTH};
 pub use parts::{ContactDistances, SurfaceParts};
+pub use plain_mesh::PlainMesh;
 pub(crate) use primitives::Primitives;
 pub(crate) use separations::{
     PinchState, RestProximity, Separations, THINNED_FRACTION, share_vertex,

@@ -42,7 +42,7 @@ fn is_smooth(pair: &Pair, positions: &[f64], gap: &Gap) -> bool {
     (0..24).all(|k| {
         let mut shifted = positions.to_vec();
         shifted[k / 2] += if k % 2 == 0 { 4.0 * STEP } else { -4.0 * STEP };
-        lies_on(&Gap::new(pair, &shifted)) == lies_on(gap)
+        lies_on(&Gap::new(pair, &shifted).unwrap()) == lies_on(gap)
     })
 }
 
@@ -54,7 +54,7 @@ fn sample(kind: PairKind, count: usize, mut check: impl FnMut(&Pair, &[f64], &Ga
     let mut checked = 0;
     while checked < count {
         let positions: Vec<f64> = (0..12).map(|_| dice.roll()).collect();
-        let gap = Gap::new(&pair, &positions);
+        let gap = Gap::new(&pair, &positions).unwrap();
         if gap.distance() > 0.45 || gap.distance() < 0.08 {
             continue;
         }
@@ -87,7 +87,7 @@ fn the_gradient_is_the_derivative_of_the_energy() {
         sample(kind, 2000, |pair, positions, gap| {
             let differences: Vec<f64> = (0..12)
                 .map(|k| {
-                    let mut energy = |x: &[f64]| [Gap::new(pair, x).energy(STIFFNESS)];
+                    let mut energy = |x: &[f64]| [Gap::new(pair, x).unwrap().energy(STIFFNESS)];
                     derivative(positions, k, STEP, &mut energy)[0]
                 })
                 .collect();
@@ -103,7 +103,7 @@ fn the_hessian_is_the_derivative_of_the_gradient() {
             let hessian = gap.hessian(STIFFNESS).concat();
             let mut differences = Vec::new();
             for k in 0..12 {
-                let mut gradient = |x: &[f64]| Gap::new(pair, x).gradient(STIFFNESS);
+                let mut gradient = |x: &[f64]| Gap::new(pair, x).unwrap().gradient(STIFFNESS);
                 differences.extend(derivative(positions, k, STEP, &mut gradient));
             }
             near("hessian", &hessian, &differences, 1e-6);

@@ -24,14 +24,14 @@ fn pair(kind: PairKind, vertices: [u32; 4]) -> Pair {
 }
 
 fn energy(kind: PairKind, positions: &[f64]) -> f64 {
-    Gap::new(&pair(kind, [0, 1, 2, 3]), positions).energy(STIFFNESS)
+    Gap::new(&pair(kind, [0, 1, 2, 3]), positions).unwrap().energy(STIFFNESS)
 }
 
 /// Random places of a pair within activation distance but not within the minimum separation.
 fn places(dice: &mut Dice, kind: PairKind) -> Vec<f64> {
     loop {
         let positions: Vec<f64> = (0..12).map(|_| 0.5 * dice.roll()).collect();
-        let gap = Gap::new(&pair(kind, [0, 1, 2, 3]), &positions);
+        let gap = Gap::new(&pair(kind, [0, 1, 2, 3]), &positions).unwrap();
         if gap.distance() > 0.06 && gap.distance() < 0.45 {
             return positions;
         }
@@ -49,7 +49,7 @@ fn the_energy_is_continuous_with_its_gradient_along_any_path() {
             let at = |time: f64| -> Vec<f64> {
                 from.iter().zip(&to).map(|(a, b)| a + time * (b - a)).collect()
             };
-            let gap = |time: f64| Gap::new(&pair(kind, [0, 1, 2, 3]), &at(time));
+            let gap = |time: f64| Gap::new(&pair(kind, [0, 1, 2, 3]), &at(time)).unwrap();
             let feature = |time: f64| gap(time).weights().map(|w| w != 0.0);
             let steps = 400;
             for step in 0..steps {
@@ -114,14 +114,14 @@ fn edges_fade_out_as_they_become_parallel() {
             assert!((now - other).abs() <= 1e-9 * whole * fraction, "{now} and {other}");
         }
         let mut value = |x: &[f64]| [energy(PairKind::EdgeEdge, x)];
-        let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-2));
+        let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-2)).unwrap();
         let gradient = gap.gradient(STIFFNESS);
         for k in 0..12 {
             let slope = derivative(&turned(1e-2), k, 1e-6, &mut value)[0];
             let size = gradient.iter().fold(0.0, |size: f64, g| size.max(g.abs()));
             assert!((slope - gradient[k]).abs() < 1e-5 * size, "{slope} against {}", gradient[k]);
         }
-        let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-12));
+        let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-12)).unwrap();
         assert!(gap.hessian(STIFFNESS).as_flattened().iter().all(|entry| entry.is_finite()));
     }
 }
@@ -147,8 +147,8 @@ fn a_rigid_motion_changes_nothing_but_the_axes() {
                 .flat_map(|p| [0, 1, 2].map(|k| rotate(p)[k] + shift[k]))
                 .collect();
             let (here, there) = (
-                Gap::new(&pair(kind, [0, 1, 2, 3]), &positions),
-                Gap::new(&pair(kind, [0, 1, 2, 3]), &moved),
+                Gap::new(&pair(kind, [0, 1, 2, 3]), &positions).unwrap(),
+                Gap::new(&pair(kind, [0, 1, 2, 3]), &moved).unwrap(),
             );
             let change = there.energy(STIFFNESS) / here.energy(STIFFNESS) - 1.0;
             assert!(change.abs() < 1e-9, "{change:e}");
@@ -173,11 +173,11 @@ fn the_names_of_vertices_and_sides_do_not_matter() {
     for (kind, orders) in swaps {
         for _ in 0..300 {
             let positions = places(&mut dice, kind);
-            let gap = Gap::new(&pair(kind, [0, 1, 2, 3]), &positions);
+            let gap = Gap::new(&pair(kind, [0, 1, 2, 3]), &positions).unwrap();
             let gradient = gap.gradient(STIFFNESS);
             let size = gradient.iter().fold(0.0, |size: f64, g| size.max(g.abs()));
             for order in &orders {
-                let other = Gap::new(&pair(kind, *order), &positions);
+                let other = Gap::new(&pair(kind, *order), &positions).unwrap();
                 assert!((other.distance() - gap.distance()).abs() < 1e-14);
                 for (k, place) in other.gradient(STIFFNESS).chunks(3).enumerate() {
                     for axis in 0..3 {
@@ -195,7 +195,7 @@ fn the_definite_part_is_what_stays_on_a_straight_approach() {
     let mut dice = Dice::new(64);
     for _ in 0..100 {
         let positions = places(&mut dice, PairKind::VertexFace);
-        let gap = Gap::new(&pair(PairKind::VertexFace, [0, 1, 2, 3]), &positions);
+        let gap = Gap::new(&pair(PairKind::VertexFace, [0, 1, 2, 3]), &positions).unwrap();
         let GaussNewton { factor, distance_gradient } = gap.gauss_newton(STIFFNESS);
         assert!(factor >= 0.0);
         // The vertex goes along the normal: the distance changes evenly, the normal does not.
@@ -281,7 +281,7 @@ fn pressure(
     let mut detector = Detector::default();
     let pairs = detector.detect(&surface, &positions, 1e-4).unwrap();
     let force = |pair: &Pair| {
-        let gap = Gap::new(pair, &positions);
+        let gap = Gap::new(pair, &positions).unwrap();
         gap.normal_force(stiffness) * gap.normal()[2].abs()
     };
     pairs.as_slice().iter().map(force).sum::<f64>() / 0.25

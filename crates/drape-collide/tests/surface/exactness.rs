@@ -126,7 +126,7 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
             distance: 0.0,
         };
         let positions = x.as_flattened();
-        let gap = Gap::new(&pair, positions);
+        let gap = Gap::new(&pair, positions).unwrap();
         let (distance, weights) = (gap.distance(), gap.weights());
         let first = if kind == PairKind::VertexFace { 1 } else { 2 };
         let sums = [&weights[..first], &weights[first..]].map(|list| list.iter().sum::<f64>());

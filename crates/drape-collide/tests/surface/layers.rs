@@ -180,7 +180,8 @@ fn pairs_without_room_are_counted_and_may_part() {
     let mut detector = Detector::default();
     let pairs = detector.detect(&surface, &positions, MARGIN).unwrap();
     let has_room = |distance: f64| distance - 2.0 * DISTANCES.min_separation > 1e-9;
-    let tight = pairs.as_slice().iter().filter(|pair| !has_room(pair.distance_at(&positions)));
+    let tight =
+        pairs.as_slice().iter().filter(|pair| !has_room(pair.distance_at(&positions).unwrap()));
     let tight = tight.count();
     let mut up = vec![0.0; positions.len()];
     up[108..].iter_mut().skip(2).step_by(3).for_each(|component| *component = 2e-4);
@@ -247,7 +248,7 @@ fn frictionless() -> SurfaceSettings {
 fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f64) {
     let mut contact =
         SurfaceContact::new(Surface::new(parts).unwrap(), frictionless(), vec![]).unwrap();
-    let mut step = contact.begin(SurfaceStart::new(positions, &[]));
+    let mut step = contact.begin(SurfaceStart::new(positions, &[])).unwrap();
     let vertices = positions.len() / 3;
     let mut displacements: Vec<f64> = (0..positions.len())
         .map(|k| match k / 3 {
@@ -257,13 +258,15 @@ fn sink(parts: SurfaceParts, positions: &[f64], held: &[usize]) -> (Vec<f64>, f6
         })
         .collect();
     let mut obstacle_advance = 1.0;
-    let whole = step.limit(SurfaceTrial {
-        start: positions,
-        displacements: &mut displacements,
-        held,
-        obstacle_time: 0.0,
-        obstacle_advance: &mut obstacle_advance,
-    });
+    let whole = step
+        .limit(SurfaceTrial {
+            start: positions,
+            displacements: &mut displacements,
+            held,
+            obstacle_time: 0.0,
+            obstacle_advance: &mut obstacle_advance,
+        })
+        .unwrap();
     assert!(!whole);
     (displacements.chunks(3).map(|displacement| displacement[2]).collect(), obstacle_advance)
 }
@@ -310,17 +313,19 @@ fn rise(apart: f64, sheet: f64, body: f64) -> (f64, f64) {
     end.iter_mut().skip(2).step_by(3).for_each(|height| *height += body);
     let surface = Surface::new(parts).unwrap();
     let mut contact = SurfaceContact::new(surface, frictionless(), bodies).unwrap();
-    let mut step = contact.begin(SurfaceStart::new(&positions, &end));
+    let mut step = contact.begin(SurfaceStart::new(&positions, &end)).unwrap();
     let mut displacements: Vec<f64> =
         (0..free).map(|k| if k % 3 == 2 { sheet } else { 0.0 }).collect();
     let mut obstacle_advance = 1.0;
-    let whole = step.limit(SurfaceTrial {
-        start: &positions,
-        displacements: &mut displacements,
-        held: &[],
-        obstacle_time: 0.0,
-        obstacle_advance: &mut obstacle_advance,
-    });
+    let whole = step
+        .limit(SurfaceTrial {
+            start: &positions,
+            displacements: &mut displacements,
+            held: &[],
+            obstacle_time: 0.0,
+            obstacle_advance: &mut obstacle_advance,
+        })
+        .unwrap();
     assert!(!whole);
     let heights: Vec<f64> = displacements.chunks(3).map(|displacement| displacement[2]).collect();
     assert!(heights.iter().all(|height| *height == heights[0]), "{heights:?}");

@@ -63,7 +63,7 @@ fn the_plate_that_approaches_more_passes_through_the_cloth() {
     // The lower plate is 0.15 mm below the sheet, and the upper one no longer counts.
     let forces = |between: &mut Between, height: f64| {
         let mut forces = vec![0.0; 3 * ALL];
-        between.contact.energy(&level(height)).add_forces(&mut forces);
+        between.contact.energy(&level(height)).unwrap().add_forces(&mut forces).unwrap();
         forces.iter().skip(1).step_by(3).sum::<f64>()
     };
     assert!(forces(&mut between, 5e-5) > 0.0, "the lower one repels it, the upper one is nearer");
@@ -84,7 +84,7 @@ fn cloth_that_a_released_plate_cuts_is_exempt_from_the_test_for_intersections() 
     let pinched = between.step([0.0, -4e-4], [0.0, 0.0]);
     assert!((10..=ALL).contains(&pinched.released) && pinched.thinned == 0, "{pinched:?}");
     let pinched = between.step([0.0, -8e-4], [0.0, 0.0]);
-    let all = between.contact.inspect(&level(0.0)).intersections_with_released().unwrap();
+    let all = between.contact.inspect(&level(0.0)).unwrap().intersections_with_released().unwrap();
     assert!(!all.is_empty() && pinched.released >= 10, "{pinched:?}");
     assert!(between.contact.intersections(&level(0.0)).unwrap().is_empty());
     // Nine vertices are in the plate; those of triangles that it cuts stay released too.
@@ -98,7 +98,7 @@ fn a_step_that_is_taken_back_takes_its_pinches_back() {
     let memory = between.contact.state().memory();
     assert_eq!(between.step([0.0, -2e-4], [0.0, -1e-4]), thinned(ALL));
     let bodies = between.contact.state().body_positions().to_vec();
-    between.contact.restore(&memory);
+    between.contact.restore(&memory).unwrap();
     assert_eq!(between.contact.state().pinched_vertices(), thinned(0));
     assert_ne!(between.contact.state().body_positions(), &bodies[..]);
     assert!((between.ratio(0.0) - 1.5).abs() < 1e-9, "distances and bodies are as before");

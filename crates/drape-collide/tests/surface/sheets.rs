@@ -132,7 +132,11 @@ impl Between {
         self.faces = [0, 1].map(|k| self.faces[k] + ways[k]);
         let [lower, upper] = plates(self.half, self.faces);
         let bodies = [lower.0, upper.0].concat();
-        self.contact.begin(SurfaceStart::new(&level(from), &bodies)).commit(&level(to));
+        self.contact
+            .begin(SurfaceStart::new(&level(from), &bodies))
+            .unwrap()
+            .commit(&level(to))
+            .unwrap();
         self.contact.state().pinched_vertices()
     }
 

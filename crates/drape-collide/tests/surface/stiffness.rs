@@ -13,7 +13,7 @@ fn pull(contact: &mut SurfaceContact, positions: &[f64], displacement: [f64; 3])
     let moved: Vec<f64> =
         positions.iter().zip(displacement.iter().cycle()).map(|(x, w)| x + w).collect();
     let mut forces = vec![0.0; moved.len()];
-    contact.energy(&moved).add_forces(&mut forces);
+    contact.energy(&moved).unwrap().add_forces(&mut forces).unwrap();
     let mut sum = [0.0; 3];
     for force in forces.chunks(3) {
         sum = [0, 1, 2].map(|k| sum[k] + force[k]);
@@ -24,7 +24,7 @@ fn pull(contact: &mut SurfaceContact, positions: &[f64], displacement: [f64; 3])
 /// Sum of all blocks: what a sheet that is moved as a whole meets.
 fn sum_of_blocks(contact: &mut SurfaceContact, positions: &[f64]) -> [f64; 9] {
     let mut sum = [0.0; 9];
-    contact.energy(positions).add_stiffness(&mut |[i, j], block| {
+    contact.energy(positions).unwrap().add_stiffness(&mut |[i, j], block| {
         for (k, sum) in sum.iter_mut().enumerate() {
             *sum += block[k];
             if i != j {
@@ -60,7 +60,7 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
     {
         let mut contact =
             SurfaceContact::new(surface(&parts), settings.clone(), bodies.clone()).unwrap();
-        contact.begin(SurfaceStart::new(&start, &bodies));
+        contact.begin(SurfaceStart::new(&start, &bodies)).unwrap();
         let displacement = [slip[0], slip[1], 0.0];
         let positions: Vec<f64> =
             start.iter().zip(displacement.iter().cycle()).map(|(x, w)| x + w).collect();
@@ -96,7 +96,7 @@ fn bodies_have_no_stiffness_of_their_own() {
     let [first, middle] = [lower.clone().next().unwrap(), lower.sum::<f64>() / 8.0];
     let height = first + 3e-4 * (first - middle).signum();
     let mut blocks = 0;
-    between.contact.energy(&level(height)).add_stiffness(&mut |vertices, _| {
+    between.contact.energy(&level(height)).unwrap().add_stiffness(&mut |vertices, _| {
         assert!(vertices.iter().all(|&vertex| vertex < ALL), "{vertices:?}");
         blocks += 1;
     });

@@ -63,7 +63,7 @@ fn throw(safeguards: Safeguards) -> ThrowResult {
     };
     let mut contact = SurfaceContact::new(surface, settings, bodies.clone()).unwrap();
     contact.limiter.filter.safeguards = safeguards;
-    let mut step = contact.begin(SurfaceStart::new(&start, &bodies));
+    let mut step = contact.begin(SurfaceStart::new(&start, &bodies)).unwrap();
     let mut positions = start.clone();
     let mut intersects = false;
     for _ in 0..STEPS {
@@ -75,7 +75,8 @@ fn throw(safeguards: Safeguards) -> ThrowResult {
             held: &[],
             obstacle_time: 0.0,
             obstacle_advance: &mut 0.0,
-        });
+        })
+        .unwrap();
         positions.iter_mut().zip(&displacements).for_each(|(x, dx)| *x += dx);
         intersects |= !step.intersections(&positions).unwrap().is_empty();
     }

@@ -34,6 +34,10 @@ impl ContactDistances {
 }
 
 /// Parts of a [`Surface`](crate::Surface): vertices, cloth first, and triangles.
+///
+/// [`from_meshes`](SurfaceParts::from_meshes) returns the parts of plain meshes. A vertex without a
+/// triangle is a loose point, which has contact with triangles like a vertex of cloth. Points have
+/// no contact with points.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SurfaceParts {
     /// Three coordinates per vertex at rest, in m. Cloth takes them from its flat panel.
@@ -42,7 +46,8 @@ pub struct SurfaceParts {
     pub rest_positions: Vec<f64>,
     /// Vertices of each triangle, all of one group.
     pub triangles: Vec<[u32; 3]>,
-    /// Lumped area of cloth at each vertex, in m². Entries of bodies are not used.
+    /// Lumped area of cloth at each vertex, in m². The force on a point is in proportion to its
+    /// area. Entries of bodies are not used.
     pub areas: Vec<f64>,
     /// Group of each vertex: a panel or a body.
     pub groups: Vec<u32>,
