@@ -10,8 +10,8 @@
 //!
 //! Each vertex and each edge belongs to one triangle of its mesh (representative triangles
 //! \[Cur08\]), so no two primitives are compared twice. [`first_contact`] finds the time of impact
-//! of two primitives. This chapter uses vectors, errors, and the closest points and exact predicates
-//! of [`surface`](crate::surface).
+//! of two primitives. This chapter uses vectors, errors, and the closest points and exact
+//! predicates of [`surface`](crate::surface).
 
 mod boxes;
 mod coplanarity;

@@ -42,7 +42,7 @@ pub(super) struct PairMotion {
 pub(super) struct Search {
     /// Window outside of which the primitives are surely apart.
     pub(super) window: Window,
-    /// Time from which on a contact is of no interest.
+    /// Time at which a contact, like every later contact, is of no interest.
     pub(super) limit: f64,
     /// Largest time by which the result may precede the contact.
     pub(super) tolerance: f64,
@@ -198,7 +198,7 @@ mod tests {
             end: [[-3.0, 0.2, 0.0], a, b, c],
         };
         let time = motion.first_contact(WHOLE).expect("a contact");
-        assert!(time <= 0.25 && time >= 0.25 - 1e-6, "{time}");
+        assert!((0.25 - 1e-6..=0.25).contains(&time), "{time}");
         assert_eq!(motion.contact_normal(time), [1.0, 0.0, 0.0]);
     }
 
@@ -222,7 +222,7 @@ mod tests {
         for gap in [1e-12, 1e-9, 1e-3] {
             assert_eq!(motion(gap).first_contact(WHOLE), None, "{gap}");
             let time = motion(-gap).first_contact(WHOLE).expect("a contact");
-            assert!(time <= 0.5 && time >= 0.5 - 1e-6, "{gap}: {time}");
+            assert!((0.5 - 1e-6..=0.5).contains(&time), "{gap}: {time}");
         }
     }
 }

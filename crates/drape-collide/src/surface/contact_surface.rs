@@ -19,10 +19,10 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// A list has the wrong length; an index is out of range; a coordinate is not finite or beyond
-    /// 1000 km; a triangle has no area, names a vertex twice or spans two groups; an area is
-    /// negative; no vertex is free; a distance is not positive; a minimum separation is not below its activation
-    /// distance; or two primitives of one group that share no vertex touch at rest.
+    /// A list has the wrong length; an index is out of range; no vertex is free; a coordinate is
+    /// not finite or beyond 1000 km; a triangle has no area, names a vertex twice or spans two
+    /// groups; an area is negative; a distance is not positive; a minimum separation is not below
+    /// its activation distance; or two primitives of one group that share no vertex touch at rest.
     pub fn new(parts: SurfaceParts) -> Result<Surface, Error> {
         let rest_positions = parts.rest_positions.clone();
         let mut separations = Separations::new(parts.distances.clone());

@@ -95,8 +95,8 @@ impl Pair {
 
     /// Checks that all vertices have a place in the flat `positions`.
     pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), Error> {
-        let vertices = self.vertices.into_iter();
-        vertices.map(|vertex| check_index("vertex", vertex as usize, positions.len() / 3)).collect()
+        let count = positions.len() / 3;
+        self.vertices.iter().try_for_each(|&vertex| check_index("vertex", vertex as usize, count))
     }
 }
 

@@ -122,8 +122,8 @@ impl SurfaceContact {
     /// Returns the contact of `surface` with its bodies at the flat positions `bodies`, in m.
     ///
     /// # Errors
-    /// A setting is out of range; or `bodies` has the wrong number of vertices, or a coordinate that
-    /// is not finite or beyond 1000 km.
+    /// A setting is out of range; or `bodies` has the wrong number of vertices, or a coordinate
+    /// that is not finite or beyond 1000 km.
     pub fn new(
         surface: Surface,
         settings: SurfaceSettings,

@@ -15,13 +15,13 @@ pub struct PlainMesh<'a> {
 }
 
 impl SurfaceParts {
-    /// Returns the parts of a surface of the `free` meshes, which the caller moves by forces, and of
-    /// `bodies`, whose motion is given. Each mesh is a group, and `distances` are the half distances
-    /// of all groups. No seams join the meshes.
+    /// Returns the parts of a surface of the `free` meshes, which the caller moves by forces, and
+    /// of `bodies`, whose motion is given. Each mesh is a group, and `distances` are the half
+    /// distances of all groups. No seams join the meshes.
     ///
-    /// The vertices of the free meshes come first, mesh by mesh. A vertex has a third of the area of
-    /// its triangles. A point, which has no triangles, has the area of a disc whose radius is the
-    /// activation distance of `distances`. A point of a body has no area and pushes nothing.
+    /// The vertices of the free meshes come first, mesh by mesh. A vertex has a third of the area
+    /// of its triangles. A point, which has no triangles, has the area of a disc whose radius is
+    /// the activation distance of `distances`. A point of a body has no area and pushes nothing.
     ///
     /// # Errors
     ///
