@@ -80,7 +80,7 @@ fn barrier(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("barrier");
     group.sample_size(20).measurement_time(Duration::from_millis(1000));
     // Half of a millimetre between two equal waves: all vertices are near the other grid.
-    let (low, high) = (Grid::new(100, 0.0, 0.0), Grid::new(100, 0.0, 5e-4));
+    let (low, high) = (Grid::new(60, 0.0, 0.0), Grid::new(60, 0.0, 5e-4));
     let half = ContactDistances { activation_distance: 5e-4, min_separation: 1e-5 };
     let parts = SurfaceParts::from_meshes(&[low.plain(), high.plain()], &[], half);
     let surface = Surface::new(parts.expect("parts")).expect("a surface");
