@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use drape::collide::{
-    ContactDistances, Detector, Gap, PlainMesh, ProximityMesh, Surface, SurfaceParts,
+    ContactDistances, Detector, Gap, Pair, PlainMesh, ProximityMesh, Surface, SurfaceParts,
     earliest_impact, mesh_distance,
 };
 use rayon::ThreadPoolBuilder;
@@ -15,6 +15,9 @@ const SIDES: [u32; 3] = [30, 100, 300];
 
 /// Tolerance of the times of impact.
 const TOLERANCE: f64 = 1e-6;
+
+/// Distance beyond the activation distance within which pairs are detected, in m.
+const MARGIN: f64 = 1e-5;
 
 /// Grid of a mesh.
 struct Grid {
@@ -86,23 +89,25 @@ fn barrier(criterion: &mut Criterion) {
     let surface = Surface::new(parts.expect("parts")).expect("a surface");
     let positions = [low.positions.as_flattened(), high.positions.as_flattened()].concat();
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    pool.install(|| {
-        let mut detector = Detector::default();
-        group.bench_function("detection", |bencher| {
-            bencher.iter(|| {
-                let pairs = detector.detect(&surface, &positions, 1e-5).expect("near pairs");
-                black_box(pairs.as_slice().len())
-            });
-        });
-        let pairs = detector.detect(&surface, &positions, 1e-5).expect("near pairs").as_slice();
-        group.bench_function("energy", |bencher| {
-            let gap = |pair| Gap::new(pair, &positions).expect("positions");
-            bencher.iter(|| pairs.iter().map(|pair| gap(pair).energy(1e8)).sum::<f64>());
-        });
-        group.bench_function("gradient", |bencher| {
-            let gap = |pair| Gap::new(pair, &positions).expect("positions");
-            bencher.iter(|| pairs.iter().map(|pair| gap(pair).gradient(1e8)[0]).sum::<f64>());
-        });
+    let mut detector = Detector::default();
+    group.bench_function("detection", |bencher| {
+        let mut detect = || {
+            let pairs = detector.detect(&surface, &positions, MARGIN).expect("near pairs");
+            black_box(pairs.as_slice().len())
+        };
+        pool.install(|| bencher.iter(&mut detect));
+    });
+    let pairs = detector.detect(&surface, &positions, MARGIN).expect("near pairs").as_slice();
+    let gap = |pair| Gap::new(pair, &positions).expect("positions");
+    group.bench_function("distance", |bencher| {
+        let distance = |pair: &Pair| pair.distance_at(&positions).expect("positions");
+        bencher.iter(|| pairs.iter().map(distance).sum::<f64>());
+    });
+    group.bench_function("energy", |bencher| {
+        bencher.iter(|| pairs.iter().map(|pair| gap(pair).energy(1e8)).sum::<f64>());
+    });
+    group.bench_function("gradient", |bencher| {
+        bencher.iter(|| pairs.iter().map(|pair| gap(pair).gradient(1e8)[0]).sum::<f64>());
     });
     group.finish();
 }
