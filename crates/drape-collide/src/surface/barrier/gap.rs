@@ -69,21 +69,6 @@ impl Gap {
     pub(crate) fn at(pair: &Pair, positions: &[f64]) -> Gap {
         let points = pair.points(positions);
         let closest = closest(pair.kind, points);
-        Gap::with_closest(pair, points, closest)
-    }
-
-    /// Returns the gap of `pair` at the flat `positions` of all vertices, in m, or `None` if its
-    /// distance is not below the activation distance. A distance of NaN counts as below.
-    pub(crate) fn within_activation(pair: &Pair, positions: &[f64]) -> Option<Gap> {
-        let points = pair.points(positions);
-        let closest = closest(pair.kind, points);
-        // Most candidates end here, before anything else is computed.
-        let is_active = !(distance(&closest) >= pair.activation_distance);
-        is_active.then(|| Gap::with_closest(pair, points, closest))
-    }
-
-    /// Returns the gap of `pair` with its vertices at `points`, in m, and their `closest` points.
-    fn with_closest(pair: &Pair, points: [[f64; 3]; 4], closest: ClosestPoints) -> Gap {
         let distance = distance(&closest);
         let normal = if distance > 0.0 { scale(closest.offset, 1.0 / distance) } else { [0.0; 3] };
         let edges = closest

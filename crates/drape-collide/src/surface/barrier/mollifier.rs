@@ -25,15 +25,9 @@ impl Mollifier {
     /// Returns the mollifier of the edges between the first two and the last two `points`.
     pub(crate) fn new(points: [Vector; 4], threshold: f64) -> Mollifier {
         let (first, second) = (subtract(points[1], points[0]), subtract(points[3], points[2]));
-        let mut fraction = 1.0;
-        // A vertex and a triangle have no threshold, and need no cross product.
-        if threshold > 0.0 {
-            let normal = cross(first, second);
-            let square = dot(normal, normal);
-            if square < threshold {
-                fraction = square / threshold;
-            }
-        }
+        let normal = cross(first, second);
+        let square = dot(normal, normal);
+        let fraction = if square < threshold { square / threshold } else { 1.0 };
         Mollifier { first, second, threshold, fraction }
     }
 

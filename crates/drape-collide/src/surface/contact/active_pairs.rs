@@ -115,6 +115,8 @@ impl ActivePair {
         if pair.distance - pair.largest_sum(drift) >= pair.activation_distance {
             return None;
         }
-        Gap::within_activation(pair, positions).map(|gap| ActivePair { pair: *pair, gap })
+        let gap = Gap::at(pair, positions);
+        // A distance of NaN counts as active.
+        (!(gap.distance() >= pair.activation_distance)).then_some(ActivePair { pair: *pair, gap })
     }
 }
