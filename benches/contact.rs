@@ -144,7 +144,9 @@ fn pairs(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(list.len() as u64));
     // The baseline of all others: every other computation of a pair needs its distance.
     group.bench_function("distance", |bencher| {
-        bencher.iter(|| list.iter().map(|pair| pair.distance_at(positions).expect("positions")).sum::<f64>());
+        bencher.iter(|| {
+            list.iter().map(|pair| pair.distance_at(positions).expect("positions")).sum::<f64>()
+        });
     });
     group.bench_function("gradient", |bencher| {
         let gradient = |pair| Gap::new(pair, positions).expect("positions").gradient(1e8)[0];

@@ -100,7 +100,7 @@ impl ProximityMesh {
     }
 
     /// Moves the vertices to `positions`, in m. The tree keeps its order and fits its boxes anew,
-    /// which takes a tenth of the time of [`new`](ProximityMesh::new). After a large deformation a
+    /// which takes a twentieth of the time of [`new`](ProximityMesh::new). After a large deformation a
     /// new mesh answers faster.
     ///
     /// # Errors
