@@ -19,8 +19,9 @@ pub use record::step_hashes::StepHashes;
 pub use record::summary::{
     Contacts, GridRecord, Phase, PhaseName, Solver, Status, Strain, Summary,
 };
+pub use simulation::body_prescription::BodyTarget;
+pub use simulation::pin_prescription::PinTarget;
 pub use simulation::plan::PlannedPhase;
-pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;
 pub use simulation::saved::SavedSimulation;
 pub use simulation::{Simulation, Step};

@@ -4,12 +4,15 @@
 //! The chapter `stepping` makes the steps. After each step the simulation checks whether the phase,
 //! or the run, is over. `run.rs` makes all steps and reports to a watcher. `saved.rs` stores the
 //! state from which an interrupted run resumes. `coarser_grid.rs` relaxes the cloth on coarser
-//! grids first. `seams.rs` ends the sewing. `prescription.rs` lets a program act between steps.
-//! `plan.rs` lists the phases that remain.
+//! grids first. `seams.rs` ends the sewing. A program acts between steps in `prescription.rs`,
+//! `body_prescription.rs` and `pin_prescription.rs`. `vertex_buffer.rs` hands out the surface for a
+//! picture. `plan.rs` lists the phases that remain.
 
+pub(crate) mod body_prescription;
 pub(crate) mod coarser_grid;
 #[cfg(test)]
 mod contact_tests;
+pub(crate) mod pin_prescription;
 pub(crate) mod plan;
 pub(crate) mod prescription;
 pub(crate) mod run;
@@ -17,6 +20,7 @@ pub(crate) mod saved;
 mod seams;
 #[cfg(test)]
 mod sewing_tests;
+mod vertex_buffer;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -151,6 +155,20 @@ struct Outcome {
     place: Option<[f64; 3]>,
 }
 
+impl Outcome {
+    /// Returns the outcome of a run that goes on, with the warnings `events` until now.
+    fn new(events: Vec<String>) -> Self {
+        Self {
+            status: Status::Ok,
+            reason: None,
+            events,
+            warnings: Vec::new(),
+            measures: serde_json::Map::new(),
+            place: None,
+        }
+    }
+}
+
 /// Step of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
@@ -208,6 +226,7 @@ impl Simulation {
         let coarser = CoarserGrid::take_from(&mut scene, &scheme)?;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
+        check_top_speed(&scene)?;
         let (schedule, source) = (scene.schedule, scene.source.clone());
         let parts = GarmentParts::new(&scene);
         let world = World::new(scene)?;
@@ -236,14 +255,7 @@ impl Simulation {
             parts,
             statistics: Statistics::new(),
             last: LastStep { speed_max: 0.0, imbalance: f64::NAN },
-            outcome: Outcome {
-                status: Status::Ok,
-                reason: None,
-                events: Vec::new(),
-                warnings: Vec::new(),
-                measures: serde_json::Map::new(),
-                place: None,
-            },
+            outcome: Outcome::new(Vec::new()),
             frame_times: Vec::new(),
             spacing,
             source,
@@ -591,4 +603,22 @@ impl Simulation {
     fn has_settled(&self) -> bool {
         self.phases.rested || self.is_at_rest()
     }
+}
+
+/// Checks that contact can stop bodies and pins at the top speed that a program declares for `scene`.
+fn check_top_speed(scene: &Scene) -> Result<(), Error> {
+    let Some(speed) = scene.contact.top_speed.filter(|_| scene.contact.surfaces) else {
+        return Ok(());
+    };
+    let limit = match scene.contact.stiffness {
+        Some(_) => scene.stopped_speed(),
+        None => scene.top_speed_max(),
+    };
+    if speed >= 0.0 && speed <= limit {
+        return Ok(());
+    }
+    let reason = format!(
+        "contact.top_speed is {speed} m/s; contact keeps these fabrics apart from 0 to {limit:.3} m/s"
+    );
+    Err(Error::Unsuited { reason })
 }

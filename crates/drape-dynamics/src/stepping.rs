@@ -159,6 +159,23 @@ impl Stepping {
         Ok(())
     }
 
+    /// Stops `particles` of `world`, with the particles that are sewn to them. The next step has no
+    /// previous step.
+    pub(crate) fn stop(&mut self, world: &mut World, particles: &[usize]) {
+        for &particle in particles {
+            let reduction = self.reduction.as_ref();
+            let index = reduction.map_or(particle, |sewn| sewn.independent_particle(particle));
+            self.state.velocities[3 * index..][..3].fill(0.0);
+        }
+        self.state.restart();
+        match &self.reduction {
+            Some(reduction) => {
+                reduction.prolong(&self.state.velocities, &mut world.state.velocities);
+            }
+            None => world.state.velocities.copy_from_slice(&self.state.velocities),
+        }
+    }
+
     /// Makes one step of `world` with the length that step control chooses. Counts rejected steps
     /// in `statistics`.
     ///

@@ -37,7 +37,7 @@ use std::sync::atomic::AtomicBool;
 use drape_cloth::{Cloth, SeamBending, State};
 use drape_collide::SewnPlacement;
 use drape_implicit::System;
-use drape_scene::{HoldUntil, Scene, Sewing};
+use drape_scene::{HoldUntil, RigidMotion, Scene, Sewing};
 
 use crate::error::Error;
 use crate::world::closing_springs::ClosingSprings;
@@ -188,6 +188,46 @@ impl World {
         &self.pins.held
     }
 
+    /// Returns the pins.
+    pub(crate) fn pins(&self) -> &Pins {
+        &self.pins
+    }
+
+    /// Leads the pin `number` along `motion` from the positions `start` of its particles, in m.
+    pub(crate) fn lead_pin(&mut self, number: usize, start: Vec<[f64; 3]>, motion: RigidMotion) {
+        self.pins.lead(number, start, motion);
+    }
+
+    /// Holds `particles` where they are from now on. Returns the number of their pin.
+    pub(crate) fn hold(&mut self, particles: &[usize]) -> usize {
+        self.pins.hold(particles, &self.state.positions)
+    }
+
+    /// Takes `particle` out of all pins.
+    pub(crate) fn free(&mut self, particle: usize) {
+        self.pins.free(particle);
+    }
+
+    /// Returns the air.
+    pub(crate) fn air(&self) -> &AirDrag {
+        &self.air
+    }
+
+    /// Sets the velocity of the air to `velocity`, in m/s.
+    pub(crate) fn set_air_velocity(&mut self, velocity: [f64; 3]) {
+        self.air.set_velocity(velocity);
+    }
+
+    /// Returns the acceleration of gravity, in m/s².
+    pub(crate) fn gravity(&self) -> [f64; 3] {
+        self.gravity.acceleration()
+    }
+
+    /// Sets the acceleration of gravity to `acceleration`, in m/s².
+    pub(crate) fn set_gravity(&mut self, acceleration: [f64; 3]) {
+        self.gravity.set_acceleration(acceleration);
+    }
+
     /// Returns the springs that close the seams, while the garment is sewn.
     pub(crate) fn closing_springs(&self) -> Option<&ClosingSprings> {
         self.seams.springs.as_ref()
@@ -308,7 +348,7 @@ impl World {
     }
 
     /// Returns the kinetic energy of the cloth, in J.
-    fn kinetic_energy(&self) -> f64 {
+    pub(crate) fn kinetic_energy(&self) -> f64 {
         let velocities = self.state.velocities.chunks_exact(3);
         let squares = velocities.map(|velocity| velocity.iter().map(|v| v * v).sum::<f64>());
         self.cloth.masses().iter().zip(squares).map(|(mass, square)| 0.5 * mass * square).sum()

@@ -103,6 +103,9 @@ pub(crate) fn check(
     if spec.keeps_surfaces_apart() {
         let most = fabrics().map(max_impact_speed).fold(f64::INFINITY, f64::min);
         contact::speed::check_speeds(checker, &bodies, &pins, most);
+        contact::speed::check_top_speed(checker, most);
+    } else if spec.contact.top_speed.is_some() {
+        contact::check_surfaces(checker, "contact.top_speed");
     }
     let pins = pins.into_iter().map(|checked| checked.pin).collect();
     let sewing = sewing_settings(checker, seams.is_empty());

@@ -35,7 +35,9 @@ const SPEED_RATIO: f64 = 4.0;
 impl Scene {
     /// Returns the stiffness of the contact of surfaces, in N/m³: the stiffness that the scene
     /// names, or the larger of two others. One follows from the fabrics in compression, the other
-    /// stops the fastest impact.
+    /// stops the fastest impact, which includes the top speed of [`ContactSettings::top_speed`].
+    ///
+    /// [`ContactSettings::top_speed`]: crate::ContactSettings::top_speed
     #[must_use]
     pub fn contact_stiffness(&self) -> f64 {
         self.contact.stiffness.unwrap_or_else(|| {
@@ -70,13 +72,22 @@ impl Scene {
         fabrics.map(|fabric| stopped_speed(fabric, stiffness)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Returns the largest speed of bodies and pins, in m/s, that the stiffest contact stops: the
+    /// largest [`ContactSettings::top_speed`](crate::ContactSettings::top_speed).
+    #[must_use]
+    pub fn top_speed_max(&self) -> f64 {
+        let fabrics = self.panels.iter().map(|panel| &self.materials[panel.material].fabric);
+        fabrics.map(max_impact_speed).fold(f64::INFINITY, f64::min)
+    }
+
     /// Largest value of a fabric's quantity over the panels.
     fn largest(&self, of: impl Fn(&Fabric) -> f64) -> f64 {
         let fabrics = self.panels.iter().map(|panel| &self.materials[panel.material].fabric);
         fabrics.map(of).fold(0.0, f64::max)
     }
 
-    /// Largest speed of a body or a pin that moves by prescription, in m/s.
+    /// Largest speed of a body or a pin that moves by prescription, in m/s: in the motions of the
+    /// scene, or the declared top speed.
     fn prescribed_speed(&self) -> f64 {
         let bodies = self
             .bodies
@@ -84,7 +95,7 @@ impl Scene {
             .filter_map(|MovingBody { body, motion, .. }| Some(body_speed(body, motion.as_ref()?)));
         let pins =
             self.pins.iter().filter_map(|pin| Some(pin.motion.as_ref()?.max_speed(&pin.start)));
-        bodies.chain(pins).fold(0.0, f64::max)
+        bodies.chain(pins).chain(self.contact.top_speed).fold(0.0, f64::max)
     }
 }
 

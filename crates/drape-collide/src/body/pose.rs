@@ -1,5 +1,7 @@
 //! Positions and rotations of bodies.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{Error, check_position};
 use crate::vector::{Matrix, Vector, add, subtract, times, transposed_times};
 
@@ -11,7 +13,7 @@ const UNIT_TOLERANCE: f64 = 1e-5;
 /// Position and rotation of a body.
 ///
 /// A point `$x$` of the body's frame lies at `$p + R x$` in the world.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Position `$p$` of the origin of the body's frame, in m.
     pub position: [f64; 3],

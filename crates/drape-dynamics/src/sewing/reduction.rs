@@ -117,6 +117,11 @@ impl Reduction {
         self.masses.len()
     }
 
+    /// Returns the independent particle of `particle`, which is not tied.
+    pub(crate) fn independent_particle(&self, particle: usize) -> usize {
+        self.rows[particle].particle()
+    }
+
     /// Returns the values of the independent particles from the `values` of all particles, three
     /// numbers each.
     pub(crate) fn restrict(&self, values: &[f64]) -> Vec<f64> {

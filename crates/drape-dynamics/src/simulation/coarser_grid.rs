@@ -77,6 +77,16 @@ impl CoarserGrid {
         self.simulation.give_up_when(flag.clone());
     }
 
+    /// Returns the acceleration of gravity, in m/s².
+    pub(super) fn gravity(&self) -> [f64; 3] {
+        self.simulation.world.gravity()
+    }
+
+    /// Sets the acceleration of gravity to `acceleration`, in m/s².
+    pub(super) fn set_gravity(&mut self, acceleration: [f64; 3]) {
+        self.simulation.set_gravity_of_grids(acceleration);
+    }
+
     pub(super) fn time(&self) -> f64 {
         self.simulation.time()
     }

@@ -1,41 +1,74 @@
-//! Prescriptions between steps, by a program that steps the simulation.
+//! Prescriptions between steps, by a program that steps the simulation: forces, gravity, moving air,
+//! and the checks that all prescriptions share.
 //!
-//! A program sets forces on the particles for the following steps, and moves bodies to prescribed
-//! positions. Contact, limits of steps and the energy balance treat both like prescriptions of the
-//! scene.
+//! A program sets forces on the particles, gravity and the velocity of the air for the following
+//! steps. It leads bodies (`body_prescription.rs`) and pins (`pin_prescription.rs`). Contact, limits
+//! of steps and the energy balance treat these values like prescriptions of the scene, and a saved
+//! state holds them.
 
-use drape_collide::{Shape, Triangulation};
 use drape_input::figure_above;
-use drape_scene::{BodyMotion, MotionKey, RigidMotion, ShapeMotion};
+use drape_scene::{MotionKey, RigidMotion};
 
-use super::Simulation;
+use super::{CoarserGrid, Simulation};
 use crate::error::Error;
-use crate::world::Contact;
+use crate::stepping::RestDetector;
 
-/// Target to which a body moves from its current position.
-#[derive(Debug, Clone, PartialEq)]
-pub enum BodyTarget {
-    /// Positions of the vertices of the body, in m. Each vertex moves along a straight line.
-    Vertices(Vec<[f64; 3]>),
-    /// Rigid displacement.
-    Rigid {
-        /// Displacement, in m.
-        shift: [f64; 3],
-        /// Angles about x, then y, then z, in degrees.
-        turn: [f64; 3],
-        /// Centre of the rotation, in m. By default the middle of the extent of the vertices.
-        center: Option<[f64; 3]>,
-    },
+/// Largest acceleration of gravity, in m/s²: of a centrifuge of ten thousand g.
+const GRAVITY_MAX: f64 = 1e5;
+
+/// Largest speed of the air, in m/s. Faster air is not incompressible, and the law of drag does not
+/// hold.
+const AIR_SPEED_MAX: f64 = 100.0;
+
+/// Longest time within which a body or a pin moves, in s.
+const SECONDS_MAX: f64 = 1e5;
+
+/// Largest coordinate of a displacement, in m or degrees.
+const DISPLACEMENT_MAX: f64 = 1e6;
+
+/// Rigid displacement of a body or a pin.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Displacement {
+    /// Displacement, in m.
+    pub(super) shift: [f64; 3],
+    /// Angles about x, then y, then z, in degrees.
+    pub(super) turn: [f64; 3],
+    /// Centre of the rotation, in m. By default the middle of the extent of the points.
+    pub(super) center: Option<[f64; 3]>,
+}
+
+impl Displacement {
+    /// Returns the motion of `points` between `times`, in s on the motion clock.
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] for numbers that are not finite or too large.
+    pub(super) fn motion(
+        self,
+        times: [f64; 2],
+        points: &[[f64; 3]],
+    ) -> Result<RigidMotion, Error> {
+        let Self { shift, turn, center } = self;
+        let center = center.unwrap_or_else(|| middle(points));
+        let numbers = shift.iter().chain(&turn).chain(&center);
+        if let Some(number) = numbers.into_iter().find(|x| !(x.abs() <= DISPLACEMENT_MAX)) {
+            let message = format!("{number} is no shift, turn or center; give up to 1e6");
+            return Err(unsuited(message));
+        }
+        let motion = RigidMotion::new(
+            center,
+            vec![
+                MotionKey { time: times[0], shift: [0.0; 3], turn: [0.0; 3] },
+                MotionKey { time: times[1], shift, turn },
+            ],
+        );
+        Ok(motion.expect("a motion with keys"))
+    }
 }
 
 impl Simulation {
     /// Sets the forces on the particles for the following steps, in place of earlier ones: three
     /// numbers for each particle, in N. Empty `forces` remove them. The forces are constant during
     /// a step, and their work is part of [`Energy::work_in`](crate::Energy::work_in).
-    ///
-    /// # Errors
-    ///
-    /// Returns [`Error::Unsuited`] if the number of `forces` is wrong or a force is not finite.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for another number of forces, or numbers that are not finite.
@@ -58,6 +91,73 @@ impl Simulation {
         Ok(())
     }
 
+    /// Returns the acceleration of gravity, in m/s². A ramp of the scene may still lead to it.
+    #[must_use]
+    pub fn gravity(&self) -> [f64; 3] {
+        self.coarser.front().map_or_else(|| self.world.gravity(), CoarserGrid::gravity)
+    }
+
+    /// Sets the acceleration of gravity to `acceleration`, in m/s², from the next step on. A ramp of
+    /// the scene (`time.ramp`) that has not ended leads to the new value.
+    ///
+    /// [`Energy::gravity`](crate::Energy::gravity) is the work against the weight along the path,
+    /// with the gravity of each step, so that the energy balance stays closed.
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] for numbers that are not finite, or above 1e5 m/s².
+    pub fn set_gravity(&mut self, acceleration: [f64; 3]) -> Result<(), Error> {
+        if let Some(number) = acceleration.into_iter().find(|g| !(g.abs() <= GRAVITY_MAX)) {
+            return Err(unsuited(format!(
+                "gravity of {number} m/s²; give three numbers, each up to {GRAVITY_MAX:e} in size"
+            )));
+        }
+        self.set_gravity_of_grids(acceleration);
+        Ok(())
+    }
+
+    /// Sets the acceleration of gravity on all grids to `acceleration`, in m/s².
+    pub(super) fn set_gravity_of_grids(&mut self, acceleration: [f64; 3]) {
+        self.coarser.iter_mut().for_each(|grid| grid.set_gravity(acceleration));
+        if self.world.gravity() != acceleration {
+            self.world.set_gravity(acceleration);
+            self.wake();
+        }
+    }
+
+    /// Sets the velocity of the air to `velocity`, in m/s, from the next step on: a wind that is
+    /// equal everywhere and passes round nothing. The drag follows from the velocity of the cloth
+    /// relative to the air, with `air.density` and `air.drag` of the scene. The work of the wind is
+    /// part of [`Energy::work_in`](crate::Energy::work_in).
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] for numbers that are not finite, for air faster than 100 m/s, and where
+    /// air has no effect: in a scene whose `air.density` or `air.drag` is 0, and while the cloth
+    /// relaxes without inertia.
+    pub fn set_air_velocity(&mut self, velocity: [f64; 3]) -> Result<(), Error> {
+        let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if !(speed <= AIR_SPEED_MAX) {
+            return Err(unsuited(format!(
+                "air of the velocity {velocity:?} m/s; give three numbers, at most {AIR_SPEED_MAX} m/s \
+                 together"
+            )));
+        }
+        if speed > 0.0 && !self.world.air().resists() {
+            let message = "the air of this scene has no drag; give air.density and air.drag of the \
+                           scene values above 0";
+            return Err(unsuited(message.into()));
+        }
+        if speed > 0.0 && (self.world.relaxes() || !self.coarser.is_empty()) {
+            let message = "the air has no effect while the cloth relaxes without inertia; step until \
+                           the phase is \"simulate\", or give the scene settle.inertia = true";
+            return Err(unsuited(message.into()));
+        }
+        if self.world.air().velocity() != velocity {
+            self.world.set_air_velocity(velocity);
+            self.wake();
+        }
+        Ok(())
+    }
+
     /// Returns the length of the next step, in s. The estimate of its error may still shorten this
     /// step.
     #[must_use]
@@ -65,137 +165,68 @@ impl Simulation {
         self.stepping.next_step()
     }
 
-    /// Returns the name and the current [`Triangulation`] of each body.
-    #[must_use]
-    pub fn bodies(&self) -> Vec<(String, Triangulation)> {
-        let names = self.world.contact.bodies().iter().map(|body| body.name.clone());
-        names.zip(self.world.contact.triangulations()).collect()
+    /// Begins to wait for rest again, because the forces on the cloth have changed.
+    pub(super) fn wake(&mut self) {
+        self.rest = RestDetector::new(self.rest.criteria);
     }
 
-    /// Moves the body `name` to `target` within `seconds`, at a steady rate from now on. The body
-    /// stays there. This motion replaces the earlier motion of the body.
-    ///
-    /// # Errors
-    ///
-    /// Returns [`Error::Unsuited`] for an unknown body, a wrong number of vertices, a time that is
-    /// not positive, a speed that contact cannot stop, vertices in a scene without contact of
-    /// surfaces, and while bodies grow to their size or wait for the cloth to rest.
-    ///
-    /// # Errors
-    /// [`Error::Unsuited`] for an unknown body, another number of vertices, a time that is not
-    /// positive, a speed that contact cannot stop, vertices in a scene without contact of surfaces,
-    /// and while bodies grow to their size or wait for the cloth to rest.
-    pub fn lead_body(
-        &mut self,
-        name: &str,
-        target: &BodyTarget,
-        seconds: f64,
-    ) -> Result<(), Error> {
-        let bodies = self.world.contact.bodies();
-        let Some(index) = bodies.iter().position(|body| body.name == name) else {
-            let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
-            let known = if names.is_empty() { "none".into() } else { names.join(", ") };
-            return Err(unsuited(format!("there is no body {name:?}; the bodies are: {known}")));
-        };
-        if !(seconds > 0.0 && seconds <= 1e5) {
+    /// Checks that bodies and pins of the grid of the scene move: no coarser grid is in front.
+    pub(super) fn check_grid(&self) -> Result<(), Error> {
+        if self.coarser.is_empty() {
+            return Ok(());
+        }
+        let message = "the cloth rests on a coarser grid first; step until coarser_grid of a step \
+                       is None, or leave [refine] out";
+        Err(unsuited(message.into()))
+    }
+
+    /// Returns start and end on the motion clock, in s, of a motion that begins now and takes
+    /// `seconds`.
+    pub(super) fn motion_times(&self, seconds: f64) -> Result<[f64; 2], Error> {
+        self.check_grid()?;
+        if !(seconds > 0.0 && seconds <= SECONDS_MAX) {
             return Err(unsuited(format!(
-                "a body moves within {seconds} s; give a time above 0, up to 1e5 s"
+                "a motion within {seconds} s; give a time above 0, up to 1e5 s"
             )));
         }
-
-        let is_floor = matches!(bodies[index].shape, Shape::Plane);
-        let now = self.time();
-        let Some(start) = self.world.motion_time(now) else {
-            let message = "bodies wait for the cloth to rest, as motion.seconds of the scene asks \
-                           for; step until the phase is \"simulate\"";
+        let Some(start) = self.world.motion_time(self.time()) else {
+            let message = "bodies and pins wait for the cloth to rest, as motion.seconds of the scene \
+                           asks for; step until the phase is \"simulate\"";
             return Err(unsuited(message.into()));
         };
+        Ok([start, start + seconds])
+    }
 
-        let times = [start, start + seconds];
-        let from = self.world.contact.outline(index, start);
-        let motion = match target {
-            BodyTarget::Vertices(to) if !is_floor => {
-                if self.world.contact.surfaces().is_none() {
-                    let message = "only surfaces meet a body that changes its shape; give the scene \
-                                   contact.surfaces = true, or move the body with shift and turn";
-                    return Err(unsuited(message.into()));
-                }
-                if to.len() != from.vertices.len() {
-                    let (given, needed) = (to.len(), from.vertices.len());
-                    return Err(unsuited(format!(
-                        "the body \"{name}\" has {needed} vertices, and {given} are given; give them \
-                         in the order of the simulation"
-                    )));
-                }
-                let positions = [from.vertices.concat(), to.concat()];
-                let motion = ShapeMotion::between(times, positions, &from.triangles);
-                BodyMotion::Shapes(motion.map_err(|fault| {
-                    unsuited(format!("the body \"{name}\": {fault}; give a sound surface"))
-                })?)
-            }
-            BodyTarget::Vertices(_) => {
-                let message = format!("\"{name}\" is a plane; move it with shift and turn");
-                return Err(unsuited(message));
-            }
-            BodyTarget::Rigid { shift, turn, center } => {
-                let center = center.unwrap_or_else(|| middle(&from.vertices));
-                let numbers = shift.iter().chain(turn).chain(&center);
-                if let Some(number) = numbers.into_iter().find(|x| !(x.abs() <= 1e6)) {
-                    let message = format!("{number} is no shift, turn or center; give up to 1e6");
-                    return Err(unsuited(message));
-                }
-                let motion = RigidMotion::new(
-                    center,
-                    vec![
-                        MotionKey { time: times[0], shift: [0.0; 3], turn: [0.0; 3] },
-                        MotionKey { time: times[1], shift: *shift, turn: *turn },
-                    ],
-                );
-                BodyMotion::Rigid(motion.expect("a motion with keys"))
-            }
-        };
-
-        // The corners of a floor are far away, so the speed of its middle counts.
-        let speed = if is_floor {
-            motion.max_speed(&[bodies[index].pose.position])
-        } else {
-            motion.max_speed(&from.vertices)
-        };
-        if let Some(surfaces) = self.world.contact.surfaces() {
-            if let Some(end) = surfaces.end_of_inflation(now) {
-                return Err(unsuited(format!(
-                    "bodies grow to their size until {end} s; move them after that"
-                )));
-            }
-            let speed_max = surfaces.speed_max();
-            if !(speed <= speed_max) {
-                let needed = figure_above(seconds * speed / speed_max);
-                let stiffness = figure_above(surfaces.stiffness_of_speed(speed));
-                return Err(unsuited(format!(
-                    "the body \"{name}\" moves at {speed:.3} m/s; contact keeps these fabrics apart up \
-                     to {speed_max:.3} m/s: give it {needed} s or more, or the scene \
-                     contact.stiffness = {stiffness}"
-                )));
-            }
+    /// Checks that contact can stop `subject`, which moves at `speed`, in m/s, for `seconds`.
+    pub(super) fn check_speed(
+        &self,
+        subject: &str,
+        speed: f64,
+        seconds: f64,
+    ) -> Result<(), Error> {
+        let Some(surfaces) = self.world.contact.surfaces() else { return Ok(()) };
+        let largest = surfaces.speeds.largest;
+        if speed <= largest {
+            return Ok(());
         }
 
-        match (&mut self.world.contact, motion) {
-            (Contact::Surfaces(surfaces), motion) => surfaces.lead(index, &from, motion),
-            (Contact::Particles(bodies), BodyMotion::Rigid(motion)) => {
-                bodies.lead(index, start, motion);
-            }
-            (Contact::Particles(_), BodyMotion::Shapes(_)) => {}
-        }
-        Ok(())
+        let needed = figure_above(seconds * speed / largest);
+        let remedy = surfaces.speeds.remedy(speed);
+        let remedy = remedy.map_or(String::new(), |remedy| format!(", or the scene {remedy}"));
+        Err(unsuited(format!(
+            "{subject} moves at {speed:.3} m/s; contact keeps these fabrics apart up to {largest:.3} \
+             m/s: give it {needed} s or more{remedy}"
+        )))
     }
 }
 
-fn unsuited(reason: String) -> Error {
+/// Returns an [`Error::Unsuited`] with `reason`.
+pub(super) fn unsuited(reason: String) -> Error {
     Error::Unsuited { reason }
 }
 
 /// Returns the middle of the extent of `points`.
-fn middle(points: &[[f64; 3]]) -> [f64; 3] {
+pub(super) fn middle(points: &[[f64; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|axis| {
         let values = points.iter().map(|point| point[axis]);
         0.5 * (values.clone().fold(f64::MAX, f64::min) + values.fold(f64::MIN, f64::max))

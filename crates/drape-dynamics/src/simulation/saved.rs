@@ -3,16 +3,20 @@
 //! A simulation is built from its scene again, and then its saved state is restored. From there on
 //! every number is identical, to the last bit, with the uninterrupted run. Therefore the pairs of
 //! contact and the copies of the integrator are saved too, although they could be computed again.
+//!
+//! A saved state needs no file: [`Simulation::resume`] also resets the simulation that was saved.
+//! Everything that a program prescribes between steps is part of the state: led pins and bodies, held
+//! and released particles, gravity, the velocity of the air, and forces.
 
 use drape_checkpoint::Checkpoint;
 use drape_scene::Relaxation;
 use serde::{Deserialize, Serialize};
 
-use super::{LastStep, Phases, Simulation};
+use super::{LastStep, Outcome, Phases, Simulation};
 use crate::error::Error;
 use crate::measure::garment_parts::VerticalExtent;
 use crate::record::stopwatch::{PastTime, Stopwatch};
-use crate::record::summary::{GridRecord, Status};
+use crate::record::summary::GridRecord;
 use crate::stepping::RestDetector;
 use crate::stepping::saved::SavedStepping;
 use crate::stepping::statistics::Statistics;
@@ -22,6 +26,26 @@ use crate::world::saved::SavedWorld;
 const SECTIONS: [&str; 4] = ["world", "stepping", "run", "grid"];
 
 /// State of a run between two steps, from which it resumes.
+///
+/// The state holds everything on which the next steps depend, and what a program has prescribed
+/// between the steps. A program resets a simulation in memory, without a file:
+///
+/// ```
+/// # use drape_dynamics::Simulation;
+/// # fn reset(simulation: &mut Simulation) -> Result<(), Box<dyn std::error::Error>> {
+/// let start = simulation.saved();
+/// simulation.set_gravity([0.0, -1.62, 0.0])?;
+/// simulation.step()?;
+/// let hash = simulation.state_hash();
+///
+/// // Gravity is what it was, and the run repeats to the last bit.
+/// simulation.resume(start.clone())?;
+/// simulation.set_gravity([0.0, -1.62, 0.0])?;
+/// simulation.step()?;
+/// assert_eq!(simulation.state_hash(), hash);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone)]
 pub struct SavedSimulation {
     world: SavedWorld,
@@ -144,7 +168,10 @@ impl Simulation {
     }
 
     /// Restores the state `saved`. This simulation was just built from the same scene, or is the
-    /// one that was saved.
+    /// simulation that was saved, at any later time, and also after a step that failed.
+    ///
+    /// A simulation whose seams were closed after `saved`, or that has left a coarser grid since,
+    /// cannot go back. Build a simulation from the scene in this case.
     ///
     /// # Errors
     ///
@@ -170,6 +197,9 @@ impl Simulation {
                 }
                 self.coarser.drain(..self.coarser.len() - remaining);
                 self.coarser[0].resume(SavedSimulation { world, stepping, run, grid: None })?;
+                // Gravity is the only prescription on coarser grids, and all grids share it.
+                let gravity = self.coarser[0].gravity();
+                self.set_gravity_of_grids(gravity);
             }
             None => {
                 self.coarser.clear();
@@ -184,8 +214,8 @@ impl Simulation {
         }
         self.rest = RestDetector::resumed(run.criteria, run.quiet_ticks);
         (self.phases, self.statistics, self.last) = (run.phases, run.statistics, run.last);
-        self.outcome.status = Status::Ok;
-        (self.outcome.events, self.frame_times) = (run.events, run.frame_times);
+        self.outcome = Outcome::new(run.events);
+        self.frame_times = run.frame_times;
         (self.grids, self.steps_to_forget) = (run.grids, run.steps_to_forget);
         self.stopwatch = Stopwatch::resumed(run.time);
         Ok(())
@@ -194,7 +224,8 @@ impl Simulation {
     /// Restores `world` and `stepping`.
     fn resume_world(&mut self, world: SavedWorld, stepping: SavedStepping) -> Result<(), Error> {
         let is_sewn = !world.is_sewing && !self.parts.seams.is_empty();
-        self.world.resume(world).map_err(unfit)?;
+        let time = stepping.ticks() as f64 * self.stepping.clock().tick();
+        self.world.resume(world, time).map_err(unfit)?;
         if is_sewn {
             self.stepping.reduce(&self.world, &self.parts.seams)?;
         }

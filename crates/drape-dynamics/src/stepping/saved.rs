@@ -24,6 +24,13 @@ pub(crate) struct SavedStepping {
     ticks: usize,
 }
 
+impl SavedStepping {
+    /// Returns the time, in ticks.
+    pub(crate) fn ticks(&self) -> usize {
+        self.ticks
+    }
+}
+
 impl Stepping {
     /// Returns the state on which the next steps depend.
     pub(crate) fn saved(&self) -> SavedStepping {

@@ -9,19 +9,21 @@
 
 mod particle_bodies;
 mod step;
+mod stopped_speeds;
 mod surfaces;
 
 use drape_collide::{Body, Triangulation};
 use drape_implicit::BlockMatrix;
 use drape_scene::Scene;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
-pub(crate) use self::particle_bodies::ParticleBodies;
+pub(crate) use self::particle_bodies::{MovingBody, ParticleBodies};
 pub(crate) use self::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 #[cfg(test)]
 pub(crate) use self::surfaces::Omitted;
-pub(crate) use self::surfaces::{PlacedSurfaces, SavedGrowth, Surfaces};
+pub(crate) use self::surfaces::{LedSurface, PlacedSurfaces, SavedGrowth, Surfaces};
 
 /// Contact of a world.
 #[derive(Debug)]
@@ -30,6 +32,15 @@ pub(crate) enum Contact {
     Particles(Box<ParticleBodies>),
     /// All surfaces are kept apart.
     Surfaces(Box<Surfaces>),
+}
+
+/// Bodies that a program leads, between two steps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) enum SavedLeads {
+    /// Bodies that particles touch.
+    Particles(Vec<MovingBody>),
+    /// Bodies as surfaces.
+    Surfaces(Vec<LedSurface>),
 }
 
 impl Contact {
@@ -80,6 +91,24 @@ impl Contact {
         match self {
             Self::Particles(bodies) => bodies.outline(body, time),
             Self::Surfaces(surfaces) => surfaces.outline(body, time),
+        }
+    }
+
+    /// Returns the bodies that a program leads.
+    pub(crate) fn saved_leads(&self) -> SavedLeads {
+        match self {
+            Self::Particles(bodies) => SavedLeads::Particles(bodies.led().to_vec()),
+            Self::Surfaces(surfaces) => SavedLeads::Surfaces(surfaces.led().to_vec()),
+        }
+    }
+
+    /// Restores the bodies `saved` that a program leads, at `time` on the motion clock, in s. Returns
+    /// `false` if they do not fit.
+    pub(crate) fn restore_leads(&mut self, saved: SavedLeads, time: f64) -> bool {
+        match (self, saved) {
+            (Self::Particles(bodies), SavedLeads::Particles(led)) => bodies.restore_led(led, time),
+            (Self::Surfaces(surfaces), SavedLeads::Surfaces(led)) => surfaces.restore_led(led),
+            _ => false,
         }
     }
 

@@ -11,6 +11,7 @@
 use drape_implicit::Report;
 use serde::{Deserialize, Serialize};
 
+use super::air_drag::DragEnergy;
 use super::contact::ContactEnergy;
 
 /// Energy balance since the start, in J. The energy put in is stored, or dissipated by friction in
@@ -32,7 +33,7 @@ pub struct Energy {
     pub body_dissipated: f64,
     /// Energy dissipated by friction of cloth on cloth.
     pub cloth_dissipated: f64,
-    /// Energy dissipated by the air.
+    /// Energy dissipated by the motion of the cloth relative to the air.
     pub air_dissipated: f64,
     /// Energy dissipated by the formula of the integrator and by the residual of the solver.
     pub numerical_dissipated: f64,
@@ -42,8 +43,9 @@ pub struct Energy {
     /// smaller at shorter steps, and 0 if bending has no friction.
     #[serde(rename = "turning_dissipated")]
     pub rotation_dissipated: f64,
-    /// Work done on the cloth by moving bodies, by pins and by forces that a program sets. For a
-    /// pin that holds in some directions only, the work of its springs counts.
+    /// Work done on the cloth by moving bodies, by pins, by moving air and by forces that a program
+    /// sets. For a pin that holds in some directions only, the work of its springs counts. A particle
+    /// that a program holds in flight gives its kinetic energy to its pin.
     pub work_in: f64,
     /// Residual of the balance in the sub-steps in which every entry is computed independently
     /// (about one of thirty). It is the error of a quadrature, some millionths of the energy
@@ -104,9 +106,8 @@ pub(crate) struct StepEnergy {
     /// Increase of the potential of this friction. The solution of the step minimizes this
     /// potential.
     pub(crate) body_friction_potential: f64,
-    /// Work against the air with the drag at the end of the step. The potential of the drag is half
-    /// of it.
-    pub(crate) air: f64,
+    /// Energy exchanged with the air, with the drag at the end of the step.
+    pub(crate) air: DragEnergy,
     /// Work against the forces that remove momentum.
     pub(crate) momentum_removal: f64,
     /// Energy dissipated by the friction of the internal forces.
@@ -150,21 +151,28 @@ impl EnergyBalance {
         sums.contact += step.contact;
         sums.work_in += step.body_work + step.body_friction_work + step.spring_work;
         sums.work_in += step.external_work;
+        sums.work_in += step.air.air_work;
         sums.elastic += step.stored - self.stored;
         sums.friction_dissipated += step.internal_friction;
         sums.body_dissipated += step.body_friction_loss - step.cloth_friction_loss;
         sums.cloth_dissipated += step.cloth_friction_loss;
-        sums.air_dissipated += step.air;
+        sums.air_dissipated += step.air.dissipated;
 
         // The integrator replaces the work of all forces by differences of potentials. Friction and
         // drag grow with the speed along the step, so their potentials are smaller than the work
         // with the forces at the end.
         sums.numerical_dissipated +=
-            step.body_friction_potential - step.body_friction_loss - 0.5 * step.air;
+            step.body_friction_potential - step.body_friction_loss - 0.5 * step.air.squared_path;
         sums.numerical_dissipated += step.spring_work - step.spring_potential_fall;
         sums.numerical_dissipated += step.body_friction_work;
         sums.numerical_dissipated += step.momentum_removal;
         self.stored = step.stored;
+    }
+
+    /// Counts the kinetic energy `lost`, in J, of particles that a pin has stopped as negative work
+    /// of the pin.
+    pub(crate) fn stop(&mut self, lost: f64) {
+        self.sums.work_in -= lost;
     }
 
     /// Adds the dissipation and the work that the integrator reports in `report`.

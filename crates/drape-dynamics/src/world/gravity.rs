@@ -20,6 +20,17 @@ impl Gravity {
         Self { full: acceleration, now: acceleration, ramp_start: 0.0, ramp }
     }
 
+    /// Returns the acceleration at the end of the ramp, in m/s².
+    pub(crate) fn acceleration(&self) -> [f64; 3] {
+        self.full
+    }
+
+    /// Sets the acceleration at the end of the ramp to `acceleration`, in m/s², from the next step
+    /// on.
+    pub(crate) fn set_acceleration(&mut self, acceleration: [f64; 3]) {
+        self.full = acceleration;
+    }
+
     /// Begins the ramp at `time`, in s.
     pub(crate) fn start_ramp(&mut self, time: f64) {
         self.ramp_start = time;

@@ -1,6 +1,8 @@
 //! Saved state of a world between two steps, on which its next steps depend.
 //!
-//! A world is built from its scene again, and then its saved state is restored. Data that each step
+//! A world is built from its scene again, and then its saved state is restored. The world that was
+//! saved may also be restored itself, as long as its seams have not been closed since. What a program
+//! has prescribed between the steps is part of the state. Data that each step
 //! prepares is not saved: gravity, air and springs at its end, and the poses of bodies.
 
 use drape_cloth::State;
@@ -8,9 +10,10 @@ use drape_collide::SavedContact;
 use serde::{Deserialize, Serialize};
 
 use super::World;
-use super::contact::{Contact, SavedGrowth};
+use super::contact::{Contact, SavedGrowth, SavedLeads};
 use super::energy_balance::EnergyBalance;
 use super::internal_forces::SavedForces;
+use super::pins::SavedPins;
 use crate::world::closing_springs::{ClosingSprings, Stiffening};
 
 /// State of a world between two steps, on which its next steps depend.
@@ -28,10 +31,31 @@ pub(crate) struct SavedWorld {
     ramp_start: f64,
     /// Time at which bodies and pins start to move, in s.
     motion_start: f64,
-    /// Times of the releases of the pins, in s.
-    releases: Vec<f64>,
-    held: Vec<bool>,
+    pins: SavedPins,
     balance: Option<EnergyBalance>,
+    prescribed: Prescribed,
+}
+
+/// Values that a program may prescribe between steps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Prescribed {
+    /// Acceleration of gravity, in m/s².
+    gravity: [f64; 3],
+    /// Velocity of the air, in m/s.
+    air_velocity: [f64; 3],
+    /// Forces on the particles, in N.
+    forces: Vec<f64>,
+    /// Bodies that a program leads.
+    bodies: SavedLeads,
+}
+
+impl Prescribed {
+    /// Returns whether the numbers are finite and the forces are for `coordinate_count` coordinates.
+    fn is_sound(&self, coordinate_count: usize) -> bool {
+        let numbers = self.gravity.iter().chain(&self.air_velocity).chain(&self.forces);
+        (self.forces.is_empty() || self.forces.len() == coordinate_count)
+            && numbers.copied().all(f64::is_finite)
+    }
 }
 
 /// Contact of surfaces between two steps.
@@ -60,13 +84,19 @@ impl World {
             relaxes: self.relaxes(),
             ramp_start: self.gravity.ramp_start(),
             motion_start: self.clock.start_time(),
-            releases: self.pins.releases(),
-            held: self.pins.held.clone(),
+            pins: self.pins.saved(),
             balance: self.balance.clone(),
+            prescribed: Prescribed {
+                gravity: self.gravity.acceleration(),
+                air_velocity: self.air.velocity(),
+                forces: self.external.values.clone(),
+                bodies: self.contact.saved_leads(),
+            },
         }
     }
 
-    /// Restores the state `saved`. This world was just built from its scene.
+    /// Restores the state `saved` at `time`, in s. This world was just built from its scene, or is the
+    /// world that was saved.
     ///
     /// # Errors
     ///
@@ -74,7 +104,7 @@ impl World {
     ///
     /// # Errors
     /// What does not fit, in words.
-    pub(crate) fn resume(&mut self, saved: SavedWorld) -> Result<(), String> {
+    pub(crate) fn resume(&mut self, saved: SavedWorld, time: f64) -> Result<(), String> {
         if saved.cloth.positions.len() != self.state.positions.len() {
             return Err("the cloth has another number of particles".into());
         }
@@ -88,14 +118,22 @@ impl World {
             self.finish_sewing(0.0, &saved.cloth.positions);
         }
 
+        if !saved.prescribed.is_sound(saved.cloth.positions.len()) {
+            return Err("the forces, the gravity or the air are others".into());
+        }
         if !saved.cloth.may_follow(&self.state) {
             return Err("the cloth has other connectors, or numbers that are not finite".into());
         }
         if !self.internal.resume(&self.cloth, saved.forces) {
             return Err("the seams or the close pairs are others".into());
         }
-        if !self.pins.restore(&saved.releases, &saved.held) {
+        if !self.pins.restore(saved.pins) {
             return Err("the pins are others".into());
+        }
+        if !self.pins.is_steered()
+            && let Some(surfaces) = self.contact.surfaces_mut()
+        {
+            surfaces.set_held(&self.pins.held_at_start());
         }
         match (&mut self.contact, saved.contact) {
             (Contact::Surfaces(surfaces), Some(saved_surfaces)) => {
@@ -109,13 +147,21 @@ impl World {
             _ => return Err("the contact is of another kind".into()),
         }
 
+        self.clock.start(saved.motion_start);
+        let Prescribed { gravity, air_velocity, forces, bodies } = saved.prescribed;
+        if !self.contact.restore_leads(bodies, self.clock.time(time)) {
+            return Err("the bodies are others".into());
+        }
+        self.gravity.set_acceleration(gravity);
+        self.air.set_velocity(air_velocity);
+        self.external.values = forces;
+
         if let Some(springs) = &mut self.seams.springs {
             springs.restore(saved.stiffening);
         }
         self.state = saved.cloth;
         self.set_relaxing(saved.relaxes);
         self.gravity.start_ramp(saved.ramp_start);
-        self.clock.start(saved.motion_start);
         self.balance = saved.balance;
         Ok(())
     }

@@ -28,6 +28,11 @@ impl System for World {
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
         let motion_end = self.clock.time(end_time);
         self.pins.begin(end_time, motion_end, target);
+        if self.pins.is_steered()
+            && let Some(surfaces) = self.contact.surfaces_mut()
+        {
+            surfaces.set_held(&self.pins.held);
+        }
 
         // While a garment is sewn there is no gravity.
         match &mut self.seams.springs {
@@ -189,7 +194,7 @@ impl World {
             spring_work: springs.by_force,
             spring_potential_fall: springs.potential_fall,
             body_work: before.body_work,
-            air: self.air.loss(&self.state, positions),
+            air: self.air.energy(&self.state, positions),
             momentum_removal: -self.momentum.forces.work(start, positions),
             ..StepEnergy::default()
         };

@@ -49,6 +49,7 @@ pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> Conta
         surfaces: checker.spec.keeps_surfaces_apart(),
         particles,
         stiffness: spec.stiffness,
+        top_speed: spec.top_speed,
         sticking_displacement: spec.stick,
         pinch: spec.pinch.into(),
         inflation: inflation(checker, bounds),
@@ -101,7 +102,7 @@ fn growth(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<DistanceGr
 }
 
 /// Checks that surfaces are kept apart, as a key asks for.
-fn check_surfaces(checker: &mut Checker<'_>, key: &str) {
+pub(super) fn check_surfaces(checker: &mut Checker<'_>, key: &str) {
     if !checker.spec.keeps_surfaces_apart() {
         checker.fail(key, "nothing is kept apart here", SURFACES);
     }

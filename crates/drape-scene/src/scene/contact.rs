@@ -12,6 +12,9 @@ pub struct ContactSettings {
     /// Stiffness of the contact of surfaces, in N/m³; without one, the fabrics' thickness under
     /// pressure gives it.
     pub stiffness: Option<f64>,
+    /// Top speed at which a program moves bodies and pins, in m/s. Without `stiffness` the contact
+    /// of surfaces is stiff enough to stop bodies and pins at this speed.
+    pub top_speed: Option<f64>,
     /// Displacement of surfaces that stick, before they slide, in m.
     pub sticking_displacement: f64,
     /// Treatment of cloth that bodies close on.

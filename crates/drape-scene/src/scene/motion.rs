@@ -10,8 +10,10 @@ pub(crate) use self::rigid::{rotate, rotate_pose};
 pub use self::shape::ShapeMotion;
 pub(crate) use self::shape::check_frame;
 
+use serde::{Deserialize, Serialize};
+
 /// Motion of a body.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum BodyMotion {
     /// Rigid motion along keys.
     Rigid(RigidMotion),
@@ -47,6 +49,16 @@ impl BodyMotion {
         match self {
             Self::Rigid(motion) => motion.is_resolved(times, start, resolution),
             Self::Shapes(motion) => motion.path(times) <= resolution.path,
+        }
+    }
+
+    /// Returns whether the motion has keys or frames at rising times, with finite numbers, for a body
+    /// with `vertex_count` vertices. A motion from a file may be damaged.
+    #[must_use]
+    pub fn is_sound(&self, vertex_count: usize) -> bool {
+        match self {
+            Self::Rigid(motion) => motion.is_sound(),
+            Self::Shapes(motion) => motion.is_sound(vertex_count),
         }
     }
 

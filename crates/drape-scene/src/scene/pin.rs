@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::scene::motion::RigidMotion;
 
 /// Pin of a scene.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Pin {
     /// Particles that it holds.
     pub particles: Vec<usize>,
@@ -56,6 +56,17 @@ impl Pin {
     #[must_use]
     pub fn holds_all_axes(&self) -> bool {
         self.axes == [true; 3]
+    }
+
+    /// Returns whether its particles are among the first `particle_count`, each with a finite
+    /// position, and its motion is sound. A pin from a file may be damaged.
+    #[must_use]
+    pub fn is_sound(&self, particle_count: usize) -> bool {
+        self.particles.len() == self.start.len()
+            && self.particles.iter().all(|&particle| particle < particle_count)
+            && self.start.iter().flatten().all(|x| x.is_finite())
+            && self.motion.as_ref().is_none_or(RigidMotion::is_sound)
+            && !self.release.is_nan()
     }
 
     /// Sets the time of its release, in s, if it is to hold until an event.

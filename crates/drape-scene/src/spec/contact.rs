@@ -16,10 +16,15 @@ pub struct ContactSpec {
     #[serde_as(as = "Length")]
     pub offset: f64,
     /// Stiffness, in N/m³; 2e6, between layers from the thickness of the fabric under pressure and
-    /// from the fastest motion of a body or a pin, if missing.
+    /// from `top_speed` and the fastest motion of a body or a pin, if missing.
     #[schemars(transform = drape_input::within(1.0, 1e12))]
     #[serde_as(as = "Option<PressurePerDistance>")]
     pub stiffness: Option<f64>,
+    /// Top speed at which a program moves bodies and pins between steps: contact becomes stiff enough
+    /// to stop them. Motions of the scene need no such key.
+    #[schemars(transform = drape_input::within(1e-3, 1e3))]
+    #[serde_as(as = "Option<Speed>")]
+    pub top_speed: Option<f64>,
     /// Speed below which particles on a body stick, in m/s.
     #[schemars(transform = drape_input::within(1e-9, 1.0))]
     #[serde_as(as = "Speed")]
@@ -70,6 +75,7 @@ impl Default for ContactSpec {
         Self {
             offset: particles.activation_distance,
             stiffness: None,
+            top_speed: None,
             slip_speed: particles.slip_speed,
             surfaces: None,
             stick: SurfaceSettings::STICKING_DISPLACEMENT,

@@ -3,6 +3,7 @@
 
 use drape_collide::{ParticleContact, Pose, Triangulation};
 use drape_scene::{BodyMotion, RigidMotion, Scene};
+use serde::{Deserialize, Serialize};
 
 use super::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 use crate::error::Error;
@@ -18,14 +19,19 @@ const SLIP_TIME_MAX: f64 = 0.01;
 #[derive(Debug)]
 pub(crate) struct ParticleBodies {
     pub(crate) contact: ParticleContact,
+    /// Poses of the bodies at the start of the simulation.
+    start: Vec<Pose>,
+    /// Bodies that the scene moves.
     moving: Vec<MovingBody>,
+    /// Bodies that a program leads, with motions that replace the motions of the scene.
+    led: Vec<MovingBody>,
     /// Contact forces at the end of a step, with and without the friction of the step, in N.
     forces: ForcePair,
 }
 
 /// Body that moves rigidly.
-#[derive(Debug)]
-struct MovingBody {
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct MovingBody {
     /// Number of the body.
     body: usize,
     /// Pose of the body at the start of its motion.
@@ -68,7 +74,9 @@ impl ParticleBodies {
         let (with_friction, without_friction) = (vec![0.0; numbers], vec![0.0; numbers]);
         Ok(Self {
             contact: scene.particle_contact()?,
+            start: scene.bodies.iter().map(|moving| moving.body.pose).collect(),
             moving: moving.collect(),
+            led: Vec::new(),
             forces: ForcePair { with_friction, without_friction },
         })
     }
@@ -84,15 +92,38 @@ impl ParticleBodies {
     /// s.
     pub(crate) fn lead(&mut self, body: usize, time: f64, motion: RigidMotion) {
         let start = self.pose_at(body, time);
-        self.moving.retain(|moving| moving.body != body);
-        self.moving.push(MovingBody { body, start, motion });
+        self.led.retain(|led| led.body != body);
+        self.led.push(MovingBody { body, start, motion });
+    }
+
+    /// Returns the bodies that a program leads.
+    pub(crate) fn led(&self) -> &[MovingBody] {
+        &self.led
+    }
+
+    /// Restores the bodies `led` that a program leads, at `time` on the motion clock, in s. Returns
+    /// `false` if they do not fit.
+    pub(crate) fn restore_led(&mut self, led: Vec<MovingBody>, time: f64) -> bool {
+        let is_sound = |led: &MovingBody| led.body < self.start.len() && led.motion.is_sound();
+        if !led.iter().all(is_sound) {
+            return false;
+        }
+
+        self.led = led;
+        for body in 0..self.start.len() {
+            let pose = self.pose_at(body, time);
+            if self.contact.move_body(body, pose).is_err() {
+                return false;
+            }
+        }
+        true
     }
 
     /// Returns the pose of `body` at `time` on the motion clock, in s.
     fn pose_at(&self, body: usize, time: f64) -> Pose {
-        let moving = self.moving.iter().find(|moving| moving.body == body);
-        let pose = self.contact.bodies()[body].pose;
-        moving.map_or(pose, |moving| moving.motion.pose_at(time, moving.start))
+        let mut motions = self.led.iter().chain(&self.moving);
+        let moving = motions.find(|moving| moving.body == body);
+        moving.map_or(self.start[body], |moving| moving.motion.pose_at(time, moving.start))
     }
 
     /// Prepares contact for `step`. Returns the energy of contact at its start, if `step` asks for
@@ -132,9 +163,12 @@ impl ParticleBodies {
 
     /// Moves the bodies to their poses at `time` on the motion clock, in s.
     fn move_bodies(&mut self, time: f64) {
-        for MovingBody { body, start, motion } in &self.moving {
+        let Self { contact, moving, led, .. } = self;
+        let moving =
+            moving.iter().filter(|moving| led.iter().all(|led| led.body != moving.body));
+        for MovingBody { body, start, motion } in moving.chain(&*led) {
             let pose = motion.pose_at(time, *start);
-            self.contact.move_body(*body, pose).expect("a rigid motion turns a pose into a pose");
+            contact.move_body(*body, pose).expect("a rigid motion turns a pose into a pose");
         }
     }
 }

@@ -15,6 +15,7 @@ use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene
 use serde::{Deserialize, Serialize};
 
 use super::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
+use super::stopped_speeds::StoppedSpeeds;
 
 /// Largest deviation from a straight path of a prescribed motion within a step, as a fraction of
 /// the minimum separation. Faster rotations are divided into more steps.
@@ -38,13 +39,14 @@ pub(crate) struct Surfaces {
     growth_start: f64,
     /// Fraction of the distances that surfaces keep at the start, 0 to 1.
     pub(crate) start_growth_fraction: f64,
+    /// Bodies that the scene moves.
     moving: Vec<MovingSurface>,
+    /// Bodies that a program leads, with motions that replace the motions of the scene.
+    led: Vec<LedSurface>,
     /// Range of the vertices of each body among the vertices of all bodies.
     vertices: Vec<Range<usize>>,
-    /// Largest speed that contact can stop, in m/s.
-    speed_max: f64,
-    /// Stiffness of the contact, in N/m³.
-    stiffness: f64,
+    /// Speeds of bodies and pins that contact can stop.
+    pub(crate) speeds: StoppedSpeeds,
     /// Largest motion within a step of a body's vertex or a held particle.
     resolution: MotionResolution,
     /// Number of intersections found after steps that were then rejected.
@@ -89,6 +91,15 @@ struct MovingSurface {
     /// Whether the body is a floor. The corners of a floor are too far away for their paths to
     /// matter.
     is_floor: bool,
+}
+
+/// Surface of a body that a program leads.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct LedSurface {
+    body: usize,
+    /// Positions of the body's vertices at the start of the motion, in m.
+    start: Vec<f64>,
+    motion: BodyMotion,
 }
 
 /// Growth of distances that began during the run.
@@ -149,9 +160,9 @@ impl Surfaces {
             growth,
             growth_start: 0.0,
             moving: moving.collect(),
+            led: Vec::new(),
             vertices,
-            speed_max: scene.stopped_speed(),
-            stiffness: scene.contact_stiffness(),
+            speeds: StoppedSpeeds::new(scene),
             resolution: MotionResolution {
                 path: scene.spacing(),
                 deviation: 2.0 * DEVIATION * min_separation,
@@ -176,7 +187,10 @@ impl Surfaces {
         let vertices = &self.vertices[body];
         let start = &self.start[3 * vertices.start..3 * vertices.end];
         let mut positions = start.to_vec();
-        if let Some(moving) = self.moving.iter().find(|moving| moving.vertices == *vertices) {
+        let moving = self.moving.iter().find(|moving| moving.vertices == *vertices);
+        if let Some(led) = self.led.iter().find(|led| led.body == body) {
+            led.motion.write_positions(time, &led.start, &mut positions);
+        } else if let Some(moving) = moving {
             moving.motion.write_positions(time, start, &mut positions);
         }
         outline.vertices = positions.as_chunks::<3>().0.to_vec();
@@ -185,23 +199,36 @@ impl Surfaces {
 
     /// Replaces the motion of `body` by `motion`, which begins at the vertices `from`.
     pub(crate) fn lead(&mut self, body: usize, from: &Triangulation, motion: BodyMotion) {
-        let vertices = self.vertices[body].clone();
-        self.start[3 * vertices.start..3 * vertices.end]
-            .copy_from_slice(from.vertices.as_flattened());
-        let is_floor = matches!(self.bodies[body].shape, Shape::Plane);
-        self.moving.retain(|moving| moving.vertices != vertices);
-        self.moving.push(MovingSurface { vertices, motion, is_floor });
+        let start = from.vertices.as_flattened().to_vec();
+        self.led.retain(|led| led.body != body);
+        self.led.push(LedSurface { body, start, motion });
     }
 
-    /// Returns the largest speed that contact can stop, in m/s.
-    pub(crate) fn speed_max(&self) -> f64 {
-        self.speed_max
+    /// Returns the bodies that a program leads.
+    pub(crate) fn led(&self) -> &[LedSurface] {
+        &self.led
     }
 
-    /// Returns the contact stiffness that can stop bodies at `speed`, in m/s. The stiffness is in
-    /// N/m³.
-    pub(crate) fn stiffness_of_speed(&self, speed: f64) -> f64 {
-        self.stiffness * (speed / self.speed_max).powi(2)
+    /// Restores the bodies `led` that a program leads. Returns `false` if they do not fit.
+    pub(crate) fn restore_led(&mut self, led: Vec<LedSurface>) -> bool {
+        let is_sound = |LedSurface { body, start, motion }: &LedSurface| {
+            self.vertices.get(*body).is_some_and(|vertices| {
+                start.len() == 3 * vertices.len()
+                    && start.iter().all(|x| x.is_finite())
+                    && motion.is_sound(vertices.len())
+            })
+        };
+        let is_sound = led.iter().all(is_sound);
+        if is_sound {
+            self.led = led;
+        }
+        is_sound
+    }
+
+    /// Sets the particles that are held in all directions in this step.
+    pub(crate) fn set_held(&mut self, held: &[bool]) {
+        self.held.clear();
+        self.held.extend((0..held.len()).filter(|&particle| held[particle]));
     }
 
     /// Returns the time at which the bodies reach their full size, in s, or `None` if they have it
@@ -220,10 +247,23 @@ impl Surfaces {
     /// motions of all bodies.
     pub(crate) fn bodies_are_resolved(&self, times: [f64; 2]) -> bool {
         let positions = self.start.as_chunks::<3>().0;
-        let bodies = self.moving.iter().filter(|moving| !moving.is_floor);
-        bodies.into_iter().all(|MovingSurface { vertices, motion, .. }| {
+        let moving = self.moving.iter().filter(|moving| !moving.is_floor && !self.is_led(moving));
+        let led = self.led.iter().filter(|led| !self.is_floor(led.body));
+        moving.into_iter().all(|MovingSurface { vertices, motion, .. }| {
             motion.is_resolved(times, &positions[vertices.clone()], self.resolution)
+        }) && led.into_iter().all(|LedSurface { start, motion, .. }| {
+            motion.is_resolved(times, start.as_chunks::<3>().0, self.resolution)
         })
+    }
+
+    /// Returns whether `body` is a floor.
+    fn is_floor(&self, body: usize) -> bool {
+        matches!(self.bodies[body].shape, Shape::Plane)
+    }
+
+    /// Returns whether a program leads the body that the scene moves as `moving`.
+    fn is_led(&self, moving: &MovingSurface) -> bool {
+        self.led.iter().any(|led| self.vertices[led.body] == moving.vertices)
     }
 
     /// Returns the fraction of their distances that surfaces keep now, 0 to 1.
@@ -296,7 +336,7 @@ impl Surfaces {
         }
 
         // Motions apply to the bodies at the size that they have at the end of the step.
-        let Self { start, inflation, ends, .. } = self;
+        let Self { start, inflation, ends, vertices, .. } = self;
         let inflated = inflation
             .as_mut()
             .map_or(&start[..], |inflating| inflating.positions_at(step.end_time, start));
@@ -304,6 +344,11 @@ impl Surfaces {
         for MovingSurface { vertices, motion, .. } in &self.moving {
             let range = 3 * vertices.start..3 * vertices.end;
             motion.write_positions(step.motion_end, &inflated[range.clone()], &mut ends[range]);
+        }
+        // A body is led only after it has its full size.
+        for LedSurface { body, start, motion } in &self.led {
+            let range = 3 * vertices[*body].start..3 * vertices[*body].end;
+            motion.write_positions(step.motion_end, start, &mut ends[range]);
         }
 
         let growth_increment = match self.growth {

@@ -1,6 +1,7 @@
 //! Rigid motion along keys.
 
 use drape_collide::Pose;
+use serde::{Deserialize, Serialize};
 
 use super::resolution::MotionResolution;
 
@@ -9,7 +10,7 @@ use super::resolution::MotionResolution;
 const ROTATION_MAX: f64 = 90.0;
 
 /// Key of a rigid motion: displacement and rotation at a time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MotionKey {
     /// Time, in s.
     pub time: f64,
@@ -21,7 +22,7 @@ pub struct MotionKey {
 
 /// Rigid motion of a pin or a body: displacement and angles are linear between its keys, and
 /// constant before the first and after the last.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigidMotion {
     /// Centre of rotation, in m.
     center: [f64; 3],
@@ -35,6 +36,16 @@ impl RigidMotion {
     #[must_use]
     pub fn new(center: [f64; 3], keys: Vec<MotionKey>) -> Option<Self> {
         (!keys.is_empty()).then_some(Self { center, keys })
+    }
+
+    /// Returns whether there are keys at rising times, with finite numbers.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let numbers = |key: &MotionKey| [key.time].into_iter().chain(key.shift).chain(key.turn);
+        let mut all = self.center.into_iter().chain(self.keys.iter().flat_map(numbers));
+        !self.keys.is_empty()
+            && all.all(f64::is_finite)
+            && self.keys.windows(2).all(|pair| pair[0].time < pair[1].time)
     }
 
     /// Returns the map at a time, in s, from the positions of points at the start, in m, to those

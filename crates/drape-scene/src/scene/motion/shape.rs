@@ -1,5 +1,7 @@
 //! Motion of a body that changes its shape: all its vertices at times.
 
+use serde::{Deserialize, Serialize};
+
 /// Largest distance in another frame of vertices that are one in the first frame, in m: some digits
 /// of a 32-bit float.
 const PARTED: f64 = 1e-6;
@@ -10,7 +12,7 @@ const FLAT: f64 = 1e-12;
 
 /// Motion of a body that changes its shape: positions of all its vertices at times, between which
 /// they move straight; at rest before the first and after the last.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ShapeMotion {
     /// Times, in s, rising; at least one.
     times: Vec<f64>,
@@ -55,6 +57,18 @@ impl ShapeMotion {
             distance / (times[1] - times[0])
         });
         Self { speeds: speeds.collect(), times, positions }
+    }
+
+    /// Returns whether there are frames of `vertex_count` vertices at rising times, with finite
+    /// numbers.
+    pub(crate) fn is_sound(&self, vertex_count: usize) -> bool {
+        let Self { times, positions, speeds } = self;
+        !times.is_empty()
+            && times.windows(2).all(|pair| pair[0] < pair[1])
+            && positions.len() == times.len()
+            && speeds.len() + 1 == times.len()
+            && positions.iter().all(|frame| frame.len() == 3 * vertex_count)
+            && self.numbers().chain(speeds.iter().copied()).all(f64::is_finite)
     }
 
     /// Writes the positions of the vertices at a time, in s.
