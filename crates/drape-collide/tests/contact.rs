@@ -322,3 +322,26 @@ fn bad_bodies_and_settings_are_named() {
         assert!(message.contains(words), "{message}");
     }
 }
+
+#[test]
+fn a_body_that_cannot_be_moved_there_stays_where_it_is() {
+    let ball = Body::new("ball", Shape::Sphere { radius: 0.1 }, Pose::default());
+    let settings = ParticleSettings::default();
+    let mut contact = ParticleContact::new(vec![ball], settings, vec![AREA]).unwrap();
+    let positions = [0.0, 0.1005, 0.0];
+    contact.begin(&positions, 1e-2);
+    let before = forces(&mut contact, &positions);
+    let far = Pose::new([0.0, f64::NAN, 0.0]);
+    let bent = Pose { rotation: [0.0, 0.0, 0.0, 2.0], ..Pose::default() };
+    for (body, pose, words) in [
+        (9, Pose::default(), "there is no body 9; the bodies are numbered from 0, and there are 1"),
+        (usize::MAX, far, "there is no body"),
+        (0, far, "position of the body `ball`"),
+        (0, bent, "the rotation [0.0, 0.0, 0.0, 2.0] has length 2"),
+    ] {
+        let message = contact.move_body(body, pose).expect_err(words).to_string();
+        assert!(message.contains(words), "{message}");
+    }
+    assert_eq!(contact.bodies()[0].pose, Pose::default());
+    assert_eq!(forces(&mut contact, &positions), before);
+}

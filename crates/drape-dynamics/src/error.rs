@@ -22,8 +22,8 @@ pub enum Error {
     /// Frames cannot be written.
     #[error(transparent)]
     Frames(#[from] drape_frames::Error),
-    /// A value that a program prescribes between steps does not suit the simulation: forces, gravity,
-    /// air, a particle, a pin, or a motion of a body.
+    /// A value that a program prescribes between steps does not suit the simulation: forces,
+    /// gravity, air, a particle, a pin, or a motion of a body.
     #[error("{reason}")]
     Unsuited {
         /// Description of the fault, with the remedy.

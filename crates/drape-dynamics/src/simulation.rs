@@ -226,7 +226,7 @@ impl Simulation {
         let coarser = CoarserGrid::take_from(&mut scene, &scheme)?;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
-        check_top_speed(&scene)?;
+        prescription::check_top_speed(&scene)?;
         let (schedule, source) = (scene.schedule, scene.source.clone());
         let parts = GarmentParts::new(&scene);
         let world = World::new(scene)?;
@@ -346,18 +346,6 @@ impl Simulation {
     #[must_use]
     pub fn velocities(&self) -> &[f64] {
         &self.world.state.velocities
-    }
-
-    /// Returns the material coordinates of the particles, in m.
-    #[must_use]
-    pub fn coordinates(&self) -> &[[f64; 2]] {
-        self.world.cloth.coordinates()
-    }
-
-    /// Returns the triangles of the surface.
-    #[must_use]
-    pub fn triangles(&self) -> &[[u32; 3]] {
-        self.world.cloth.triangles()
     }
 
     /// Returns the criteria of rest, if the scene asks for rest.
@@ -603,22 +591,4 @@ impl Simulation {
     fn has_settled(&self) -> bool {
         self.phases.rested || self.is_at_rest()
     }
-}
-
-/// Checks that contact can stop bodies and pins at the top speed that a program declares for `scene`.
-fn check_top_speed(scene: &Scene) -> Result<(), Error> {
-    let Some(speed) = scene.contact.top_speed.filter(|_| scene.contact.surfaces) else {
-        return Ok(());
-    };
-    let limit = match scene.contact.stiffness {
-        Some(_) => scene.stopped_speed(),
-        None => scene.top_speed_max(),
-    };
-    if speed >= 0.0 && speed <= limit {
-        return Ok(());
-    }
-    let reason = format!(
-        "contact.top_speed is {speed} m/s; contact keeps these fabrics apart from 0 to {limit:.3} m/s"
-    );
-    Err(Error::Unsuited { reason })
 }

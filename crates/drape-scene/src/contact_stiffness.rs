@@ -142,8 +142,8 @@ fn stopped_speed(fabric: &Fabric, stiffness: f64) -> f64 {
 /// a straight line is
 ///
 /// ```math
-/// LC = \frac{2x\,(\tfrac12 - \ln 2x)}{1 - x} \quad (x < \tfrac12), \qquad 1 \quad (x \ge \tfrac12),
-/// \qquad s = \frac{T_m - x T_0}{1 - x}
+/// LC = \frac{2x\,(\tfrac12 - \ln 2x)}{1 - x} \quad (x < \tfrac12), \qquad 1 \quad (x \ge
+/// \tfrac12), \qquad s = \frac{T_m - x T_0}{1 - x}
 /// ```
 ///
 /// which the measured LC solves for `$x$`. Where LC was not measured, `$s$` is [`CRUSHED`] of

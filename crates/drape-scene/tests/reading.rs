@@ -309,6 +309,10 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("", "[solver]\nintegrator = \"leapfrog\"", "leapfrog", 10),
         ("", "[solver]\ntolerance = 2", "2", 10),
         ("", "[contact]\nslip_speed = 9", "9", 10),
+        ("", "[contact]\ntop_speed = 0", "0", 10),
+        ("", "[contact]\ntop_speed = 900", "contact keeps this fabric apart up to", 10),
+        ("", "[contact]\nsurfaces = false\ntop_speed = 2", "kept apart", 11),
+        ("", "[contact]\nstiffness = 1e9\ntop_speed = 2", "already says", 11),
         ("", "[contact]\npinch = \"squash\"", "squash", 10),
         ("", "[contact]\nsurfaces = false\npinch = \"thin\"", "kept apart", 11),
         ("", "[output]\nevery = 0", "0", 10),
@@ -339,6 +343,30 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         assert!(text.contains(value), "{new}: {text}");
         assert!(text.contains(&format!("towel.toml:{line}")), "{new} is in line {line}: {text}");
     }
+}
+
+#[test]
+fn contact_stops_the_top_speed_that_a_scene_declares() {
+    let declared = |keys: &str| read(&with("", &format!("[contact]\n{keys}")));
+    let scene = declared("top_speed = 2").unwrap();
+    assert_eq!(scene.contact.top_speed, Some(2.0));
+    let stopped = scene.stopped_speed();
+    assert!((stopped / 2.0 - 1.0).abs() < 1e-9, "{stopped} m/s");
+    assert!(scene.source.notes.iter().any(|note| note.contains("2 m/s")), "{:?}", scene.source);
+    let usual = read(LEAST).unwrap();
+    assert_eq!(usual.contact.top_speed, None);
+    assert!(usual.stopped_speed() < 2.0 && usual.contact_stiffness() < scene.contact_stiffness());
+    // A speed that compression stops already changes nothing.
+    let slow = declared("top_speed = 0.1").unwrap();
+    assert_eq!(slow.contact_stiffness(), usual.contact_stiffness());
+    // The remedy of a speed that is too large is taken.
+    let message = declared("top_speed = 900").unwrap_err().to_string();
+    let most = message.split("write ").nth(1).unwrap().split(' ').next().unwrap();
+    let fastest = declared(&format!("top_speed = {most}")).unwrap();
+    assert!(fastest.contact.top_speed.unwrap() <= fastest.top_speed_max());
+    // A unit is read.
+    let scene = declared("top_speed = \"200 cm/s\"").unwrap();
+    assert!((scene.contact.top_speed.unwrap() - 2.0).abs() < 1e-12);
 }
 
 #[test]

@@ -39,26 +39,21 @@ impl Simulation {
         self.world.pins().get(pin).map(|pin| &pin.particles[..]).ok_or_else(|| self.no_pin(pin))
     }
 
-    /// Moves the pin `pin` to `target` within `seconds`, at a steady rate from now on. The pin stays
-    /// there. This motion replaces the earlier motion of the pin. With the time
+    /// Moves the pin `pin` to `target` within `seconds`, at a steady rate from now on. The pin
+    /// stays there. This motion replaces the earlier motion of the pin. With the time
     /// [`next_step`](Self::next_step) the pin arrives at the end of the next step.
     ///
     /// A pin that moves by more than the distance of the particles in a step divides the step where
-    /// surfaces are kept apart. Surfaces never intersect: a step in which cloth or bodies are in the
-    /// way of the pin ends with an error. The work of the pin is part of
+    /// surfaces are kept apart. Surfaces never intersect: a step in which cloth or bodies are in
+    /// the way of the pin ends with an error. The work of the pin is part of
     /// [`Energy::work_in`](crate::Energy::work_in).
     ///
     /// # Errors
-    /// [`Error::Unsuited`] for a pin that does not exist or no longer holds a particle, numbers that
-    /// are not finite, a time that is not positive, and a speed at which contact does not keep the
-    /// fabrics apart. The same error is returned while the garment is sewn, while pins wait for the
+    /// [`Error::Unsuited`] for a pin that does not exist or no longer holds a particle, numbers
+    /// that are not finite, a time that is not positive, and a speed at which contact does not keep
+    /// the fabrics apart. The same error is returned while the garment is sewn, while pins wait for the
     /// cloth to rest, and while the cloth rests on a coarser grid.
-    pub fn lead_pin(
-        &mut self,
-        pin: usize,
-        target: &PinTarget,
-        seconds: f64,
-    ) -> Result<(), Error> {
+    pub fn lead_pin(&mut self, pin: usize, target: &PinTarget, seconds: f64) -> Result<(), Error> {
         self.check_sewn()?;
         let times = self.motion_times(seconds)?;
         let led = self.world.pins().get(pin).ok_or_else(|| self.no_pin(pin))?;
@@ -67,8 +62,8 @@ impl Simulation {
             return Err(unsuited(message));
         }
 
-        // Springs of a pin that holds in some directions lead its particles only nearly, so this pin
-        // moves from the positions that are prescribed.
+        // Springs of a pin that holds in some directions lead its particles only nearly, so this
+        // pin moves from the positions that are prescribed.
         let positions = &self.world.state.positions;
         let start: Vec<[f64; 3]> = if led.holds_all_axes() {
             led.particles.iter().map(|&p| std::array::from_fn(|k| positions[3 * p + k])).collect()
@@ -90,14 +85,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Holds `particles` where they are, in all directions, from now on. Returns the number of their
-    /// pin, which [`lead_pin`](Self::lead_pin) leads and [`pin_loads`](Self::pin_loads) lists. A
-    /// particle leaves the pin that held it before. Particles that are sewn to one of `particles` are
-    /// held with it.
+    /// Holds `particles` where they are, in all directions, from now on. Returns the number of
+    /// their pin, which [`lead_pin`](Self::lead_pin) leads and [`pin_loads`](Self::pin_loads)
+    /// lists. A particle leaves the pin that held it before. Particles that are sewn to one of
+    /// `particles` are held with it.
     ///
     /// Particles in flight stop at once. Their kinetic energy is negative work of the pin in
-    /// [`Energy::work_in`](crate::Energy::work_in). The number of a pin whose particles have all been
-    /// [released](Self::release) is given to the next pin.
+    /// [`Energy::work_in`](crate::Energy::work_in). The number of a pin whose particles have all
+    /// been [released](Self::release) is given to the next pin.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for no particles, particles that do not exist, and particles that are
@@ -175,9 +170,10 @@ impl Simulation {
             let given: Vec<u32> = particles.iter().map(|&particle| classes[particle]).collect();
             let merged = classes.iter().enumerate().filter(|(_, class)| given.contains(class));
             sewn.extend(merged.map(|(particle, _)| particle));
-            let gathered = seams.ties.iter().filter(|tie| {
-                tie.ends.iter().any(|&end| given.contains(&classes[end as usize]))
-            });
+            let gathered = seams
+                .ties
+                .iter()
+                .filter(|tie| tie.ends.iter().any(|&end| given.contains(&classes[end as usize])));
             sewn.extend(gathered.map(|tie| tie.particle as usize));
         }
         sewn.sort_unstable();

@@ -1,13 +1,13 @@
-//! Prescriptions between steps, by a program that steps the simulation: forces, gravity, moving air,
-//! and the checks that all prescriptions share.
+//! Prescriptions between steps, by a program that steps the simulation: forces, gravity, moving
+//! air, and the checks that all prescriptions share.
 //!
 //! A program sets forces on the particles, gravity and the velocity of the air for the following
-//! steps. It leads bodies (`body_prescription.rs`) and pins (`pin_prescription.rs`). Contact, limits
-//! of steps and the energy balance treat these values like prescriptions of the scene, and a saved
-//! state holds them.
+//! steps. It leads bodies (`body_prescription.rs`) and pins (`pin_prescription.rs`). Contact,
+//! limits of steps and the energy balance treat these values like prescriptions of the scene, and a
+//! saved state holds them.
 
 use drape_input::figure_above;
-use drape_scene::{MotionKey, RigidMotion};
+use drape_scene::{MotionKey, RigidMotion, Scene};
 
 use super::{CoarserGrid, Simulation};
 use crate::error::Error;
@@ -23,8 +23,15 @@ const AIR_SPEED_MAX: f64 = 100.0;
 /// Longest time within which a body or a pin moves, in s.
 const SECONDS_MAX: f64 = 1e5;
 
+/// Shortest time within which a body or a pin moves, in s.
+const SECONDS_MIN: f64 = 1e-12;
+
 /// Largest coordinate of a displacement, in m or degrees.
 const DISPLACEMENT_MAX: f64 = 1e6;
+
+/// Largest relative rounding error of a speed, which is a quotient with a difference of times that
+/// may be far from 0.
+const SPEED_ERROR: f64 = 1e-4;
 
 /// Rigid displacement of a body or a pin.
 #[derive(Debug, Clone, Copy)]
@@ -42,11 +49,7 @@ impl Displacement {
     ///
     /// # Errors
     /// [`Error::Unsuited`] for numbers that are not finite or too large.
-    pub(super) fn motion(
-        self,
-        times: [f64; 2],
-        points: &[[f64; 3]],
-    ) -> Result<RigidMotion, Error> {
+    pub(super) fn motion(self, times: [f64; 2], points: &[[f64; 3]]) -> Result<RigidMotion, Error> {
         let Self { shift, turn, center } = self;
         let center = center.unwrap_or_else(|| middle(points));
         let numbers = shift.iter().chain(&turn).chain(&center);
@@ -97,8 +100,8 @@ impl Simulation {
         self.coarser.front().map_or_else(|| self.world.gravity(), CoarserGrid::gravity)
     }
 
-    /// Sets the acceleration of gravity to `acceleration`, in m/s², from the next step on. A ramp of
-    /// the scene (`time.ramp`) that has not ended leads to the new value.
+    /// Sets the acceleration of gravity to `acceleration`, in m/s², from the next step on. A ramp
+    /// of the scene (`time.ramp`) that has not ended leads to the new value.
     ///
     /// [`Energy::gravity`](crate::Energy::gravity) is the work against the weight along the path,
     /// with the gravity of each step, so that the energy balance stays closed.
@@ -126,8 +129,9 @@ impl Simulation {
 
     /// Sets the velocity of the air to `velocity`, in m/s, from the next step on: a wind that is
     /// equal everywhere and passes round nothing. The drag follows from the velocity of the cloth
-    /// relative to the air, with `air.density` and `air.drag` of the scene. The work of the wind is
-    /// part of [`Energy::work_in`](crate::Energy::work_in).
+    /// relative to the air, with `air.density` and `air.drag` of the scene. The work of the wind,
+    /// its force times its velocity, is part of [`Energy::work_in`](crate::Energy::work_in). The
+    /// air dissipates the part of this work by which the cloth is slower than the wind.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for numbers that are not finite, for air faster than 100 m/s, and where
@@ -194,19 +198,20 @@ impl Simulation {
                            asks for; step until the phase is \"simulate\"";
             return Err(unsuited(message.into()));
         };
+        // The speed of a motion is read off a thousandth of its time.
+        if seconds < SECONDS_MIN.max(1e3 * f64::EPSILON * start / SPEED_ERROR) {
+            return Err(unsuited(format!(
+                "a motion within {seconds} s, {start} s after the start; give a length of a step"
+            )));
+        }
         Ok([start, start + seconds])
     }
 
     /// Checks that contact can stop `subject`, which moves at `speed`, in m/s, for `seconds`.
-    pub(super) fn check_speed(
-        &self,
-        subject: &str,
-        speed: f64,
-        seconds: f64,
-    ) -> Result<(), Error> {
+    pub(super) fn check_speed(&self, subject: &str, speed: f64, seconds: f64) -> Result<(), Error> {
         let Some(surfaces) = self.world.contact.surfaces() else { return Ok(()) };
         let largest = surfaces.speeds.largest;
-        if speed <= largest {
+        if speed <= (1.0 + SPEED_ERROR) * largest {
             return Ok(());
         }
 
@@ -231,4 +236,22 @@ pub(super) fn middle(points: &[[f64; 3]]) -> [f64; 3] {
         let values = points.iter().map(|point| point[axis]);
         0.5 * (values.clone().fold(f64::MAX, f64::min) + values.fold(f64::MIN, f64::max))
     })
+}
+
+/// Checks that contact can stop bodies and pins at the top speed that a program declares for
+/// `scene`.
+pub(super) fn check_top_speed(scene: &Scene) -> Result<(), Error> {
+    let Some(speed) = scene.contact.top_speed.filter(|_| scene.contact.surfaces) else {
+        return Ok(());
+    };
+    let limit = match scene.contact.stiffness {
+        Some(_) => scene.stopped_speed(),
+        None => scene.top_speed_max(),
+    };
+    if speed >= 0.0 && speed <= limit {
+        return Ok(());
+    }
+    Err(unsuited(format!(
+        "contact.top_speed is {speed} m/s; contact keeps these fabrics apart from 0 to {limit:.3} m/s"
+    )))
 }

@@ -5,8 +5,8 @@
 //! contact and the copies of the integrator are saved too, although they could be computed again.
 //!
 //! A saved state needs no file: [`Simulation::resume`] also resets the simulation that was saved.
-//! Everything that a program prescribes between steps is part of the state: led pins and bodies, held
-//! and released particles, gravity, the velocity of the air, and forces.
+//! Everything that a program prescribes between steps is part of the state: led pins and bodies,
+//! held and released particles, gravity, the velocity of the air, and forces.
 
 use drape_checkpoint::Checkpoint;
 use drape_scene::Relaxation;

@@ -5,9 +5,21 @@ use super::prescription::unsuited;
 use crate::error::Error;
 
 impl Simulation {
+    /// Returns the material coordinates of the particles, in m.
+    #[must_use]
+    pub fn coordinates(&self) -> &[[f64; 2]] {
+        self.world.cloth.coordinates()
+    }
+
+    /// Returns the triangles of the surface.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        self.world.cloth.triangles()
+    }
+
     /// Writes the positions of the particles, in m, to `positions`, and the unit normals of the
-    /// surface to `normals`: three numbers in single precision for each particle, in the order of the
-    /// particles. Nothing is allocated.
+    /// surface to `normals`: three numbers in single precision for each particle, in the order of
+    /// the particles. Nothing is allocated.
     ///
     /// [`triangle_indices`](Self::triangle_indices) are the triangles of these vertices. The right
     /// side of the cloth is in front. Each side of a seam has its vertices and normals.
@@ -15,11 +27,7 @@ impl Simulation {
     /// # Errors
     /// [`Error::Unsuited`] if a slice does not have three numbers for each particle. Nothing is
     /// written then.
-    pub fn write_vertices(
-        &self,
-        positions: &mut [f32],
-        normals: &mut [f32],
-    ) -> Result<(), Error> {
+    pub fn write_vertices(&self, positions: &mut [f32], normals: &mut [f32]) -> Result<(), Error> {
         let state = &self.world.state;
         let needed = state.positions.len();
         for (name, length) in [("positions", positions.len()), ("normals", normals.len())] {

@@ -1,8 +1,8 @@
 //! Drag of the air on particles, along the normals of the cloth.
 //!
 //! The drag grows with the square of the speed of the cloth relative to the air,
-//! `$f = -\tfrac12 \rho\, c_d A\, |u|\, u\, n$` with `$u = n \cdot (v - w)$`, the velocity `$v$` of the
-//! cloth and the velocity `$w$` of the air. Within a step its coefficient uses the speed at the
+//! `$f = -\tfrac12 \rho\, c_d A\, |u|\, u\, n$` with `$u = n \cdot (v - w)$`, the velocity `$v$` of
+//! the cloth and the velocity `$w$` of the air. Within a step its coefficient uses the speed at the
 //! start of the step, so that the force is linear in the displacement and has a potential.
 
 use drape_cloth::{Cloth, State};
@@ -112,16 +112,21 @@ impl AirDrag {
 
     /// Returns the energy that the drag exchanges in a step from `state` to `positions`.
     ///
-    /// The force `$-c\,s$` along the slip `$s = d - a$` does the work `$-c\,s\,d$` on the cloth, with
-    /// the displacements `$d$` of the cloth and `$a$` of the air. The air loses `$c\,s^2$` and works
-    /// `$-c\,s\,a$`. The potential `$\tfrac12 c\,s^2$` falls by `$\tfrac12 c\,d^2$` more than the work.
+    /// The force `$-c\,s$` along the slip `$s = d - a$` does the work `$-c\,s\,d$` on the cloth,
+    /// with the displacements `$d$` of the cloth and `$a$` of the air. The air loses `$c\,s^2$` and
+    /// works `$-c\,s\,a$`. The potential `$\tfrac12 c\,s^2$` falls by `$\tfrac12 c\,d^2$` more than
+    /// the work.
     pub(crate) fn energy(&self, state: &State, positions: &[f64]) -> DragEnergy {
         let mut energy = DragEnergy::default();
-        self.visit(state, positions, |NormalDisplacement { coefficient, distance, slip, .. }| {
-            energy.dissipated += coefficient * slip * slip;
-            energy.air_work += coefficient * slip * (slip - distance);
-            energy.squared_path += coefficient * distance * distance;
-        });
+        self.visit(
+            state,
+            positions,
+            |NormalDisplacement { coefficient, distance, slip, .. }| {
+                energy.dissipated += coefficient * slip * slip;
+                energy.air_work += coefficient * slip * (slip - distance);
+                energy.squared_path += coefficient * distance * distance;
+            },
+        );
         energy
     }
 

@@ -102,8 +102,8 @@ impl Contact {
         }
     }
 
-    /// Restores the bodies `saved` that a program leads, at `time` on the motion clock, in s. Returns
-    /// `false` if they do not fit.
+    /// Restores the bodies `saved` that a program leads, at `time` on the motion clock, in s.
+    /// Returns `false` if they do not fit.
     pub(crate) fn restore_leads(&mut self, saved: SavedLeads, time: f64) -> bool {
         match (self, saved) {
             (Self::Particles(bodies), SavedLeads::Particles(led)) => bodies.restore_led(led, time),

@@ -44,8 +44,8 @@ pub struct Energy {
     #[serde(rename = "turning_dissipated")]
     pub rotation_dissipated: f64,
     /// Work done on the cloth by moving bodies, by pins, by moving air and by forces that a program
-    /// sets. For a pin that holds in some directions only, the work of its springs counts. A particle
-    /// that a program holds in flight gives its kinetic energy to its pin.
+    /// sets. For a pin that holds in some directions only, the work of its springs counts. A
+    /// particle that a program holds in flight gives its kinetic energy to its pin.
     pub work_in: f64,
     /// Residual of the balance in the sub-steps in which every entry is computed independently
     /// (about one of thirty). It is the error of a quadrature, some millionths of the energy

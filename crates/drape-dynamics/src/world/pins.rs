@@ -35,13 +35,7 @@ impl Pins {
     /// Returns the pins `pins`. `held` says for each particle whether a pin holds it in all
     /// directions at the start.
     pub(crate) fn new(pins: Vec<Pin>, held: Vec<bool>) -> Self {
-        Self {
-            scene: pins.clone(),
-            pins,
-            is_steered: false,
-            held,
-            springs: PinSprings::default(),
-        }
+        Self { scene: pins.clone(), pins, is_steered: false, held, springs: PinSprings::default() }
     }
 
     /// Prepares the pins for a step that ends at `end_time` of the simulation and `motion_end` on
@@ -127,9 +121,9 @@ impl Pins {
         self.is_steered = true;
     }
 
-    /// Holds `particles` in all directions where they are at `positions`, in m, from now on. Returns
-    /// the number of their pin. A pin of a program whose particles have all been released gives its
-    /// number to the new pin.
+    /// Holds `particles` in all directions where they are at `positions`, in m, from now on.
+    /// Returns the number of their pin. A pin of a program whose particles have all been released
+    /// gives its number to the new pin.
     pub(crate) fn hold(&mut self, particles: &[usize], positions: &[f64]) -> usize {
         let start = particles.iter().map(|&p| std::array::from_fn(|k| positions[3 * p + k]));
         let pin = Pin {

@@ -1,9 +1,9 @@
 //! Saved state of a world between two steps, on which its next steps depend.
 //!
 //! A world is built from its scene again, and then its saved state is restored. The world that was
-//! saved may also be restored itself, as long as its seams have not been closed since. What a program
-//! has prescribed between the steps is part of the state. Data that each step
-//! prepares is not saved: gravity, air and springs at its end, and the poses of bodies.
+//! saved may also be restored itself, as long as its seams have not been closed since. What a
+//! program has prescribed between the steps is part of the state. Data that each step prepares is
+//! not saved: gravity, air and springs at its end, and the poses of bodies.
 
 use drape_cloth::State;
 use drape_collide::SavedContact;
@@ -50,7 +50,8 @@ struct Prescribed {
 }
 
 impl Prescribed {
-    /// Returns whether the numbers are finite and the forces are for `coordinate_count` coordinates.
+    /// Returns whether the numbers are finite and the forces are for `coordinate_count`
+    /// coordinates.
     fn is_sound(&self, coordinate_count: usize) -> bool {
         let numbers = self.gravity.iter().chain(&self.air_velocity).chain(&self.forces);
         (self.forces.is_empty() || self.forces.len() == coordinate_count)
@@ -95,8 +96,8 @@ impl World {
         }
     }
 
-    /// Restores the state `saved` at `time`, in s. This world was just built from its scene, or is the
-    /// world that was saved.
+    /// Restores the state `saved` at `time`, in s. This world was just built from its scene, or is
+    /// the world that was saved.
     ///
     /// # Errors
     ///

@@ -52,8 +52,8 @@ impl BodyMotion {
         }
     }
 
-    /// Returns whether the motion has keys or frames at rising times, with finite numbers, for a body
-    /// with `vertex_count` vertices. A motion from a file may be damaged.
+    /// Returns whether the motion has keys or frames at rising times, with finite numbers, for a
+    /// body with `vertex_count` vertices. A motion from a file may be damaged.
     #[must_use]
     pub fn is_sound(&self, vertex_count: usize) -> bool {
         match self {

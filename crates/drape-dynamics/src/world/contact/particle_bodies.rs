@@ -164,8 +164,7 @@ impl ParticleBodies {
     /// Moves the bodies to their poses at `time` on the motion clock, in s.
     fn move_bodies(&mut self, time: f64) {
         let Self { contact, moving, led, .. } = self;
-        let moving =
-            moving.iter().filter(|moving| led.iter().all(|led| led.body != moving.body));
+        let moving = moving.iter().filter(|moving| led.iter().all(|led| led.body != moving.body));
         for MovingBody { body, start, motion } in moving.chain(&*led) {
             let pose = motion.pose_at(time, *start);
             contact.move_body(*body, pose).expect("a rigid motion turns a pose into a pose");

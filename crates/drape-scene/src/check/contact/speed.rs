@@ -26,8 +26,8 @@ pub(crate) fn check_speeds(
     }
 }
 
-/// Checks that contact can stop bodies and pins at the top speed of the scene. `most` is the largest
-/// speed that contact can stop, in m/s.
+/// Checks that contact can stop bodies and pins at the top speed of the scene. `most` is the
+/// largest speed that contact can stop, in m/s.
 pub(crate) fn check_top_speed(checker: &mut Checker<'_>, most: f64) {
     const KEY: &str = "contact.top_speed";
     let Some(speed) = checker.spec.contact.top_speed else { return };

@@ -1,0 +1,104 @@
+//! Measures the processor time of a frame of 1/60 s for a sheet of 2 500 particles that swings onto
+//! a sphere, in the usual setting and in the fast setting, with and without contact of surfaces.
+//!
+//! `RAYON_NUM_THREADS=1 cargo run --release --example frame_time -- 60` measures 60 frames on one
+//! thread. Without a number the example makes two frames of each.
+
+use drape_dynamics::Simulation;
+use drape_input::Document;
+use drape_scene::Scene;
+
+const FABRIC: &str = r#"
+name = "plain weave"
+density = 0.2
+thickness = 0.0004
+shear = { stiffness = 50, friction = [{ plateau = 0.5, length = 0.004 }] }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
+[weft]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
+"#;
+
+/// Sheet of 98 cm × 98 cm that is held at one edge, and a sphere below it.
+const SCENE: &str = r#"
+spacing = 0.02
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "sheet"
+fabric = "plain"
+rectangle = [0.98, 0.98]
+turn = [-90, 0, 0]
+[[pin]]
+panel = "sheet"
+edge = "top"
+[[collider.sphere]]
+name = "ball"
+radius = 0.2
+center = [0, -0.4, 0]
+friction = 0.3
+"#;
+
+/// Setting of a scene.
+struct Setting {
+    name: &'static str,
+    /// Number of steps in a frame.
+    steps: usize,
+    keys: &'static str,
+}
+
+/// Settings that are measured. Each is measured with surfaces and with particles in contact.
+const SETTINGS: [Setting; 4] = [
+    Setting { name: "usual", steps: 4, keys: "" },
+    Setting { name: "two steps", steps: 2, keys: "output.energy = false" },
+    Setting { name: "fast", steps: 2, keys: "output.energy = false\nsolver.error_fraction = 1" },
+    Setting { name: "fastest", steps: 1, keys: "output.energy = false\nsolver.error_fraction = 1" },
+];
+
+#[expect(clippy::print_stdout, reason = "an example shows its result")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let frames = std::env::args().nth(1).map_or(Ok(2), |frames| frames.parse())?;
+    for surfaces in [true, false] {
+        let mut usual = Vec::new();
+        for Setting { name, steps, keys } in SETTINGS {
+            let step = 1.0 / (60.0 * steps as f64);
+            let text = format!(
+                "contact.surfaces = {surfaces}\ntime = {{ step = {step}, end = 1000 }}\n{keys}\n{SCENE}"
+            );
+            let fabric = Document::new("plain.toml", FABRIC);
+            let scene = Scene::from_documents(&Document::new("sheet.toml", text), &[fabric])?;
+            let mut simulation = Simulation::new(scene)?;
+            let mut slowest: f64 = 0.0;
+            for _ in 0..frames {
+                let before = simulation.summary().cpu_seconds.unwrap_or(f64::NAN);
+                for _ in 0..steps {
+                    simulation.step()?;
+                }
+                let after = simulation.summary().cpu_seconds.unwrap_or(f64::NAN);
+                slowest = slowest.max(after - before);
+            }
+
+            let summary = simulation.summary();
+            let mean = summary.cpu_seconds.unwrap_or(f64::NAN) / frames as f64;
+            if usual.is_empty() {
+                usual = simulation.positions().to_vec();
+            }
+            println!(
+                "surfaces {surfaces:5}, {name:9} ({steps} steps): {:6.1} ms a frame, {:6.1} ms at most, \
+                 {:.1} mm from the usual setting, {} intersections",
+                1e3 * mean,
+                1e3 * slowest,
+                1e3 * root_mean_square(&usual, simulation.positions()),
+                summary.contact.intersections
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Returns the root-mean-square distance of particles at `first` and `second`, in m.
+fn root_mean_square(first: &[f64], second: &[f64]) -> f64 {
+    let squares = first.iter().zip(second).map(|(a, b)| (a - b) * (a - b));
+    (squares.sum::<f64>() / (first.len() as f64 / 3.0)).sqrt()
+}
