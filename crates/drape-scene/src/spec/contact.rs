@@ -20,8 +20,8 @@ pub struct ContactSpec {
     #[schemars(transform = drape_input::within(1.0, 1e12))]
     #[serde_as(as = "Option<PressurePerDistance>")]
     pub stiffness: Option<f64>,
-    /// Top speed at which a program moves bodies and pins between steps: contact becomes stiff
-    /// enough to stop them. Motions of the scene need no such key.
+    /// Top speed at which a program moves bodies and pins between steps, in m/s: contact becomes
+    /// stiff enough to stop them. Motions of the scene need no such key.
     #[schemars(transform = drape_input::within(1e-3, 1e3))]
     #[serde_as(as = "Option<Speed>")]
     pub top_speed: Option<f64>,
