@@ -226,7 +226,6 @@ impl Simulation {
         let coarser = CoarserGrid::take_from(&mut scene, &scheme)?;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
-        prescription::check_top_speed(&scene)?;
         let (schedule, source) = (scene.schedule, scene.source.clone());
         let parts = GarmentParts::new(&scene);
         let world = World::new(scene)?;

@@ -51,8 +51,8 @@ impl Simulation {
     /// # Errors
     /// [`Error::Unsuited`] for a pin that does not exist or no longer holds a particle, numbers
     /// that are not finite, a time that is not positive, and a speed at which contact does not keep
-    /// the fabrics apart. The same error is returned while the garment is sewn, while pins wait for the
-    /// cloth to rest, and while the cloth rests on a coarser grid.
+    /// the fabrics apart. The same error is returned while the garment is sewn, while pins wait for
+    /// the cloth to rest, and while the cloth rests on a coarser grid.
     pub fn lead_pin(&mut self, pin: usize, target: &PinTarget, seconds: f64) -> Result<(), Error> {
         self.check_sewn()?;
         let times = self.motion_times(seconds)?;

@@ -7,7 +7,7 @@
 //! saved state holds them.
 
 use drape_input::figure_above;
-use drape_scene::{MotionKey, RigidMotion, Scene};
+use drape_scene::{MotionKey, RigidMotion};
 
 use super::{CoarserGrid, Simulation};
 use crate::error::Error;
@@ -236,22 +236,4 @@ pub(super) fn middle(points: &[[f64; 3]]) -> [f64; 3] {
         let values = points.iter().map(|point| point[axis]);
         0.5 * (values.clone().fold(f64::MAX, f64::min) + values.fold(f64::MIN, f64::max))
     })
-}
-
-/// Checks that contact can stop bodies and pins at the top speed that a program declares for
-/// `scene`.
-pub(super) fn check_top_speed(scene: &Scene) -> Result<(), Error> {
-    let Some(speed) = scene.contact.top_speed.filter(|_| scene.contact.surfaces) else {
-        return Ok(());
-    };
-    let limit = match scene.contact.stiffness {
-        Some(_) => scene.stopped_speed(),
-        None => scene.top_speed_max(),
-    };
-    if speed >= 0.0 && speed <= limit {
-        return Ok(());
-    }
-    Err(unsuited(format!(
-        "contact.top_speed is {speed} m/s; contact keeps these fabrics apart from 0 to {limit:.3} m/s"
-    )))
 }

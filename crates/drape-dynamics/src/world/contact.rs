@@ -19,6 +19,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
+use self::stopped_speeds::StoppedSpeeds;
+
 pub(crate) use self::particle_bodies::{MovingBody, ParticleBodies};
 pub(crate) use self::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 #[cfg(test)]
@@ -51,6 +53,7 @@ impl Contact {
     /// Returns an error if `scene` was changed so that its contact cannot be set up.
     pub(crate) fn new(scene: &Scene) -> Result<Self, Error> {
         if scene.contact.surfaces {
+            StoppedSpeeds::check_top_speed(scene)?;
             Ok(Self::Surfaces(Box::new(Surfaces::new(scene)?)))
         } else {
             Ok(Self::Particles(Box::new(ParticleBodies::new(scene)?)))

@@ -3,6 +3,8 @@
 use drape_input::figure_above;
 use drape_scene::Scene;
 
+use crate::error::Error;
+
 /// Speeds of bodies and pins that the contact of surfaces can stop.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StoppedSpeeds {
@@ -25,6 +27,28 @@ impl StoppedSpeeds {
             stiffness: scene.contact_stiffness(),
             is_stiffness_named: scene.contact.stiffness.is_some(),
         }
+    }
+
+    /// Checks that contact can stop bodies and pins at the top speed that a program declares for
+    /// `scene`.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::Unsuited`] if it cannot.
+    pub(crate) fn check_top_speed(scene: &Scene) -> Result<(), Error> {
+        let Some(speed) = scene.contact.top_speed else { return Ok(()) };
+        let limit = match scene.contact.stiffness {
+            Some(_) => scene.stopped_speed(),
+            None => scene.top_speed_max(),
+        };
+        if speed >= 0.0 && speed <= limit {
+            return Ok(());
+        }
+        let reason = format!(
+            "contact.top_speed is {speed} m/s; contact keeps these fabrics apart from 0 to {limit:.3} \
+             m/s"
+        );
+        Err(Error::Unsuited { reason })
     }
 
     /// Returns the key of a scene, with its value, whose contact can stop `speed`, in m/s. Returns
