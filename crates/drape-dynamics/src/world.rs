@@ -6,8 +6,7 @@
 //! are
 //!
 //! ```math
-//! f = M g + f_\text{internal} + f_\text{springs} + f_\text{air} + f_\text{contact} +
-//! f_\text{external}
+//! f = M g + f_\text{internal} + f_\text{springs} + f_\text{air} + f_\text{contact} + f_\text{external}
 //! ```
 //!
 //! and each term has a file of its own here, with its force, potential and stiffness.
