@@ -23,11 +23,12 @@ fn vertices_are_positions_and_unit_normals_of_the_surface() {
             .map(|k| corners[k] as usize)
             .map(|vertex| [0, 1, 2].map(|axis| f64::from(positions[3 * vertex + axis])));
         let (e, f) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
+        let cross: [f64; 3] = std::array::from_fn(|axis| {
+            let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+            e[j] * f[k] - e[k] * f[j]
+        });
         for &corner in corners {
-            for axis in 0..3 {
-                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-                sums[corner as usize][axis] += e[j] * f[k] - e[k] * f[j];
-            }
+            sums[corner as usize].iter_mut().zip(cross).for_each(|(sum, x)| *sum += x);
         }
     }
     for (sum, normal) in sums.iter().zip(normals.chunks_exact(3)) {
