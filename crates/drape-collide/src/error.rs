@@ -202,15 +202,6 @@ pub enum Error {
         volume: f64,
     },
 
-    /// There is no body with the number of a call.
-    #[error("there is no body {body}; the bodies are numbered from 0, and there are {count}")]
-    MissingBody {
-        /// Number of the body as given.
-        body: usize,
-        /// Number of bodies.
-        count: usize,
-    },
-
     /// The lumped area of a particle is negative or not finite.
     #[error("the area of particle {particle} is {area}; it must be finite and not negative")]
     InvalidArea {

@@ -329,12 +329,12 @@ fn a_body_that_cannot_be_moved_there_stays_where_it_is() {
     let settings = ParticleSettings::default();
     let mut contact = ParticleContact::new(vec![ball], settings, vec![AREA]).unwrap();
     let positions = [0.0, 0.1005, 0.0];
-    contact.begin(&positions, 1e-2);
+    contact.begin(&positions, 1e-2).unwrap();
     let before = forces(&mut contact, &positions);
     let far = Pose::new([0.0, f64::NAN, 0.0]);
     let bent = Pose { rotation: [0.0, 0.0, 0.0, 2.0], ..Pose::default() };
     for (body, pose, words) in [
-        (9, Pose::default(), "there is no body 9; the bodies are numbered from 0, and there are 1"),
+        (9, Pose::default(), "there is no body 9"),
         (usize::MAX, far, "there is no body"),
         (0, far, "position of the body `ball`"),
         (0, bent, "the rotation [0.0, 0.0, 0.0, 2.0] has length 2"),

@@ -166,7 +166,8 @@ impl Simulation {
         let seams = &self.parts.seams;
         let mut sewn = particles.to_vec();
         if !seams.is_empty() {
-            let classes = equivalence_classes(self.world.cloth.particles(), &seams.pairs);
+            let count = self.world.cloth.particles();
+            let classes = equivalence_classes(count, &seams.pairs).expect("pairs name particles");
             let given: Vec<u32> = particles.iter().map(|&particle| classes[particle]).collect();
             let merged = classes.iter().enumerate().filter(|(_, class)| given.contains(class));
             sewn.extend(merged.map(|(particle, _)| particle));
