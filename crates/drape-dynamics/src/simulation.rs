@@ -387,12 +387,8 @@ impl Simulation {
     /// Advances by one step.
     ///
     /// # Errors
-    ///
     /// Returns an error if the step cannot be solved even in parts. The state is then the last
     /// accepted state.
-    ///
-    /// # Errors
-    /// When the step cannot be solved even in parts; the state is then the last good one.
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
         if !self.coarser.is_empty() {
             return self.step_on_coarser_grid();

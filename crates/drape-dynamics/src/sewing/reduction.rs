@@ -63,11 +63,7 @@ impl Reduction {
     /// Reduces `world` by the pairs and ties `pairs` of its particles.
     ///
     /// # Errors
-    ///
     /// Returns an error if a particle of `pairs` does not exist.
-    ///
-    /// # Errors
-    /// Particles that are not there.
     pub(crate) fn new(world: &World, pairs: &SeamPairs) -> Result<Self, Error> {
         let rows = rows(world.particles(), pairs);
         let masses = reduced_masses(&rows, world.masses());

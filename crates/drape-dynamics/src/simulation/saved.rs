@@ -99,11 +99,7 @@ impl SavedSimulation {
     /// Writes the state to the checkpoint `to`.
     ///
     /// # Errors
-    ///
     /// Returns no known error: every value can be written.
-    ///
-    /// # Errors
-    /// None that is known: every value can be written.
     pub fn write(&self, to: &mut Checkpoint) -> Result<(), Error> {
         let [world, stepping, run, grid] = SECTIONS;
         to.put(world, &self.world)?;
@@ -115,11 +111,7 @@ impl SavedSimulation {
     /// Reads the state from the checkpoint `from`.
     ///
     /// # Errors
-    ///
     /// Returns an error if sections are missing or have other values.
-    ///
-    /// # Errors
-    /// Sections that are missing or have other values.
     pub fn read(from: &Checkpoint) -> Result<Self, Error> {
         let [world, stepping, run, grid] = SECTIONS;
         Ok(Self {
@@ -174,12 +166,8 @@ impl Simulation {
     /// cannot go back. Build a simulation from the scene in this case.
     ///
     /// # Errors
-    ///
     /// Returns [`Error::Unfit`] if `saved` does not fit the scene, and errors of the solver. The
     /// simulation cannot be used then.
-    ///
-    /// # Errors
-    /// [`Error::Unfit`], and errors of the solver for the scene; the simulation is then of no use.
     pub fn resume(&mut self, saved: SavedSimulation) -> Result<(), Error> {
         let SavedSimulation { world, stepping, run, grid } = saved;
         if run.garments.len() != self.parts.garments.len() {

@@ -47,11 +47,7 @@ impl Stepping {
     /// Restores the state `saved` for `world`, whose state has been restored.
     ///
     /// # Errors
-    ///
     /// Returns a description of the part that does not fit.
-    ///
-    /// # Errors
-    /// What does not fit, in words.
     pub(crate) fn resume(&mut self, world: &mut World, saved: SavedStepping) -> Result<(), String> {
         let SavedStepping { integrator, accuracy, control, end, ticks_max, ticks } = saved;
         let particles =

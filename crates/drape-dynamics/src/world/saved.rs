@@ -100,11 +100,7 @@ impl World {
     /// the world that was saved.
     ///
     /// # Errors
-    ///
     /// Returns a description of the part that does not fit the scene.
-    ///
-    /// # Errors
-    /// What does not fit, in words.
     pub(crate) fn resume(&mut self, saved: SavedWorld, time: f64) -> Result<(), String> {
         if saved.cloth.positions.len() != self.state.positions.len() {
             return Err("the cloth has another number of particles".into());
