@@ -85,6 +85,13 @@ pub enum Error {
         path: PathBuf,
     },
 
+    /// The crate was built without its feature `mesh-files`.
+    #[error("mesh file {}: drape-collide was built without its feature `mesh-files`; add the feature, or give the triangles", path.display())]
+    WithoutMeshFiles {
+        /// Path of the file.
+        path: PathBuf,
+    },
+
     /// A file is longer than the limit.
     #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion, or read it with --raise-limits {times}", path.display())]
     FileTooLong {

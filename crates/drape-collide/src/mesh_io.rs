@@ -9,9 +9,12 @@
 
 mod merge;
 mod mesh_file;
+#[cfg(feature = "mesh-files")]
 mod obj;
+#[cfg(feature = "mesh-files")]
 mod ply;
 mod point_cache;
+#[cfg(feature = "mesh-files")]
 mod stl;
 mod triangulation;
 

@@ -106,6 +106,11 @@ pub enum Error {
         /// Number of blocks of the sparsity.
         blocks: usize,
     },
+    /// The crate was built without its feature `cholesky`, which the call needs.
+    #[error(
+        "drape-implicit was built without its feature `cholesky`; use conjugate gradients, or add the feature"
+    )]
+    WithoutCholesky,
 }
 
 /// Quantity that must be finite.

@@ -63,7 +63,7 @@ pub enum LinearSolver {
     ConjugateGradient,
     /// Sparse Cholesky factorisation. This solver is exact, so it is a cross-check of conjugate
     /// gradients, and takes equally long for soft and stiff systems. Memory and time grow faster
-    /// than the number of particles.
+    /// than the number of particles. The solver needs the feature `cholesky`.
     Cholesky,
 }
 

@@ -70,7 +70,8 @@ pub struct SystemCheck {
 /// ```
 ///
 /// # Errors
-/// [`Error::Dimension`], [`Error::OutsideSparsity`], [`Error::TooLarge`].
+/// [`Error::Dimension`], [`Error::OutsideSparsity`], [`Error::TooLarge`], or, without the feature
+/// `cholesky`, [`Error::WithoutCholesky`].
 pub fn check_system(
     system: &mut dyn System,
     start: &[f64],

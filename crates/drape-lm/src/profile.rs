@@ -3,6 +3,7 @@
 //! [`profile`] takes the report of `minimise` and minimises again with one parameter held at trial
 //! values.
 
+#[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
 use crate::covariance::{Covariance, Undetermined};
@@ -131,7 +132,11 @@ pub fn profile(
         quantile: student_quantile(level, covariance.degrees_of_freedom),
         covariance: &covariance,
     };
-    (0..count).into_par_iter().map(|j| profile.interval(j)).collect()
+    #[cfg(feature = "rayon")]
+    let numbers = (0..count).into_par_iter();
+    #[cfg(not(feature = "rayon"))]
+    let numbers = 0..count;
+    numbers.map(|j| profile.interval(j)).collect()
 }
 
 /// Fit whose parameters are profiled.

@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::triangulation::Triangulation;
+#[cfg(feature = "mesh-files")]
 use super::{obj, ply, stl};
 use crate::error::Error;
 
@@ -20,6 +21,7 @@ pub const MESH_BYTES_MAX: u64 = 1 << 28;
 ///
 /// # Errors
 /// The file is of none of these formats, is cut off, is no regular file, or is longer than 256 MiB.
+/// Or the crate was built without its feature `mesh-files`.
 pub fn read_mesh(path: impl AsRef<Path>) -> Result<Triangulation, Error> {
     read_mesh_within(path, MESH_BYTES_MAX)
 }
@@ -48,6 +50,7 @@ pub fn parse_mesh(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Triangulation,
 type Parser = fn(&[u8]) -> Result<Triangulation, String>;
 
 /// Returns the parser for the file at `path`, by the extension of its name.
+#[cfg(feature = "mesh-files")]
 fn parser(path: &Path) -> Result<Parser, Error> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
@@ -56,6 +59,12 @@ fn parser(path: &Path) -> Result<Parser, Error> {
         "ply" => Ok(ply::parse),
         _ => Err(Error::UnknownMeshFormat { path: path.to_path_buf() }),
     }
+}
+
+/// Returns no parser: the crate was built without its feature `mesh-files`.
+#[cfg(not(feature = "mesh-files"))]
+fn parser(path: &Path) -> Result<Parser, Error> {
+    Err(Error::WithoutMeshFiles { path: path.to_path_buf() })
 }
 
 fn parse(path: &Path, bytes: &[u8], parser: Parser) -> Result<Triangulation, Error> {

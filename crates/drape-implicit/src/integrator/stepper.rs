@@ -66,7 +66,8 @@ impl Stepper {
     /// Checks `settings` and allocates a stepper for `system`.
     ///
     /// # Errors
-    /// [`Error::Setting`], [`Error::Dimension`], or, with the Cholesky solver, [`Error::TooLarge`].
+    /// [`Error::Setting`], [`Error::Dimension`], or, with the Cholesky solver,
+    /// [`Error::TooLarge`] and [`Error::WithoutCholesky`].
     pub fn new(system: &dyn System, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         let solver = solver_for(system, &settings)?;

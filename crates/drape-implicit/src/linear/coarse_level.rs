@@ -57,11 +57,12 @@ pub(crate) struct CoarseLevel {
 
 impl CoarseLevel {
     /// Returns whether a coarse level saves time: whether the sheets would have [`MIN_PARTICLES`]
-    /// particles at the finest spacing of their points.
+    /// particles at the finest spacing of their points. Without the feature `cholesky` there is no
+    /// coarse level.
     pub(crate) fn is_worthwhile(material_points: &[MaterialPoint]) -> bool {
         let finest = material_points.iter().map(|p| p.spacing).fold(f64::INFINITY, f64::min);
         let particles: f64 = material_points.iter().map(|p| (p.spacing / finest).powi(2)).sum();
-        particles >= MIN_PARTICLES
+        cfg!(feature = "cholesky") && particles >= MIN_PARTICLES
     }
 
     /// Returns a coarse level for the matrices of `sparsity`. `row_of` holds the row of each

@@ -160,6 +160,7 @@ impl WithSimd for UseDiagonal<'_> {
     }
 }
 
+#[cfg(feature = "cholesky")]
 #[cfg(test)]
 mod tests {
     use faer::linalg::solvers::DenseSolveCore;

@@ -5,6 +5,7 @@ use crate::tables::number::{self, Decimal, Evidence};
 use drape_input::is_unit;
 
 /// Cell of a table.
+#[cfg_attr(not(feature = "spreadsheets"), expect(dead_code, reason = "cells of text only"))]
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cell {
     /// Text as written, without blanks around it; empty for an empty cell.
