@@ -220,6 +220,9 @@ impl From<drape::dynamics::Error> for Failure {
         use drape::dynamics::Error;
         match error {
             Error::Frames(error) => error.into(),
+            Error::Unfit { reason } => Self::Solver(format!(
+                "the checkpoint does not fit the scene: {reason}; run the scene anew with --force"
+            )),
             error => Self::Solver(error.to_string()),
         }
     }

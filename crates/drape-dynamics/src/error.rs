@@ -14,7 +14,7 @@ pub enum Error {
     #[error(transparent)]
     Checkpoint(#[from] drape_checkpoint::Error),
     /// A checkpoint does not fit the scene. Run the scene again.
-    #[error("the checkpoint does not fit the scene: {reason}; run the scene anew with --force")]
+    #[error("the checkpoint does not fit the scene: {reason}; run the scene again")]
     Unfit {
         /// Description of the part that does not fit.
         reason: String,

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum Error {
     /// The folder holds no run, or a run of an older version.
-    #[error("{} has no surfaces.json; give the folder that `drape run` wrote its frames to", folder.display())]
+    #[error("{} has no surfaces.json; give the folder of a run", folder.display())]
     NotARun {
         /// The folder.
         folder: PathBuf,

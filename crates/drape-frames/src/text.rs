@@ -6,19 +6,9 @@ use std::path::Path;
 
 use crate::error::Error;
 
-/// Reads the text of the file `path`, whose last line must be complete.
-pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
-    let text = read(path)?;
-    if !text.ends_with('\n') {
-        let (line, reason) = (text.lines().count().max(1), "the file is cut off here".to_owned());
-        return Err(Error::Malformed { path: path.to_owned(), line, reason });
-    }
-    Ok(text)
-}
-
 /// Reads the complete lines of the file `path`. A last line without a line break is left out.
 pub(crate) fn read_complete_lines(path: &Path) -> Result<String, Error> {
-    let mut text = read(path)?;
+    let mut text = read_text(path)?;
     text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
     Ok(text)
 }
@@ -33,7 +23,7 @@ pub(crate) fn open(path: &Path) -> std::io::Result<File> {
 }
 
 /// Reads the text of the file `path`.
-fn read(path: &Path) -> Result<String, Error> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     /// Size of the largest file that is read, in bytes. A frame of 4 million particles takes a
     /// quarter.
     const BYTES_MAX: u64 = 1 << 32;

@@ -94,6 +94,11 @@ fn a_file_cut_at_any_byte_is_an_error_that_names_it() {
     for (name, content) in &files {
         for end in 0..content.len() {
             write(folder.path(), name, &content[..end]);
+            // JSON is whole without the line break at its end.
+            if name.ends_with(".json") && content[end..] == *b"\n" {
+                assert!(read(folder.path()).is_ok());
+                continue;
+            }
             let error = read(folder.path()).unwrap_err().to_string();
             // The list of frames may end after any line; then its frames are missing.
             let named = error.contains(name) || *name == "frames.csv";

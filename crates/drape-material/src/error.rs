@@ -28,7 +28,7 @@ pub enum Error {
         load: f64,
     },
     /// Value that the simulated tests do not find: check the fabric.
-    #[error("the laws of the {direction} give no {value}; check the fabric with `drape check`")]
+    #[error("the laws of the {direction} give no {value}; check the fabric")]
     Missing {
         /// Direction, in words.
         direction: &'static str,

@@ -37,9 +37,10 @@ pub(crate) fn settle(speed: f64, residual: f64) -> Option<SettleSpec> {
     Some(SettleSpec { speed, residual, ..SettleSpec::default() })
 }
 
-/// Returns the settings of a solver with `tolerance`.
+/// Returns the settings of a solver whose steps meet `tolerance`.
 pub(crate) fn tolerance(tolerance: f64) -> SolverSpec {
-    SolverSpec { tolerance: Some(tolerance), ..SolverSpec::default() }
+    let error_fraction = Some(0.0);
+    SolverSpec { tolerance: Some(tolerance), error_fraction, ..SolverSpec::default() }
 }
 
 /// Returns a simulation of the scene that `spec` describes.
