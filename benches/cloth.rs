@@ -106,7 +106,7 @@ impl Sheet {
         };
         let mut state = cloth.state(shape(0.0)).expect("it fits");
         let mut reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
-        let rest = vec![0.0; 3 * cloth.particles()];
+        let rest = vec![0.0; 3 * cloth.particle_count()];
         for time in [0.1, 0.2] {
             cloth.commit(&mut state, &shape(time), &rest);
             reference.commit(&shape(time), state.normals());
@@ -114,8 +114,8 @@ impl Sheet {
         Self { trial: shape(0.3), cloth, state, reference }
     }
 
-    fn particles(&self) -> usize {
-        self.cloth.particles()
+    fn particle_count(&self) -> usize {
+        self.cloth.particle_count()
     }
 
     fn trial(&self) -> Trial<'_> {
@@ -146,7 +146,7 @@ fn compare(
         .measurement_time(Duration::from_millis(1000));
     for side in SIDES {
         let sheet = Sheet::new(side, primed());
-        group.throughput(Throughput::Elements(sheet.particles() as u64));
+        group.throughput(Throughput::Elements(sheet.particle_count() as u64));
         let id = |name: &str| BenchmarkId::new(name, side);
         grid(&mut group, id("grid"), &sheet, sheet.workspace(1));
         let all = rayon::current_num_threads();
@@ -162,7 +162,7 @@ fn forces(criterion: &mut Criterion) {
         criterion,
         "forces",
         |group, id, sheet, mut workspace| {
-            let mut forces = vec![0.0; 3 * sheet.particles()];
+            let mut forces = vec![0.0; 3 * sheet.particle_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
                     workspace.add_forces(sheet.trial(), &mut forces);
@@ -170,7 +170,7 @@ fn forces(criterion: &mut Criterion) {
             });
         },
         |group, id, sheet| {
-            let mut forces = vec![0.0; 3 * sheet.particles()];
+            let mut forces = vec![0.0; 3 * sheet.particle_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| sheet.reference.add_forces(&sheet.trial, &mut forces));
             });
@@ -203,7 +203,7 @@ fn stiffness(criterion: &mut Criterion) {
         criterion,
         "stiffness",
         |group, id, sheet, mut workspace| {
-            let mut values = vec![0.0; 9 * sheet.cloth.sparsity().blocks()];
+            let mut values = vec![0.0; 9 * sheet.cloth.sparsity().block_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
                     workspace.add_stiffness(sheet.trial(), false, &mut values);
@@ -211,7 +211,7 @@ fn stiffness(criterion: &mut Criterion) {
             });
         },
         |group, id, sheet| {
-            let mut values = vec![0.0; 9 * sheet.cloth.sparsity().blocks()];
+            let mut values = vec![0.0; 9 * sheet.cloth.sparsity().block_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| sheet.reference.add_stiffness(&sheet.trial, false, &mut values));
             });
@@ -226,7 +226,7 @@ fn commit(criterion: &mut Criterion) {
         "commit there and back",
         |group, id, sheet, mut workspace| {
             let (mut state, start) = (sheet.state.clone(), sheet.state.positions.clone());
-            let rest = vec![0.0; 3 * sheet.particles()];
+            let rest = vec![0.0; 3 * sheet.particle_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
                     for shape in [&sheet.trial, &start] {
@@ -256,13 +256,13 @@ fn laws(criterion: &mut Criterion) {
     for (name, traction) in [("priming zone", primed()), ("exponential toe", exponential())] {
         let sheet = Sheet::new(SIDE, traction);
         let mut workspace = sheet.workspace(1);
-        let mut forces = vec![0.0; 3 * sheet.particles()];
+        let mut forces = vec![0.0; 3 * sheet.particle_count()];
         group.bench_function(BenchmarkId::new("forces", name), |bencher| {
             bencher.iter(|| {
                 workspace.add_forces(sheet.trial(), &mut forces);
             });
         });
-        let mut values = vec![0.0; 9 * sheet.cloth.sparsity().blocks()];
+        let mut values = vec![0.0; 9 * sheet.cloth.sparsity().block_count()];
         group.bench_function(BenchmarkId::new("stiffness", name), |bencher| {
             bencher.iter(|| {
                 workspace.add_stiffness(sheet.trial(), false, &mut values);

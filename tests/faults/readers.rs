@@ -50,7 +50,7 @@ impl Progress for Steps {
 
 /// Simulates some steps of a scene that was accepted; all that come out are finite.
 pub fn simulate(scene: Scene) -> bool {
-    if scene.cloth.particles() > PARTICLES_MAX {
+    if scene.cloth.particle_count() > PARTICLES_MAX {
         return true;
     }
     let Ok(mut simulation) = Simulation::new(scene) else { return true };

@@ -55,7 +55,7 @@ impl Sheet {
 }
 
 impl System for Sheet {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         self.held.len()
     }
 

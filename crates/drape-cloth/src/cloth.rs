@@ -102,7 +102,7 @@ impl Cloth {
         // Blocks are known once all connectors are.
         let pairs = cloth.panels.iter().flat_map(GridPanel::pairs);
         let pairs = pairs.chain(cloth.rims.iter().flat_map(Rim::pairs));
-        cloth.sparsity = Sparsity::new(cloth.particles(), pairs);
+        cloth.sparsity = Sparsity::new(cloth.particle_count(), pairs);
         for (index, panel) in cloth.panels.iter_mut().enumerate() {
             panel.find_slots(&cloth.sparsity);
             Strip::append(&mut cloth.strips, panel, index, &cloth.sparsity);
@@ -113,7 +113,7 @@ impl Cloth {
 
     /// Appends the particles and connectors of a panel of `fabric` with the shape `lattice`.
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric) {
-        let first = self.particles() as u32;
+        let first = self.particle_count() as u32;
         self.starts.push(first as usize);
         let areas = lattice.areas();
 
@@ -161,7 +161,7 @@ impl Cloth {
 
     /// Returns the number of particles, each with three coordinates in a [`State`].
     #[must_use]
-    pub fn particles(&self) -> usize {
+    pub fn particle_count(&self) -> usize {
         self.masses.len()
     }
 

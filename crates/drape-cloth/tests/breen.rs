@@ -281,7 +281,7 @@ fn two_sheets_repel_each_other_where_they_are_near() {
     let (lattice, fabric) = (Lattice::rectangle(0.06, 0.06, 0.01).expect("a sheet"), fabric());
     let pair = [(&lattice, &fabric), (&lattice, &fabric)];
     let mut breen = Breen::new(&pair).expect("no rim");
-    let count = Cloth::new(&pair).particles();
+    let count = Cloth::new(&pair).particle_count();
     let mut at = |gap: f64| {
         let lower = placed(&lattice, |u, v| [u, v, 0.0]);
         let upper = placed(&lattice, |u, v| [u, v, gap]);

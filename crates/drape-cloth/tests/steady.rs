@@ -59,8 +59,8 @@ fn evaluate(cloth: &Cloth, workspace: &mut Workspace, numbers: &mut Numbers, sha
 
 fn numbers(cloth: &Cloth, shapes: &[Vec<f64>]) -> Numbers {
     let state = cloth.state(shapes[0].clone()).expect("it fits");
-    let forces = vec![0.0; 3 * cloth.particles()];
-    (state, 0.0, forces, vec![0.0; 9 * cloth.sparsity().blocks()])
+    let forces = vec![0.0; 3 * cloth.particle_count()];
+    (state, 0.0, forces, vec![0.0; 9 * cloth.sparsity().block_count()])
 }
 
 #[test]

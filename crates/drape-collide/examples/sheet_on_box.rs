@@ -18,7 +18,7 @@ impl Sheet {
 
 #[rustfmt::skip]
 impl System for Sheet {
-    fn particles(&self) -> usize { 3 }
+    fn particle_count(&self) -> usize { 3 }
     fn masses(&self) -> &[f64] { &[1e-3; 3] }
     fn held(&self) -> &[bool] { &[false; 3] }
     fn begin(&mut self, _: f64, _: f64, x: &[f64], _: &mut [f64]) { self.0.begin(SurfaceStart::new(x, &self.1)).expect(LISTS); }

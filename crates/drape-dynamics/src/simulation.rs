@@ -457,7 +457,7 @@ impl Simulation {
             reason: self.outcome.reason.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
             scene_hash: self.source.hash.clone(),
-            particles: cloth.particles(),
+            particles: cloth.particle_count(),
             phases: self.phases.begun.clone(),
             coarser_grids: self.grids.clone(),
             steps: self.statistics.steps,

@@ -96,7 +96,7 @@ impl Stepping {
                 world.state.velocities.clone(),
             ),
             reduction: None,
-            estimate: ErrorEstimate::new(world.cloth.particles()),
+            estimate: ErrorEstimate::new(world.cloth.particle_count()),
             control: StepControl::new(clock, phase.relaxation, scheme.order()),
             clock,
             ticks: 0,

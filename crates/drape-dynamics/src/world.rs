@@ -130,7 +130,7 @@ impl World {
         let with_balance = scene.solver.energy_balance;
         let is_sewing = seams.springs.is_some();
         let mut world = Self {
-            air: AirDrag::new(environment.air, cloth.particles()),
+            air: AirDrag::new(environment.air, cloth.particle_count()),
             cloth,
             state,
             internal,
@@ -160,7 +160,7 @@ impl World {
     /// Sets whether each step starts from rest, as in quasi-static relaxation (`relaxes`), or keeps
     /// the momentum of the cloth.
     pub(crate) fn set_relaxing(&mut self, relaxes: bool) {
-        self.momentum.set_active(relaxes, self.cloth.particles());
+        self.momentum.set_active(relaxes, self.cloth.particle_count());
     }
 
     /// Returns whether each step starts from rest.

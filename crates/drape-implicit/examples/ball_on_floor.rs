@@ -37,7 +37,7 @@ fn barrier(height: f64) -> [f64; 3] {
 }
 
 impl System for Ball {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         1
     }
 

@@ -36,7 +36,7 @@ fn link(x: &[f64], i: usize) -> Link {
 }
 
 impl System for Chain {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         LINKS + 1
     }
 

@@ -54,7 +54,7 @@ impl AllowedStep {
 /// # use drape_implicit::{BlockMatrix, Sparsity, Stiffness};
 /// # struct Ball;
 /// # impl System for Ball {
-/// #     fn particles(&self) -> usize { 1 }
+/// #     fn particle_count(&self) -> usize { 1 }
 /// #     fn masses(&self) -> &[f64] { &[1.0] }
 /// #     fn held(&self) -> &[bool] { &[false] }
 /// #     fn begin(&mut self, _: f64, _: f64, _: &[f64], _: &mut [f64]) {}

@@ -41,7 +41,7 @@ pub struct MaterialPoint {
 /// NaN or infinite force. The solver never accepts such a position.
 pub trait System {
     /// Number of particles.
-    fn particles(&self) -> usize;
+    fn particle_count(&self) -> usize;
 
     /// Mass of each particle, finite and positive, in kg.
     fn masses(&self) -> &[f64];

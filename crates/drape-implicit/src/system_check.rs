@@ -55,7 +55,7 @@ pub struct SystemCheck {
 ///     fn stiffness(&mut self, _x: &[f64], _kind: Stiffness, matrix: &mut BlockMatrix) {
 ///         matrix.add(0, 0, &[3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]);
 ///     }
-/// #     fn particles(&self) -> usize { 1 }
+/// #     fn particle_count(&self) -> usize { 1 }
 /// #     fn masses(&self) -> &[f64] { &[1.0] }
 /// #     fn held(&self) -> &[bool] { &[false] }
 /// #     fn begin(&mut self, _: f64, _: f64, _: &[f64], _: &mut [f64]) {}
@@ -78,7 +78,7 @@ pub fn check_system(
     trial: &[f64],
     dt: f64,
 ) -> Result<SystemCheck, Error> {
-    let length = 3 * system.particles();
+    let length = 3 * system.particle_count();
 
     for (name, found) in [("start", start.len()), ("trial", trial.len())] {
         if found != length {
@@ -170,7 +170,7 @@ fn assemble(
     kind: Stiffness,
 ) -> Result<BlockMatrix, Error> {
     let mut matrix = BlockMatrix::zeros(system.sparsity());
-    let (expected, found) = (system.particles(), matrix.sparsity().particles());
+    let (expected, found) = (system.particle_count(), matrix.sparsity().particle_count());
     if expected != found {
         return Err(Error::Dimension { name: "sparsity", expected, found });
     }
@@ -184,11 +184,11 @@ fn assemble(
 /// Returns the smallest shift of the diagonal with which `matrix` has a Cholesky factor; see
 /// [`SystemCheck::definite_shift`].
 fn definite_shift(matrix: BlockMatrix) -> Result<f64, Error> {
-    if matrix.sparsity().particles() == 0 {
+    if matrix.sparsity().particle_count() == 0 {
         return Ok(0.0);
     }
 
-    let largest = (0..matrix.sparsity().particles())
+    let largest = (0..matrix.sparsity().particle_count())
         .map(|row| matrix.blocks()[matrix.sparsity().row(row).start])
         .flat_map(|diagonal| [0, 4, 8].map(|k| diagonal[k]))
         .fold(0.0, f64::max);
@@ -200,7 +200,7 @@ fn definite_shift(matrix: BlockMatrix) -> Result<f64, Error> {
     }
 
     // Inertia on the diagonal of a matrix without held particles shifts the whole diagonal.
-    let held = vec![false; matrix.sparsity().particles()];
+    let held = vec![false; matrix.sparsity().particle_count()];
     let mut cholesky = Cholesky::new(matrix.sparsity(), Kernel::Vector)?;
     for power in -16..=0 {
         let shift = 10_f64.powi(power);

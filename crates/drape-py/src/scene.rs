@@ -202,7 +202,7 @@ impl Scene {
         let notes = scene.source.notes.iter().chain(&scene.source.contact_limits);
         Ok(Self {
             name: scene.name.clone(),
-            particles: scene.cloth.particles(),
+            particles: scene.cloth.particle_count(),
             panels: panels.collect(),
             notes: notes.cloned().collect(),
             checked: Mutex::new(Some(scene)),

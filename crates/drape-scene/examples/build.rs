@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     spec.collider.mesh.push(MeshSpec { file, friction: Some(0.4), ..MeshSpec::default() });
 
     let scene = spec.build()?;
-    println!("{} particles over \"{}\"", scene.cloth.particles(), scene.bodies[0].body.name);
-    assert_eq!(scene.cloth.particles(), 21 * 21);
+    println!("{} particles over \"{}\"", scene.cloth.particle_count(), scene.bodies[0].body.name);
+    assert_eq!(scene.cloth.particle_count(), 21 * 21);
     Ok(())
 }

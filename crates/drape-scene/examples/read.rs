@@ -35,12 +35,12 @@ fn main() -> Result<(), Error> {
     println!(
         "\"{}\": {} particles of {mass:.4} kg on {} body; at rest below {} m/s and {} g",
         scene.name,
-        scene.cloth.particles(),
+        scene.cloth.particle_count(),
         scene.bodies.len(),
         relaxation.speed,
         relaxation.residual,
     );
-    assert_eq!(scene.cloth.particles(), 31 * 21);
+    assert_eq!(scene.cloth.particle_count(), 31 * 21);
     assert!((mass - 0.3 * 0.2 * 0.12).abs() < 1e-12, "area times mass per area");
 
     // A mistake is answered with the file, the line, the value and a remedy.

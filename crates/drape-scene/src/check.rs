@@ -181,7 +181,7 @@ pub(crate) fn check(
     let note = scene.stiffness_note();
     scene.source.notes.extend(note);
     if !scene.garments.is_empty() && relaxation.is_some() && spec.refine.is_none() {
-        scene.source.notes.extend(cost(scene.cloth.particles(), spacing));
+        scene.source.notes.extend(cost(scene.cloth.particle_count(), spacing));
     }
     Ok(scene)
 }

@@ -55,7 +55,7 @@ impl Scene {
     #[must_use]
     pub fn needs(&self) -> Needs {
         let clock = &self.schedule.clock;
-        let particles = self.cloth.particles() as u64;
+        let particles = self.cloth.particle_count() as u64;
         let (mut vertices, mut moving) = (0u64, 0u64);
         for body in &self.bodies {
             let count = match (&body.motion, &body.body.shape) {

@@ -65,7 +65,7 @@ use self::solver::SolverSettings;
 ///     time = { step = 0.005, end = 2 }
 /// "#;
 /// let scene = Scene::from_documents(&Document::new("towel.toml", text), &[fabric.clone()])?;
-/// assert_eq!((scene.panels.len(), scene.cloth.particles()), (1, 11 * 16));
+/// assert_eq!((scene.panels.len(), scene.cloth.particle_count()), (1, 11 * 16));
 ///
 /// // A mistake is answered with its file, its line and the value.
 /// let text = text.replace("step = 0.005", "step = -1");
@@ -215,7 +215,7 @@ impl Scene {
     /// Returns which particles are held in all directions at the start.
     #[must_use]
     pub fn held_particles(&self) -> Vec<bool> {
-        let mut held = vec![false; self.cloth.particles()];
+        let mut held = vec![false; self.cloth.particle_count()];
         let pins = self.pins.iter().filter(|pin| pin.holds_all_axes());
         pins.flat_map(|pin| &pin.particles).for_each(|&particle| held[particle] = true);
         held

@@ -76,7 +76,7 @@ impl StartSurfaces {
             areas: cloth.areas().to_vec(),
             groups: Vec::new(),
             distances: Vec::new(),
-            free_vertices: cloth.particles(),
+            free_vertices: cloth.particle_count(),
             seam_pairs: sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
             ties: sewn.map_or_else(Vec::new, SeamPairs::tied_triples),
         };

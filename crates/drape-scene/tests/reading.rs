@@ -35,7 +35,7 @@ fn with(old: &str, new: &str) -> String {
 fn what_is_not_said_has_its_default() {
     let scene = read(LEAST).unwrap();
     assert_eq!(scene.name, "unnamed");
-    assert_eq!(scene.cloth.particles(), 21 * 31, "10 mm apart");
+    assert_eq!(scene.cloth.particle_count(), 21 * 31, "10 mm apart");
     assert_eq!(scene.environment.gravity, [0.0, -9.81, 0.0]);
     assert!((scene.environment.air - 0.5 * 1.2 * 1.28).abs() < 1e-15);
     assert_eq!(

@@ -15,7 +15,7 @@ impl Cloth {
     /// # Errors
     /// There are not three numbers for every particle.
     pub fn state(&self, positions: Vec<f64>) -> Result<State, Error> {
-        let particles = self.particles();
+        let particles = self.particle_count();
         if positions.len() != 3 * particles {
             return Err(Error::Positions { found: positions.len(), particles });
         }

@@ -283,11 +283,11 @@ mod tests {
         let run = |arch: Arch| {
             let mut workspace = Workspace { arch, ..cloth.workspace() };
             let mut state = cloth.state(place(0.0)).expect("it fits");
-            let zeros = vec![0.0; 3 * cloth.particles()];
+            let zeros = vec![0.0; 3 * cloth.particle_count()];
             let lost = workspace.commit(&cloth, &mut state, &place(0.5), &zeros);
             let (mut forces, trial) = (zeros, place(0.3));
             workspace.add_forces(cloth.trial(&state, &trial), &mut forces);
-            let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+            let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
             workspace.add_stiffness(cloth.trial(&state, &trial), false, &mut values);
             let potential = workspace.potential(cloth.trial(&state, &trial));
             (state, lost, forces, values, potential)

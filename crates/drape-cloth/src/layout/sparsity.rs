@@ -48,7 +48,7 @@ impl Sparsity {
 
     /// Returns the number of blocks, the length of `columns`.
     #[must_use]
-    pub fn blocks(&self) -> usize {
+    pub fn block_count(&self) -> usize {
         self.columns.len()
     }
 }

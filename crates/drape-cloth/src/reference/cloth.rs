@@ -33,7 +33,7 @@ use crate::state::State;
 /// };
 /// let state = cloth.state(place(0.0))?;
 /// let reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
-/// let mut fast = vec![0.0; 3 * cloth.particles()];
+/// let mut fast = vec![0.0; 3 * cloth.particle_count()];
 /// let mut exact = fast.clone();
 /// cloth.add_forces(&state, &place(2.0), &mut fast);
 /// reference.add_forces(&place(2.0), &mut exact);

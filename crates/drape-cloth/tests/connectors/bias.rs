@@ -51,7 +51,7 @@ fn stretched(degrees: f64, spacing: f64) -> f64 {
     let points = lattice.panel_coordinates();
     let flat: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
-    let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+    let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
     cloth.add_stiffness(&state, &flat, false, &mut values);
     let mut load = vec![0.0; flat.len()];
     for [a, b] in outline(&lattice) {
@@ -126,7 +126,7 @@ impl Rolled<'_> {
         for _ in 0..30 {
             let trial = self.positions(&points);
             let mut forces = vec![0.0; trial.len()];
-            let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+            let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
             cloth.add_forces(&state, &trial, &mut forces);
             cloth.add_stiffness(&state, &trial, true, &mut values);
             let apply = |direction: &[f64]| {

@@ -86,7 +86,7 @@ fn forces_are_the_derivative_of_the_potential() {
 fn the_stiffness_is_the_derivative_of_the_forces() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, 1e-3, 0.07);
-        let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+        let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
         cloth.add_stiffness(&state, &trial, false, &mut values);
         let mut random = Random(11);
         let mut worst = 0.0_f64;
@@ -118,7 +118,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
 fn the_definite_stiffness_has_no_negative_direction() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, 3e-3, 0.07);
-        let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+        let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
         cloth.add_stiffness(&state, &trial, true, &mut values);
         let mut random = Random(5);
         for _ in 0..300 {
@@ -177,7 +177,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
     let cloth = Cloth::new(&panels);
     let mut state = cloth.state(wave(&cloth, 0.0)).expect("it fits");
     let mut reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
-    let rest = vec![0.0; 3 * cloth.particles()];
+    let rest = vec![0.0; 3 * cloth.particle_count()];
     let mut random = Random(3);
     for step in 0..6 {
         let time = f64::from(step % 4) * 0.3;
@@ -199,7 +199,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
         let error = distance(&found, &exact);
         assert!(error < TOLERANCE, "{step}: forces {error:e}");
         for definite in [false, true] {
-            let mut found = vec![0.0; 9 * cloth.sparsity().blocks()];
+            let mut found = vec![0.0; 9 * cloth.sparsity().block_count()];
             let mut exact = found.clone();
             cloth.add_stiffness(&state, &trial, definite, &mut found);
             reference.add_stiffness(&trial, definite, &mut exact);
@@ -213,8 +213,8 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
 fn numbers(cloth: &Cloth) -> (State, Vec<f64>, Vec<f64>, Vec<f64>) {
     let mut state = cloth.state(wave(cloth, 0.0)).expect("it fits");
     let mut sums = Vec::new();
-    let mut forces = vec![0.0; 3 * cloth.particles()];
-    let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+    let mut forces = vec![0.0; 3 * cloth.particle_count()];
+    let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
     for step in 1..5 {
         let trial = wave(cloth, 0.2 * f64::from(step));
         cloth.add_forces(&state, &trial, &mut forces);

@@ -52,7 +52,7 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
         };
         let mut state = cloth.state(place(0.0, 0.0)).expect("it fits");
         let mut reference = ReferenceCloth::new(panels, cloth.sparsity(), &state);
-        let rest = vec![0.0; 3 * cloth.particles()];
+        let rest = vec![0.0; 3 * cloth.particle_count()];
         for step in 0..6 {
             let time = f64::from(step % 4) * 0.3;
             let positions = place(4e-4, time);
@@ -78,8 +78,8 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
             assert!(error < TOLERANCE, "cloth {which}, step {step}: forces {error:e}");
             for definite in [false, true] {
                 let (mut found, mut exact) = (
-                    vec![0.0; 9 * cloth.sparsity().blocks()],
-                    vec![0.0; 9 * cloth.sparsity().blocks()],
+                    vec![0.0; 9 * cloth.sparsity().block_count()],
+                    vec![0.0; 9 * cloth.sparsity().block_count()],
                 );
                 cloth.add_stiffness(&state, &trial, definite, &mut found);
                 reference.add_stiffness(&trial, definite, &mut exact);

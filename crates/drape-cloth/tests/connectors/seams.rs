@@ -285,11 +285,11 @@ fn drop((panels, points): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>)
     let cloth = Cloth::new(&panels);
     let flat: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
-    let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+    let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
     cloth.add_stiffness(&state, &flat, false, &mut values);
     let mut blocks = Vec::new();
     // Heights alone; the nodes of a pair have one height.
-    let mut master: Vec<usize> = (0..cloth.particles()).collect();
+    let mut master: Vec<usize> = (0..cloth.particle_count()).collect();
     if let Some((sewn, stiffness)) = seam {
         let bending = sewn.bending(LINEAR, |seam| seam.stiffness = stiffness);
         let state = bending.state(&flat).expect("it fits");
@@ -382,7 +382,7 @@ fn the_seams_of_garments_bend_from_end_to_end() {
         }
         println!(
             "{file}: {} particles, {hinges} hinges, {} pairs",
-            cloth.particles(),
+            cloth.particle_count(),
             coupled.len()
         );
         assert!(hinges > 100, "{file}");

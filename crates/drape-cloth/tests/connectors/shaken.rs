@@ -34,7 +34,7 @@ pub fn tried(
     let mut random = Random(7);
     let cloth = Cloth::new(&[(lattice, fabric)]);
     let mut state = cloth.state(bent(lattice, 0.4, 0.0, &mut random)).expect("fits");
-    let rest = vec![0.0; 3 * cloth.particles()];
+    let rest = vec![0.0; 3 * cloth.particle_count()];
     for radius in [0.1, 0.06] {
         let positions = bent(lattice, radius, shake, &mut random);
         cloth.commit(&mut state, &positions, &rest);
@@ -47,7 +47,7 @@ pub fn tried(
 pub fn multiply(cloth: &Cloth, values: &[f64], vector: &[f64]) -> Vec<f64> {
     let sparsity = cloth.sparsity();
     let mut product = vec![0.0; vector.len()];
-    for row in 0..cloth.particles() {
+    for row in 0..cloth.particle_count() {
         for slot in sparsity.offsets[row]..sparsity.offsets[row + 1] {
             let column = sparsity.columns[slot];
             for i in 0..3 {

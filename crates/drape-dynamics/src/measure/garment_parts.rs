@@ -164,7 +164,7 @@ fn lowest<'a>(bodies: impl Iterator<Item = &'a Body> + Clone) -> Option<f64> {
 
 /// Returns the edges of panels of `scene` whose particles between the ends are not sewn.
 fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
-    let mut sewn = vec![false; scene.cloth.particles()];
+    let mut sewn = vec![false; scene.cloth.particle_count()];
     for SeamPairs { pairs, ties } in scene.sewing.iter().map(|sewing| &sewing.pairs) {
         pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
         ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);

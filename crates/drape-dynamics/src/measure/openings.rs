@@ -83,7 +83,7 @@ fn depth([x, y]: [f64; 2], hull: &[[f64; 2]]) -> f64 {
 
 /// Returns the closed rows of free edges of `parts`.
 fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
-    let classes = equivalence_classes(world.cloth.particles(), &parts.seams.pairs)
+    let classes = equivalence_classes(world.cloth.particle_count(), &parts.seams.pairs)
         .expect("pairs name particles");
     let coordinates = world.cloth.coordinates();
     let mut remaining: Vec<&FreeEdge> = parts.free_edges.iter().collect();

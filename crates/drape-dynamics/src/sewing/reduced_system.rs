@@ -32,7 +32,7 @@ impl ReducedSystem<'_> {
 }
 
 impl System for ReducedSystem<'_> {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         self.reduction.masses.len()
     }
 

@@ -65,12 +65,12 @@ impl Reduction {
     /// # Errors
     /// Returns an error if a particle of `pairs` does not exist.
     pub(crate) fn new(world: &World, pairs: &SeamPairs) -> Result<Self, Error> {
-        let rows = rows(world.particles(), pairs);
+        let rows = rows(world.particle_count(), pairs);
         let masses = reduced_masses(&rows, world.masses());
         let count = masses.len();
         let whole = world.sparsity();
-        let mut targets = Vec::with_capacity(whole.blocks());
-        for row in 0..whole.particles() {
+        let mut targets = Vec::with_capacity(whole.block_count());
+        for row in 0..whole.particle_count() {
             // The first block of a row is the diagonal block.
             let start = whole.row(row).start;
             for block in whole.row(row) {

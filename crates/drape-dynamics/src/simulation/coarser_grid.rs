@@ -122,7 +122,7 @@ impl CoarserGrid {
         let simulation = &self.simulation;
         GridRecord {
             spacing: simulation.spacing,
-            particles: simulation.world.cloth.particles(),
+            particles: simulation.world.cloth.particle_count(),
             steps: simulation.statistics.steps,
             linear_iterations: simulation.statistics.solver().linear_iterations,
             end: self.time(),

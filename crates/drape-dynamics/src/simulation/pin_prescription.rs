@@ -166,7 +166,7 @@ impl Simulation {
         let seams = &self.parts.seams;
         let mut sewn = particles.to_vec();
         if !seams.is_empty() {
-            let count = self.world.cloth.particles();
+            let count = self.world.cloth.particle_count();
             let classes = equivalence_classes(count, &seams.pairs).expect("pairs name particles");
             let given: Vec<u32> = particles.iter().map(|&particle| classes[particle]).collect();
             let merged = classes.iter().enumerate().filter(|(_, class)| given.contains(class));
@@ -194,7 +194,7 @@ impl Simulation {
 
     /// Checks that `particles` exist.
     fn check_particles(&self, particles: &[usize]) -> Result<(), Error> {
-        let count = self.world.cloth.particles();
+        let count = self.world.cloth.particle_count();
         match particles.iter().find(|&&particle| particle >= count) {
             None => Ok(()),
             Some(particle) => Err(unsuited(format!(

@@ -43,7 +43,7 @@ impl Simulation {
         let seconds = if self.settles() { self.phases.motion_seconds } else { Some(remaining) };
         let motion = seconds.map(|seconds| (PhaseName::Simulate, Some(seconds)));
 
-        let particles = self.world.cloth.particles();
+        let particles = self.world.cloth.particle_count();
         let phases = [sewing, rest, motion].into_iter().flatten();
         phases
             .map(|(name, seconds)| PlannedPhase { name, coarser_grid, particles, seconds })

@@ -111,7 +111,7 @@ impl Simulation {
 
     /// Returns whether all vertices of `intersections` are particles of the cloth.
     fn is_only_cloth(&self, intersections: &[[u32; 5]]) -> bool {
-        let particles = self.world.cloth.particles();
+        let particles = self.world.cloth.particle_count();
         intersections.iter().flatten().all(|&vertex| (vertex as usize) < particles)
     }
 

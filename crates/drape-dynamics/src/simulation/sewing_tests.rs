@@ -105,7 +105,7 @@ fn agree(fullness: u32) {
     let own = reduction.restrict(&positions);
     let mut sewn = ReducedSystem { world: &mut world, reduction: &mut reduction };
     let along = 6 * fullness as usize + 1;
-    assert_eq!(sewn.particles(), 49 + along * (along - 1));
+    assert_eq!(sewn.particle_count(), 49 + along * (along - 1));
     let mass: f64 = sewn.masses().iter().sum();
     assert!((mass / (2.0 * 0.06 * 0.06 * 0.15) - 1.0).abs() < 1e-12);
     let away = trial(&own);

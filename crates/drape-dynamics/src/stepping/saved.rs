@@ -51,7 +51,7 @@ impl Stepping {
     pub(crate) fn resume(&mut self, world: &mut World, saved: SavedStepping) -> Result<(), String> {
         let SavedStepping { integrator, accuracy, control, end, ticks_max, ticks } = saved;
         let particles =
-            self.reduction.as_ref().map_or(world.particles(), Reduction::particle_count);
+            self.reduction.as_ref().map_or(world.particle_count(), Reduction::particle_count);
         integrator.check(particles).map_err(|error| error.to_string())?;
         let mut clock = self.clock;
         (clock.end, clock.ticks_max) = (end, ticks_max);

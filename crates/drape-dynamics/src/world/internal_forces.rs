@@ -61,7 +61,7 @@ struct Scatter {
 impl Scatter {
     fn new(connectors: &drape_cloth::Sparsity, whole: &Sparsity) -> Self {
         let slots = blocks(connectors).filter_map(|[row, column]| whole.slot(row, column));
-        Self { values: vec![0.0; 9 * connectors.blocks()], slots: slots.collect() }
+        Self { values: vec![0.0; 9 * connectors.block_count()], slots: slots.collect() }
     }
 }
 
@@ -164,7 +164,7 @@ impl InternalForces {
         match (&mut self.breen, saved.breen) {
             (None, None) => true,
             (Some(breen), Some(SavedPairs { listed, close })) => {
-                let particles = cloth.particles();
+                let particles = cloth.particle_count();
                 let is_finite = listed.iter().all(|x| x.is_finite());
                 let is_known = close.as_flattened().iter().all(|&p| (p as usize) < particles);
                 if listed.len() != 3 * particles || !is_finite || !is_known {
@@ -322,10 +322,10 @@ mod tests {
         forces.update_sparsity(&cloth, &place(0.008));
         assert_eq!(forces.sparsity_version(), before + 1);
         let whole = fill(&mut forces);
-        assert!(whole.sparsity().blocks() > alone.sparsity().blocks());
+        assert!(whole.sparsity().block_count() > alone.sparsity().block_count());
         // Sheets that near each other by a length of one each: the coupled matrix has them pull
         // four times as much as sheets that move as one, which it does not feel at all.
-        let count = cloth.particles();
+        let count = cloth.particle_count();
         let energy = |matrix: &BlockMatrix, lower: f64| {
             let height = |k: usize| if k / 3 < count / 2 { lower } else { 1.0 };
             let moved: Vec<f64> =

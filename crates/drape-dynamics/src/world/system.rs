@@ -13,8 +13,8 @@ use super::energy_balance::StepEnergy;
 use crate::world::closing_springs::ClosingSprings;
 
 impl System for World {
-    fn particles(&self) -> usize {
-        self.cloth.particles()
+    fn particle_count(&self) -> usize {
+        self.cloth.particle_count()
     }
 
     fn masses(&self) -> &[f64] {

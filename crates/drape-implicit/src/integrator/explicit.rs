@@ -51,7 +51,7 @@ impl Explicit {
     /// Allocates an integrator for `system`.
     #[must_use]
     pub fn new(system: &dyn System) -> Self {
-        let length = 3 * system.particles();
+        let length = 3 * system.particle_count();
         Self {
             fraction: SAFETY,
             stiffness: BlockMatrix::zeros(system.sparsity()),
@@ -139,7 +139,7 @@ impl Explicit {
 
         self.row_sums.fill(0.0);
         let sparsity = self.stiffness.sparsity();
-        for row in 0..sparsity.particles() {
+        for row in 0..sparsity.particle_count() {
             for slot in sparsity.row(row) {
                 let column = sparsity.columns()[slot] as usize;
                 let entries = self.stiffness.blocks()[slot];

@@ -29,7 +29,7 @@ use crate::system::System;
 /// struct Stone;
 ///
 /// impl System for Stone {
-///     fn particles(&self) -> usize { 1 }
+///     fn particle_count(&self) -> usize { 1 }
 ///     fn masses(&self) -> &[f64] { &[0.5] }
 ///     fn held(&self) -> &[bool] { &[false] }
 ///     fn begin(&mut self, _end: f64, _dt: f64, _start: &[f64], _target: &mut [f64]) {}
@@ -72,7 +72,7 @@ impl Stepper {
         settings.check()?;
         let solver = solver_for(system, &settings)?;
         Ok(Self {
-            sub_stepper: SubStepper::new(system.particles(), solver, settings),
+            sub_stepper: SubStepper::new(system.particle_count(), solver, settings),
             sparsity_version: system.sparsity_version(),
             report: Report::default(),
         })
@@ -231,7 +231,7 @@ fn check_lengths(
     if !(dt > 0.0 && dt.is_finite()) {
         return Err(Error::StepLength { dt });
     }
-    check_length("particles", particles, system.particles())?;
+    check_length("particles", particles, system.particle_count())?;
     check_length("masses", particles, system.masses().len())?;
     check_length("held", particles, system.held().len())?;
     state.check(particles)
@@ -241,9 +241,9 @@ fn check_lengths(
 fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolver, Error> {
     let sparsity = system.sparsity();
     let points = system.material_points();
-    check_length("sparsity", system.particles(), sparsity.particles())?;
+    check_length("sparsity", system.particle_count(), sparsity.particle_count())?;
     if !points.is_empty() {
-        check_length("material points", system.particles(), points.len())?;
+        check_length("material points", system.particle_count(), points.len())?;
     }
     Ok(NonlinearSolver::new(SystemMatrix::new(sparsity, points, settings)?, settings))
 }

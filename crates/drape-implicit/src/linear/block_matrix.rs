@@ -63,8 +63,8 @@ impl BlockMatrix {
     /// Returns the matrix of zeros on `sparsity`.
     #[must_use]
     pub fn zeros(sparsity: Sparsity) -> Self {
-        let blocks = vec![block::ZERO; sparsity.blocks()];
-        let held = vec![false; sparsity.particles()];
+        let blocks = vec![block::ZERO; sparsity.block_count()];
+        let held = vec![false; sparsity.particle_count()];
         Self { sparsity, blocks, couplings: Vec::new(), held, outside: None }
     }
 
@@ -134,7 +134,7 @@ impl BlockMatrix {
     /// preconditioner, so conjugate gradients take more iterations. A particle outside the matrix
     /// is an error, as in [`add`](Self::add).
     pub fn add_coupling(&mut self, i: usize, j: usize, value: &[f64; 9]) {
-        let particles = self.sparsity.particles();
+        let particles = self.sparsity.particle_count();
         if i >= particles || j >= particles || self.sparsity.slot(i, j).is_some() {
             return self.add(i, j, value);
         }
@@ -164,7 +164,7 @@ impl BlockMatrix {
         let y = block::triples_mut(y);
 
         // A block above the diagonal contributes to its row and, transposed, to its column.
-        for row in 0..self.sparsity.particles() {
+        for row in 0..self.sparsity.particle_count() {
             let slots = self.sparsity.row(row);
             let x_of_row = x[row];
             let mut sum = [0.0; 3];

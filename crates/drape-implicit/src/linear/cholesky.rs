@@ -60,7 +60,7 @@ impl Cholesky {
     /// # Errors
     /// [`Error::TooLarge`].
     pub(crate) fn new(sparsity: &Sparsity, kernel: Kernel) -> Result<Self, Error> {
-        let blocks = sparsity.blocks();
+        let blocks = sparsity.block_count();
         let lower = scalar_lower(sparsity);
         let size = lower.nrows();
 
@@ -130,7 +130,7 @@ struct Ordering {
 /// Returns a minimum-degree ordering of the particles of `sparsity`, expanded to three unknowns
 /// each. Ordering the particles gives equal fill in half the time of ordering the unknowns.
 fn minimum_degree(sparsity: &Sparsity) -> Result<Ordering, FaerError> {
-    let particles = sparsity.particles();
+    let particles = sparsity.particle_count();
     let columns: Vec<usize> = sparsity.columns().iter().map(|&column| column as usize).collect();
     let graph = SymbolicSparseColMatRef::new_checked(
         particles,
@@ -157,10 +157,10 @@ fn unknowns(particles: &[usize]) -> Vec<usize> {
 /// Returns the scalar lower half of `sparsity` by columns. A block row of the upper half is,
 /// transposed, three columns of the lower half.
 fn scalar_lower(sparsity: &Sparsity) -> SymbolicSparseColMat<usize> {
-    let size = 3 * sparsity.particles();
+    let size = 3 * sparsity.particle_count();
     let mut offsets = vec![0];
-    let mut rows = Vec::with_capacity(9 * sparsity.blocks());
-    for row in 0..sparsity.particles() {
+    let mut rows = Vec::with_capacity(9 * sparsity.block_count());
+    for row in 0..sparsity.particle_count() {
         for component in 0..3 {
             rows.extend(3 * row + component..3 * row + 3);
             for slot in sparsity.row(row).skip(1) {
@@ -176,7 +176,7 @@ fn scalar_lower(sparsity: &Sparsity) -> SymbolicSparseColMat<usize> {
 /// Writes the entries of `matrix` into `entries` in the order of [`scalar_lower`].
 fn fill_lower(matrix: &BlockMatrix, entries: &mut [f64]) {
     let mut entries = entries.iter_mut();
-    for row in 0..matrix.sparsity().particles() {
+    for row in 0..matrix.sparsity().particle_count() {
         for component in 0..3 {
             for (k, slot) in matrix.sparsity().row(row).enumerate() {
                 let first = if k == 0 { component } else { 0 };

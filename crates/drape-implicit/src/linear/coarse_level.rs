@@ -72,13 +72,13 @@ impl CoarseLevel {
         row_of: &[u32],
         material_points: &[MaterialPoint],
     ) -> Option<Self> {
-        if material_points.len() != sparsity.particles() {
+        if material_points.len() != sparsity.particle_count() {
             return None;
         }
         let interpolation = Interpolation::new(row_of, material_points);
         let (projection, coarse) = Projection::new(sparsity, &interpolation).ok()?;
         Some(Self {
-            correction: vec![0.0; 3 * coarse.particles()],
+            correction: vec![0.0; 3 * coarse.particle_count()],
             cholesky: Cholesky::new(&coarse, Kernel::Scalar).ok()?,
             matrix: BlockMatrix::zeros(coarse),
             interpolation,
@@ -105,7 +105,7 @@ impl CoarseLevel {
         interpolation.hold(matrix);
         coarse.clear();
         arch.dispatch(Project { projection, interpolation, matrix, coarse });
-        for node in 0..coarse.sparsity().particles() {
+        for node in 0..coarse.sparsity().particle_count() {
             let slot = coarse.sparsity().row(node).start;
             let block = &mut coarse.blocks_mut()[slot];
             for k in [0, 4, 8] {
@@ -213,7 +213,7 @@ mod tests {
 
     fn sheets(n: usize) -> Sheets {
         let sparsity = rimmed(n);
-        let particles = sparsity.particles();
+        let particles = sparsity.particle_count();
         let layout = layout(&sparsity, 1);
         let mut matrix = springs(sparsity, |slot, _| {
             let own = spring([0.1, 0.2, 0.3].map(|phase| (slot as f64 + phase).sin()));
@@ -250,7 +250,7 @@ mod tests {
         let mut level = CoarseLevel::new(matrix.sparsity(), &layout.order.row_of, points).unwrap();
         level.update(Arch::new(), matrix);
         assert!(level.is_definite);
-        let size = 3 * matrix.sparsity().particles();
+        let size = 3 * matrix.sparsity().particle_count();
         let residual: Vec<f64> = (0..size).map(|k| 1.0 + (k as f64).sin()).collect();
         let correction = correct(&mut level, &sheets, &residual);
         assert!(correction[..60].iter().all(|&x| x == 0.0), "held particles are corrected");
@@ -273,7 +273,7 @@ mod tests {
         let Sheets { matrix, points, layout } = &sheets;
         let mut level = CoarseLevel::new(matrix.sparsity(), &layout.order.row_of, points).unwrap();
         level.update(Arch::new(), matrix);
-        let residual = vec![1.0; 3 * matrix.sparsity().particles()];
+        let residual = vec![1.0; 3 * matrix.sparsity().particle_count()];
         let first = correct(&mut level, &sheets, &residual);
         sheets.matrix.values_mut().iter_mut().for_each(|entry| *entry *= 2.0);
         level.update(Arch::new(), &sheets.matrix);

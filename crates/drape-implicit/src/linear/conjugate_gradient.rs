@@ -444,7 +444,7 @@ mod tests {
 
     /// With a right side that is a sine of this many radians from one number to the next.
     fn solve(matrix: &BlockMatrix, phase: f64, limit: usize) -> (f64, usize, Ending) {
-        let size = 3 * matrix.sparsity().particles();
+        let size = 3 * matrix.sparsity().particle_count();
         let b: Vec<f64> = (0..size).map(|k| (1.0 + k as f64 * phase).sin()).collect();
         let target = Target { residual: 1e-10 * norm(&b), energy: 0.0 };
         let (x, Outcome { iterations, ending }) = solve_for(matrix, &b, target, limit);

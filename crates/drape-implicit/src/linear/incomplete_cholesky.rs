@@ -291,7 +291,7 @@ mod tests {
         let input = Input { schedule: &schedule, packed: &packed, attempt };
         assert!(elimination.eliminate(Arch::new(), input, factor));
         let mut factored = Factored { schedule, incomplete, failed: Ok(0) };
-        let count = sparsity.particles();
+        let count = sparsity.particle_count();
         let size = 3 * count;
         let mut inverse = faer::Mat::<f64>::zeros(size, size);
         for column in 0..size {
@@ -318,7 +318,7 @@ mod tests {
     /// Stiff blocks on the main diagonal, others of any kind.
     fn dominant(sparsity: Sparsity) -> BlockMatrix {
         let mut matrix = BlockMatrix::zeros(sparsity.clone());
-        for i in 0..sparsity.particles() {
+        for i in 0..sparsity.particle_count() {
             matrix.add(i, i, &[27.0, 0.9, -0.6, 0.9, 28.5, 0.3, -0.6, 0.3, 24.0]);
             for slot in sparsity.row(i).skip(1) {
                 let entry = |k: usize| ((9 * slot + k) as f64 * 0.7).sin();

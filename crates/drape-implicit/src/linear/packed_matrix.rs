@@ -385,7 +385,7 @@ mod tests {
     fn the_product_is_the_matrixs_own_to_single_precision() {
         for (n, coupled, parts) in [(13, 0, 1), (70, 0, 1), (70, 40, 1), (13, 0, 2), (70, 40, 3)] {
             let mut matrix = lattice(n);
-            let last = matrix.sparsity().particles() - 1;
+            let last = matrix.sparsity().particle_count() - 1;
             for k in 0..coupled {
                 let block = core::array::from_fn(|entry| ((9 * k + entry) as f64).cos());
                 matrix.add_coupling(100 * k + 1, last - 77 * k, &block);

@@ -125,13 +125,13 @@ impl Sparsity {
 
     /// Returns the number of particles, which is the number of block rows.
     #[must_use]
-    pub fn particles(&self) -> usize {
+    pub fn particle_count(&self) -> usize {
         self.offsets.len() - 1
     }
 
     /// Returns the number of stored blocks.
     #[must_use]
-    pub fn blocks(&self) -> usize {
+    pub fn block_count(&self) -> usize {
         self.columns.len()
     }
 
@@ -166,7 +166,7 @@ impl Sparsity {
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         let (low, high) = (i.min(j), i.max(j));
-        if high >= self.particles() {
+        if high >= self.particle_count() {
             return None;
         }
         let row = self.row(low);
@@ -220,6 +220,6 @@ mod tests {
     #[test]
     fn an_empty_system_has_an_empty_sparsity() {
         let sparsity = Sparsity::from_pairs(0, []).unwrap();
-        assert_eq!((sparsity.particles(), sparsity.blocks()), (0, 0));
+        assert_eq!((sparsity.particle_count(), sparsity.block_count()), (0, 0));
     }
 }

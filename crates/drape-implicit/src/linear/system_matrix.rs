@@ -53,7 +53,7 @@ impl SystemMatrix {
         material_points: Vec<MaterialPoint>,
         settings: &Settings,
     ) -> Result<Self, Error> {
-        let length = 3 * sparsity.particles();
+        let length = 3 * sparsity.particle_count();
         let is_worthwhile =
             settings.energy_tolerance == 0.0 && CoarseLevel::is_worthwhile(&material_points);
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
@@ -213,7 +213,7 @@ mod tests {
         let mut iterative =
             IterativeSolver { arch, ..IterativeSolver::new(matrix.sparsity(), points) };
         iterative.factorise(matrix).unwrap();
-        let size = 3 * matrix.sparsity().particles();
+        let size = 3 * matrix.sparsity().particle_count();
         let held = |k: usize| matrix.is_held(k / 3);
         let mut x: Vec<f64> =
             (0..size).map(|k| if held(k) { 0.0 } else { 1.0 + (k as f64).sin() }).collect();

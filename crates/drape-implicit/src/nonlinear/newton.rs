@@ -111,7 +111,7 @@ pub(crate) struct Newton {
 impl Newton {
     /// Returns the solver with `matrix` as the system matrix.
     pub(crate) fn new(matrix: SystemMatrix, settings: &Settings) -> Self {
-        let length = 3 * matrix.matrix.sparsity().particles();
+        let length = 3 * matrix.matrix.sparsity().particle_count();
         Self {
             matrix,
             updates: BroydenUpdates::with_capacity(iterations_per_matrix(settings) - 1, length),

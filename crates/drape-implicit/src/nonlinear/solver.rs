@@ -27,7 +27,7 @@ enum Algorithm {
 impl NonlinearSolver {
     /// Returns a solver with the method of `settings`.
     pub(crate) fn new(matrix: SystemMatrix, settings: &Settings) -> Self {
-        let length = 3 * matrix.matrix.sparsity().particles();
+        let length = 3 * matrix.matrix.sparsity().particle_count();
         let algorithm = match settings.method {
             Method::Broyden | Method::Newton => Algorithm::Newton(Newton::new(matrix, settings)),
             Method::Textbook { initial } => Algorithm::Textbook(Textbook::new(matrix, initial)),

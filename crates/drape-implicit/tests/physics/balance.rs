@@ -33,7 +33,7 @@ impl Hardening {
 }
 
 impl System for Hardening {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         1
     }
 

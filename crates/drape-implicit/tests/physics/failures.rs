@@ -80,7 +80,7 @@ impl Linear {
 }
 
 impl System for Linear {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         self.masses.len()
     }
     fn masses(&self) -> &[f64] {
@@ -119,7 +119,7 @@ impl System for Linear {
 
 /// Advances and checks that the state is finite, and on failure that of the last accepted sub-step.
 fn survive(system: &mut Linear, settings: &Settings, dt: f64) -> bool {
-    let particles = system.particles();
+    let particles = system.particle_count();
     let start = IntegratorState::at_rest((0..3 * particles).map(|k| (k as f64).sin()).collect());
     let mut state = start.clone();
     let mut stepper = Stepper::new(system, settings.clone()).unwrap();
@@ -180,7 +180,7 @@ fn systems_that_produce_nan_are_refused_with_the_particle_named() {
     let mut system = Linear { spoil: always, ..Linear::random(&mut random, 0.0) };
     system.held.fill(false);
     system.held[0] = true;
-    let mut state = IntegratorState::at_rest(vec![0.0; 3 * system.particles()]);
+    let mut state = IntegratorState::at_rest(vec![0.0; 3 * system.particle_count()]);
     let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
     let error = stepper.advance(&mut system, &mut state, 0.1).unwrap_err();
     match error {

@@ -183,7 +183,7 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
     }
     struct Liar(Well);
     impl System for Liar {
-        fn particles(&self) -> usize {
+        fn particle_count(&self) -> usize {
             1
         }
         fn masses(&self) -> &[f64] {

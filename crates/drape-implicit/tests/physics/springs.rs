@@ -102,7 +102,7 @@ fn arrow(positions: &[f64], [i, j]: [usize; 2]) -> ([f64; 3], f64) {
 }
 
 impl System for Springs {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         self.masses.len()
     }
 

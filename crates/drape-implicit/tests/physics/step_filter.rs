@@ -51,7 +51,7 @@ impl Floor {
 }
 
 impl System for Floor {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         1
     }
 

@@ -79,8 +79,8 @@ struct Lift {
 }
 
 impl System for Lift {
-    fn particles(&self) -> usize {
-        self.springs.particles()
+    fn particle_count(&self) -> usize {
+        self.springs.particle_count()
     }
     fn masses(&self) -> &[f64] {
         self.springs.masses()
@@ -166,8 +166,8 @@ fn systems_of_no_free_particles_are_advanced_without_complaint() {
 fn a_new_sparsity_is_taken_up_when_its_version_changes() {
     struct Growing(Springs, u64);
     impl System for Growing {
-        fn particles(&self) -> usize {
-            self.0.particles()
+        fn particle_count(&self) -> usize {
+            self.0.particle_count()
         }
         fn masses(&self) -> &[f64] {
             self.0.masses()
@@ -221,7 +221,7 @@ fn the_checker_passes_springs_and_finds_a_wrong_factor() {
 
     struct Wrong(Well, f64, f64);
     impl System for Wrong {
-        fn particles(&self) -> usize {
+        fn particle_count(&self) -> usize {
             1
         }
         fn masses(&self) -> &[f64] {

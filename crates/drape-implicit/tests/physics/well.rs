@@ -27,7 +27,7 @@ impl Well {
 }
 
 impl System for Well {
-    fn particles(&self) -> usize {
+    fn particle_count(&self) -> usize {
         1
     }
 

@@ -75,7 +75,7 @@ struct Cut {
 impl Surface {
     /// Returns the surface of the triangles of `scene` whose corners are in `particles`.
     pub(super) fn new(scene: &Scene, particles: &std::ops::Range<usize>) -> Self {
-        let count = scene.cloth.particles();
+        let count = scene.cloth.particle_count();
         let mut is_sewn = vec![false; count];
         let none = Vec::new();
         let pairs = scene.sewing.as_ref().map_or(&none, |sewing| &sewing.pairs.pairs);

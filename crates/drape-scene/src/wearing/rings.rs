@@ -74,7 +74,7 @@ struct Cut {
 impl<'a> RingFinder<'a> {
     /// Prepares the cloth of `scene` to be cut.
     pub(crate) fn new(scene: &'a Scene) -> Self {
-        let mut seams = vec![Vec::new(); scene.cloth.particles()];
+        let mut seams = vec![Vec::new(); scene.cloth.particle_count()];
         let all = scene.sewing.iter().flat_map(|sewing| &sewing.seams);
         for (number, seam) in all.enumerate() {
             for [one, other] in &seam.pairs.pairs {
@@ -245,8 +245,8 @@ pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
     let finder = RingFinder::new(scene);
     let none = Vec::new();
     let pairs = scene.sewing.as_ref().map_or(&none, |sewing| &sewing.pairs.pairs);
-    let class =
-        equivalence_classes(scene.cloth.particles(), pairs).expect("pairs name what they join");
+    let class = equivalence_classes(scene.cloth.particle_count(), pairs)
+        .expect("pairs name what they join");
     let ends = |edge: &FreeEdge| {
         [edge.particles[0], edge.particles[edge.particles.len() - 1]].map(|p| class[p as usize])
     };
@@ -303,7 +303,7 @@ fn opening(finder: &RingFinder<'_>, row: &[FreeEdge]) -> Option<Ring> {
 
 /// Returns the edges of panels of `scene` whose particles between the ends are not sewn.
 fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
-    let mut sewn = vec![false; scene.cloth.particles()];
+    let mut sewn = vec![false; scene.cloth.particle_count()];
     if let Some(sewing) = &scene.sewing {
         sewing.pairs.pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
         sewing.pairs.ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
@@ -348,7 +348,7 @@ mod tests {
             let documents = [Document::new("plain.toml", FABRIC)];
             let scene = Scene::from_documents(&Document::new("towel.toml", text), &documents);
             let scene = scene.expect("it is right");
-            assert_eq!(scene.cloth.particles(), 121);
+            assert_eq!(scene.cloth.particle_count(), 121);
             // Triangles of its own, and large ones of any shape and sense.
             let own = scene.cloth.triangles();
             for triangles in [own, &[[0, 15, 112], [27, 90, 53]], &[[112, 15, 0], [7, 40, 99]]] {

@@ -135,7 +135,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
         "scene \"{}\", {} particles, {area:.4} m², {mass:.4} kg, {} held, {}, \
          steps of {} s to {} s\n",
         scene.name,
-        scene.cloth.particles(),
+        scene.cloth.particle_count(),
         scene.held_particles().iter().filter(|held| **held).count(),
         counted(scene.bodies.len(), "body", "bodies"),
         scene.schedule.clock.step,
@@ -143,7 +143,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
     );
 
     for grid in &scene.coarser {
-        let (particles, spacing) = (grid.cloth.particles(), 1e3 * grid.spacing());
+        let (particles, spacing) = (grid.cloth.particle_count(), 1e3 * grid.spacing());
         let _ =
             writeln!(text, "  at rest first on a grid of {spacing:.1} mm, {particles} particles");
     }

@@ -56,8 +56,8 @@ impl Projection {
         sparsity: &Sparsity,
         interpolation: &Interpolation,
     ) -> Result<(Self, Sparsity), Error> {
-        let mut cell_of = vec![0; sparsity.particles()];
-        let mut point_of = vec![0; sparsity.particles()];
+        let mut cell_of = vec![0; sparsity.particle_count()];
+        let mut point_of = vec![0; sparsity.particle_count()];
         for (number, cell) in interpolation.cells.iter().enumerate() {
             for index in cell.points.clone() {
                 let particle = interpolation.points[index].particle as usize;
@@ -65,8 +65,8 @@ impl Projection {
             }
         }
 
-        let mut blocks = Vec::with_capacity(sparsity.blocks());
-        for particle in 0..sparsity.particles() {
+        let mut blocks = Vec::with_capacity(sparsity.block_count());
+        for particle in 0..sparsity.particle_count() {
             for slot in sparsity.row(particle) {
                 let other = sparsity.columns()[slot] as usize;
                 let (row, column) = (point_of[particle], point_of[other]);

@@ -51,7 +51,7 @@ pub(super) struct LaterBlock {
 
 /// Returns the later blocks of each row of `order`.
 pub(super) fn later_blocks(sparsity: &Sparsity, order: &RowOrder) -> Grouped<LaterBlock> {
-    let blocks = (0..sparsity.particles()).flat_map(|particle| {
+    let blocks = (0..sparsity.particle_count()).flat_map(|particle| {
         let row = order.row_of[particle] as usize;
         sparsity.row(particle).skip(1).map(move |slot| {
             let column = order.row_of[sparsity.columns()[slot] as usize] as usize;

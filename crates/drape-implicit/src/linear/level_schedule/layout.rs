@@ -478,7 +478,7 @@ mod tests {
             let mut found: Vec<usize> =
                 main.map(|&slot| slot as usize).chain(off_diagonal).collect();
             found.sort_unstable();
-            assert_eq!(found, (0..sparsity.blocks()).collect::<Vec<_>>());
+            assert_eq!(found, (0..sparsity.block_count()).collect::<Vec<_>>());
         }
     }
 

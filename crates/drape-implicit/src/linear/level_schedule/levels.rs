@@ -14,7 +14,7 @@ pub(super) struct Levels {
 impl Levels {
     /// Collects the neighbours of each particle of `sparsity`.
     pub(super) fn new(sparsity: &Sparsity) -> Self {
-        let count = sparsity.particles();
+        let count = sparsity.particle_count();
         let pairs = (0..count).flat_map(|particle| {
             let others = sparsity.later(particle).iter();
             others.flat_map(move |&other| [(particle, other), (other as usize, particle as u32)])

@@ -32,7 +32,7 @@ pub(crate) struct Partition {
 impl Partition {
     /// Returns the partition of a large matrix, a function of `sparsity` and never of the threads.
     pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let parts = sparsity.particles().div_ceil(MAX_PARTICLES).next_power_of_two();
+        let parts = sparsity.particle_count().div_ceil(MAX_PARTICLES).next_power_of_two();
         Self::into_parts(sparsity, parts.clamp(2, MAX_PARTS))
     }
 
@@ -69,7 +69,7 @@ impl Partition {
 /// Returns the number of the part of each particle, for `count` parts. A part is a range of levels.
 /// All parts have about equally many particles.
 fn parts(sparsity: &Sparsity, count: usize) -> Vec<usize> {
-    let particles = sparsity.particles();
+    let particles = sparsity.particle_count();
     let all: Vec<u32> = (0..particles as u32).collect();
     let mut part_of = vec![0; particles];
     let mut earlier_particles = 0;
@@ -91,7 +91,7 @@ mod tests {
     fn parts_are_uncoupled_and_about_equal_and_separators_small() {
         for (sparsity, count) in [(weave(60), 2), (weave(60), 4), (rimmed(60), 3)] {
             let Partition { groups } = Partition::into_parts(&sparsity, count);
-            let particles = sparsity.particles();
+            let particles = sparsity.particle_count();
             let mut group_of = vec![usize::MAX; particles];
             for (group, own) in groups.iter().enumerate() {
                 for &particle in own {
@@ -119,7 +119,7 @@ mod tests {
         let uncoupled = Sparsity::from_pairs(20, []).unwrap();
         let star = Sparsity::from_pairs(20, (1..20).map(|other| [0, other])).unwrap();
         for sparsity in [uncoupled, star, Sparsity::from_pairs(0, []).unwrap()] {
-            let particles = sparsity.particles();
+            let particles = sparsity.particle_count();
             let Partition { groups } = Partition::into_parts(&sparsity, 4);
             assert_eq!(groups.iter().map(Vec::len).sum::<usize>(), particles);
             let layout = layout(&sparsity, 4);

@@ -33,7 +33,7 @@ impl RowOrder {
         let longest = groups.iter().flatten().map(Vec::len).max().unwrap_or(0);
         let margin = if groups.len() == 1 { 0 } else { longest.next_multiple_of(LANES) };
         let mut order = Self {
-            row_of: vec![0; sparsity.particles()],
+            row_of: vec![0; sparsity.particle_count()],
             particles: vec![ABSENT; LANES.max(margin)],
             levels: Vec::new(),
             is_separator: Vec::new(),

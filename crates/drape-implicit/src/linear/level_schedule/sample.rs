@@ -65,7 +65,7 @@ pub(crate) fn springs(
     stiffness: impl Fn(usize, [usize; 2]) -> Block,
 ) -> BlockMatrix {
     let mut matrix = BlockMatrix::zeros(sparsity.clone());
-    for i in 0..sparsity.particles() {
+    for i in 0..sparsity.particle_count() {
         for slot in sparsity.row(i).skip(1) {
             let j = sparsity.columns()[slot] as usize;
             let spring = stiffness(slot, [i, j]);

@@ -23,7 +23,7 @@ pub(crate) fn check_layers(checker: &mut Checker<'_>, scene: &Scene) -> Vec<Stri
     if higher.is_empty() {
         return notes;
     }
-    let lines = (0..scene.cloth.particles()).map(|particle| line_to_body(scene, particle));
+    let lines = (0..scene.cloth.particle_count()).map(|particle| line_to_body(scene, particle));
     let lines: Vec<Option<Line>> = lines.collect();
     for panel in higher {
         let order = Order::new(panel, &lines, scene);
