@@ -24,7 +24,7 @@
 
 pub(crate) mod block;
 pub(crate) mod block_matrix;
-#[cfg_attr(not(feature = "cholesky"), path = "linear/no_cholesky.rs")]
+#[cfg_attr(not(feature = "cholesky"), path = "linear/cholesky/stand_in.rs")]
 pub(crate) mod cholesky;
 pub(crate) mod coarse_level;
 pub(crate) mod conjugate_gradient;

@@ -138,7 +138,8 @@ pub struct SolverSpec {
     pub tolerance: Option<f64>,
     /// Error that the solver may leave in a step, as a fraction of the step's own error in time; a
     /// step is solved as soon as this or the tolerance is met. 0 leaves the tolerance alone, and is
-    /// the default where a tolerance of 1e-4 or less is given. Steps of relaxation have their own accuracy.
+    /// the default where a tolerance of 1e-4 or less is given. Steps of relaxation have their own
+    /// accuracy.
     #[schemars(extend("default" = 0.2))]
     #[schemars(transform = drape_input::within(0.0, 1.0))]
     pub error_fraction: Option<f64>,
