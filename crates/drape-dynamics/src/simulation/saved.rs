@@ -89,8 +89,8 @@ struct SavedGarment {
 }
 
 impl SavedSimulation {
-    /// Returns the number of frames until now, with which [`SavedRecorder`](crate::SavedRecorder)
-    /// agrees.
+    /// Returns the number of frames until now. The
+    /// [`SavedWriter`](drape_frames::SavedWriter) of a run has the same number.
     #[must_use]
     pub fn frame_count(&self) -> usize {
         self.run.frame_times.len()
