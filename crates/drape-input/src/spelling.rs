@@ -34,8 +34,8 @@ pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 /// meant.
 ///
 /// ```
-/// let mistake = drape_input::unknown_word("netwon", &["newton", "bdf2"]);
-/// assert_eq!(mistake.message, "there is no \"netwon\"");
+/// let mistake = drape_input::unknown_word("newtn", &["newton", "bdf2"]);
+/// assert_eq!(mistake.message, "there is no \"newtn\"");
 /// assert_eq!(mistake.help, "did you mean \"newton\"?");
 /// ```
 #[must_use]
