@@ -1,7 +1,7 @@
 //! Steers a sheet for 30 frames of 1/60 s, as a game does: a pin is led, the wind blows, gravity
 //! changes, a body is led, and a particle is held and released. No file is written.
 
-use drape_dynamics::{BodyTarget, PinTarget, Simulation};
+use drape_dynamics::{BodyTarget, Displacement, PinTarget, Simulation};
 use drape_input::Document;
 use drape_scene::Scene;
 
@@ -69,7 +69,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 12 => simulation.set_gravity([0.0, -3.7, 0.0])?,
                 15 => {
                     let shift = [0.0, 0.0, 0.06];
-                    let target = BodyTarget::Rigid { shift, turn: [0.0; 3], center: None };
+                    let target =
+                        BodyTarget::Rigid(Displacement { shift, ..Displacement::default() });
                     simulation.lead_body("ball", &target, 3.0 * FRAME)?;
                 }
                 18 => {

@@ -22,6 +22,7 @@ pub use record::summary::{
 pub use simulation::body_prescription::BodyTarget;
 pub use simulation::pin_prescription::PinTarget;
 pub use simulation::plan::PlannedPhase;
+pub use simulation::prescription::Displacement;
 pub use simulation::run::Progress;
 pub use simulation::saved::SavedSimulation;
 pub use simulation::{Simulation, Step};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_dynamics::{BodyTarget, Energy, Simulation};
+use drape_dynamics::{BodyTarget, Displacement, Energy, Simulation};
 use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
@@ -149,7 +149,8 @@ fn a_body_is_led_as_by_a_motion_of_the_scene() {
             "[collider.sphere.motion]\ntimes = [0, 0.1]\nshift = [[0, 0, 0], [0, 0.02, 0]]\n";
         let mut scene = simulation(keys, &ball(told));
         let mut led = simulation(keys, &ball(""));
-        let target = BodyTarget::Rigid { shift: [0.0, 0.02, 0.0], turn: [0.0; 3], center: None };
+        let target =
+            BodyTarget::Rigid(Displacement { shift: [0.0, 0.02, 0.0], ..Displacement::default() });
         lift(&mut led, &target);
         for _ in 0..60 {
             scene.step().unwrap();
@@ -178,7 +179,8 @@ fn vertices_go_where_they_are_led_and_stay_apart_from_cloth() {
     assert!(middle(&simulation) > 0.012);
     assert_eq!(simulation.summary().contact.intersections_found, 0);
     // From there it goes on.
-    let target = BodyTarget::Rigid { shift: [0.0, -0.01, 0.0], turn: [0.0; 3], center: None };
+    let target =
+        BodyTarget::Rigid(Displacement { shift: [0.0, -0.01, 0.0], ..Displacement::default() });
     lift(&mut simulation, &target);
     let (_, last) = simulation.bodies().remove(0);
     let lower: Vec<[f64; 3]> = goal.iter().map(|&[x, y, z]| [x, y - 0.01, z]).collect();
@@ -188,7 +190,9 @@ fn vertices_go_where_they_are_led_and_stay_apart_from_cloth() {
 #[test]
 fn motions_that_do_not_fit_are_refused_with_what_would() {
     let mut one = simulation("", &ball(""));
-    let up = |y: f64| BodyTarget::Rigid { shift: [0.0, y, 0.0], turn: [0.0; 3], center: None };
+    let up = |y: f64| {
+        BodyTarget::Rigid(Displacement { shift: [0.0, y, 0.0], ..Displacement::default() })
+    };
     let mut refused = |name: &str, target: &BodyTarget, seconds: f64| {
         one.lead_body(name, target, seconds).unwrap_err().to_string()
     };

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use drape::collide::Triangulation;
-use drape::dynamics::{self, BodyTarget};
+use drape::dynamics::{self, BodyTarget, Displacement};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -133,7 +133,7 @@ impl Simulation {
         let RigidMotion { shift, turn, center } = rigid;
         let target = match vertices {
             Some(numbers) => BodyTarget::Vertices(numbers.as_slice()?.as_chunks::<3>().0.to_vec()),
-            None => BodyTarget::Rigid { shift, turn, center },
+            None => BodyTarget::Rigid(Displacement { shift, turn, center }),
         };
         self.simulation.lead_body(name, &target, seconds).map_err(of_dynamics)
     }

@@ -13,15 +13,8 @@ use crate::world::Contact;
 pub enum BodyTarget {
     /// Positions of the vertices of the body, in m. Each vertex moves along a straight line.
     Vertices(Vec<[f64; 3]>),
-    /// Rigid displacement.
-    Rigid {
-        /// Displacement, in m.
-        shift: [f64; 3],
-        /// Angles about x, then y, then z, in degrees.
-        turn: [f64; 3],
-        /// Centre of the rotation, in m. By default the middle of the extent of the vertices.
-        center: Option<[f64; 3]>,
-    },
+    /// Rigid displacement, by default about the middle of the extent of the vertices.
+    Rigid(Displacement),
 }
 
 impl Simulation {
@@ -62,8 +55,7 @@ impl Simulation {
             BodyTarget::Vertices(to) => {
                 BodyMotion::Shapes(self.shape_motion(name, times, (&from, to))?)
             }
-            &BodyTarget::Rigid { shift, turn, center } => {
-                let displacement = Displacement { shift, turn, center };
+            BodyTarget::Rigid(displacement) => {
                 BodyMotion::Rigid(displacement.motion(times, &from.vertices)?)
             }
         };

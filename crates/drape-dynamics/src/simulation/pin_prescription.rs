@@ -12,15 +12,8 @@ pub enum PinTarget {
     /// Position of the middle of the pin's extent, in m. A pin of one particle moves there. The pin
     /// does not turn.
     Place([f64; 3]),
-    /// Rigid displacement.
-    Rigid {
-        /// Displacement, in m.
-        shift: [f64; 3],
-        /// Angles about x, then y, then z, in degrees.
-        turn: [f64; 3],
-        /// Centre of the rotation, in m. By default the middle of the pin's extent.
-        center: Option<[f64; 3]>,
-    },
+    /// Rigid displacement, by default about the middle of the pin's extent.
+    Rigid(Displacement),
 }
 
 impl Simulation {
@@ -74,9 +67,9 @@ impl Simulation {
             PinTarget::Place(place) => {
                 let from = middle(&start);
                 let shift = std::array::from_fn(|axis| place[axis] - from[axis]);
-                Displacement { shift, turn: [0.0; 3], center: None }
+                Displacement { shift, ..Displacement::default() }
             }
-            PinTarget::Rigid { shift, turn, center } => Displacement { shift, turn, center },
+            PinTarget::Rigid(displacement) => displacement,
         };
         let motion = displacement.motion(times, &start)?;
         self.check_speed(&format!("pin {pin}"), motion.max_speed(&start), seconds)?;

@@ -33,15 +33,15 @@ const DISPLACEMENT_MAX: f64 = 1e6;
 /// may be far from 0.
 const SPEED_ERROR: f64 = 1e-4;
 
-/// Rigid displacement of a body or a pin.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Displacement {
-    /// Displacement, in m.
-    pub(super) shift: [f64; 3],
+/// Rigid displacement of a body or a pin. The default is at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Displacement {
+    /// Shift, in m.
+    pub shift: [f64; 3],
     /// Angles about x, then y, then z, in degrees.
-    pub(super) turn: [f64; 3],
-    /// Centre of the rotation, in m. By default the middle of the extent of the points.
-    pub(super) center: Option<[f64; 3]>,
+    pub turn: [f64; 3],
+    /// Centre of the rotation, in m. By default the middle of the extent of what moves.
+    pub center: Option<[f64; 3]>,
 }
 
 impl Displacement {

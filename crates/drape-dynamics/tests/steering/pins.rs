@@ -1,6 +1,6 @@
 //! Pins that are led, particles that are held and released.
 
-use drape_dynamics::{PinTarget, Simulation};
+use drape_dynamics::{Displacement, PinTarget, Simulation};
 
 use crate::{BALL, CORNER, EDGE, MASS, PARTICLES, STEP};
 use crate::{assert_closed, balanced, distance, mean, position, simulation};
@@ -47,8 +47,11 @@ fn a_pin_is_led_as_by_a_motion_of_the_scene() {
                   turn = [[0, 0, 0], [0, 0, 20]]\n";
     let mut of_scene = simulation("", &format!("{EDGE}{motion}"));
     let mut led = simulation("", EDGE);
-    let target =
-        PinTarget::Rigid { shift: [0.01, 0.02, 0.0], turn: [0.0, 0.0, 20.0], center: None };
+    let target = PinTarget::Rigid(Displacement {
+        shift: [0.01, 0.02, 0.0],
+        turn: [0.0, 0.0, 20.0],
+        ..Displacement::default()
+    });
     led.lead_pin(0, &target, 0.1).unwrap();
     for _ in 0..60 {
         of_scene.step().unwrap();
@@ -65,7 +68,8 @@ fn a_pin_is_led_as_by_a_motion_of_the_scene() {
 fn a_pin_that_holds_in_some_directions_is_led_in_these() {
     let tables = format!("{EDGE}axes = [\"y\"]\n");
     let mut simulation = simulation("", &tables);
-    let target = PinTarget::Rigid { shift: [0.0, 0.02, 0.0], turn: [0.0; 3], center: None };
+    let target =
+        PinTarget::Rigid(Displacement { shift: [0.0, 0.02, 0.0], ..Displacement::default() });
     simulation.lead_pin(0, &target, 0.1).unwrap();
     for _ in 0..50 {
         simulation.step().unwrap();
@@ -173,10 +177,12 @@ fn what_does_not_fit_is_refused_and_changes_nothing() {
     let mut simulation = simulation("", CORNER);
     let hash = simulation.state_hash();
     let place = PinTarget::Place([0.0; 3]);
-    let turn = |turn: f64| PinTarget::Rigid {
-        shift: [0.0; 3],
-        turn: [turn, 0.0, 0.0],
-        center: Some([0.0; 3]),
+    let turn = |turn: f64| {
+        PinTarget::Rigid(Displacement {
+            shift: [0.0; 3],
+            turn: [turn, 0.0, 0.0],
+            center: Some([0.0; 3]),
+        })
     };
     let cases = [
         (simulation.lead_pin(9, &place, 1.0), "there is no pin 9; the simulation has 1"),

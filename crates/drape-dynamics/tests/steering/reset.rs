@@ -1,7 +1,7 @@
 //! States saved in memory, after steering: a simulation that is reset repeats its bytes.
 
 use drape_checkpoint::{Checkpoint, Identity};
-use drape_dynamics::{BodyTarget, PinTarget, SavedSimulation, Simulation};
+use drape_dynamics::{BodyTarget, Displacement, PinTarget, SavedSimulation, Simulation};
 use rayon::ThreadPoolBuilder;
 
 use crate::{BALL, EDGE, MASS, PARTICLES, scene};
@@ -33,12 +33,17 @@ fn steer(simulation: &mut Simulation) {
     forces[3 * 24 + 1] = 2e-4;
     simulation.apply_forces(&forces).unwrap();
     let held = simulation.hold(&[3, 10]).unwrap();
-    let lift = PinTarget::Rigid { shift: [0.0, 0.01, 0.0], turn: [0.0, 5.0, 0.0], center: None };
+    let lift = PinTarget::Rigid(Displacement {
+        shift: [0.0, 0.01, 0.0],
+        turn: [0.0, 5.0, 0.0],
+        ..Displacement::default()
+    });
     simulation.lead_pin(held, &lift, 0.06).unwrap();
     let first = simulation.pin_particles(0).unwrap()[0];
     simulation.lead_pin(0, &lift, 0.08).unwrap();
     simulation.release(&[first]).unwrap();
-    let lower = BodyTarget::Rigid { shift: [0.0, -0.004, 0.0], turn: [0.0; 3], center: None };
+    let lower =
+        BodyTarget::Rigid(Displacement { shift: [0.0, -0.004, 0.0], ..Displacement::default() });
     simulation.lead_body("ball", &lower, 0.04).unwrap();
 }
 

@@ -1,6 +1,6 @@
 //! Contact that is as stiff as the top speed of bodies and pins needs.
 
-use drape_dynamics::{BodyTarget, Simulation};
+use drape_dynamics::{BodyTarget, Displacement, Simulation};
 
 use crate::{BALL, EDGE, scene, simulation};
 
@@ -11,7 +11,7 @@ fn tables() -> String {
 
 /// Displacement of the ball by 1 cm.
 const LIFT: BodyTarget =
-    BodyTarget::Rigid { shift: [0.0, 0.01, 0.0], turn: [0.0; 3], center: None };
+    BodyTarget::Rigid(Displacement { shift: [0.0, 0.01, 0.0], ..Displacement::default() });
 
 /// Time of the displacement at 2 m/s, in s.
 const SECONDS: f64 = 0.005;
