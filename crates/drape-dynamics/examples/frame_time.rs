@@ -5,26 +5,14 @@
 //! thread. Without a number the example makes two frames of each.
 
 use drape_dynamics::Simulation;
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
-
-const FABRIC: &str = r#"
-name = "plain weave"
-density = 0.2
-thickness = 0.0004
-shear = { stiffness = 50, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-[weft]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-"#;
 
 /// Sheet of 98 cm × 98 cm that is held at one edge, and a sphere below it.
 const SCENE: &str = r#"
 spacing = 0.02
-fabric.plain.file = "plain.toml"
+fabric.plain.file = "heavy.toml"
 [[panel]]
 name = "sheet"
 fabric = "plain"
@@ -58,6 +46,12 @@ const SETTINGS: [Setting; 3] = [
     Setting { name: "one step", steps: 1, keys: FAST },
 ];
 
+/// Processor times of the frames of a simulation, in s.
+struct FrameTimes {
+    mean: f64,
+    slowest: f64,
+}
+
 #[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let frames = std::env::args().nth(1).map_or(Ok(2), |frames| frames.parse())?;
@@ -68,21 +62,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let text = format!(
                 "contact.surfaces = {surfaces}\ntime = {{ step = {step}, end = 1000 }}\n{keys}\n{SCENE}"
             );
-            let fabric = Document::new("plain.toml", FABRIC);
+            let fabric = Document::new("heavy.toml", samples::HEAVY_WEAVE);
             let scene = Scene::from_documents(&Document::new("sheet.toml", text), &[fabric])?;
             let mut simulation = Simulation::new(scene)?;
-            let mut slowest: f64 = 0.0;
-            for _ in 0..frames {
-                let before = simulation.summary().cpu_seconds.unwrap_or(f64::NAN);
-                for _ in 0..steps {
-                    simulation.step()?;
-                }
-                let after = simulation.summary().cpu_seconds.unwrap_or(f64::NAN);
-                slowest = slowest.max(after - before);
-            }
+            let FrameTimes { mean, slowest } = measure(&mut simulation, frames, steps)?;
 
-            let summary = simulation.summary();
-            let mean = summary.cpu_seconds.unwrap_or(f64::NAN) / frames as f64;
             if usual.is_empty() {
                 usual = simulation.positions().to_vec();
             }
@@ -92,11 +76,29 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 1e3 * mean,
                 1e3 * slowest,
                 1e3 * root_mean_square(&usual, simulation.positions()),
-                summary.contact.intersections
+                simulation.summary().contact.intersections
             );
         }
     }
     Ok(())
+}
+
+/// Makes `frames` frames of `steps` steps each, and returns their times.
+fn measure(
+    simulation: &mut Simulation,
+    frames: usize,
+    steps: usize,
+) -> Result<FrameTimes, drape_implicit::Error> {
+    let used = |simulation: &Simulation| simulation.summary().cpu_seconds.unwrap_or(f64::NAN);
+    let mut slowest: f64 = 0.0;
+    for _ in 0..frames {
+        let before = used(simulation);
+        for _ in 0..steps {
+            simulation.step()?;
+        }
+        slowest = slowest.max(used(simulation) - before);
+    }
+    Ok(FrameTimes { mean: used(simulation) / frames as f64, slowest })
 }
 
 /// Returns the root-mean-square distance of particles at `first` and `second`, in m.

@@ -2,26 +2,14 @@
 //! changes, a body is led, and a particle is held and released. No file is written.
 
 use drape_dynamics::{BodyTarget, Displacement, PinTarget, Simulation};
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
-
-const FABRIC: &str = r#"
-name = "plain weave"
-density = 0.2
-thickness = 0.0004
-shear = { stiffness = 50, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-[weft]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-"#;
 
 /// Flag of 40 cm × 40 cm that hangs by two corners beside a ball. A frame of 1/60 s has two steps.
 const SCENE: &str = r#"
 spacing = 0.02
-fabric.plain.file = "plain.toml"
+fabric.plain.file = "heavy.toml"
 panel = [{ name = "flag", fabric = "plain", rectangle = [0.4, 0.4] }]
 contact.top_speed = 2
 [[pin]]
@@ -48,7 +36,7 @@ const FRAME: f64 = 1.0 / 60.0;
 
 #[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let fabric = Document::new("plain.toml", FABRIC);
+    let fabric = Document::new("heavy.toml", samples::HEAVY_WEAVE);
     let scene = Scene::from_documents(&Document::new("flag.toml", SCENE), &[fabric])?;
     let mut simulation = Simulation::new(scene)?;
     let start = simulation.saved();

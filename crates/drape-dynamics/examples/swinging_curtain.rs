@@ -1,26 +1,14 @@
 //! Lets a curtain swing for a fifth of a second and checks the balance of its energy.
 
 use drape_dynamics::{Simulation, Status};
+use drape_fabric::samples;
 use drape_input::Document;
 use drape_scene::Scene;
-
-const FABRIC: &str = r#"
-name = "plain weave"
-density = 0.2
-thickness = 0.0004
-shear = { stiffness = 50, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-[weft]
-traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-"#;
 
 /// Half a metre of cloth, horizontal at the start, held at two corners.
 const SCENE: &str = r#"
 spacing = 0.02
-fabric.plain.file = "plain.toml"
+fabric.plain.file = "heavy.toml"
 [[panel]]
 name = "curtain"
 fabric = "plain"
@@ -37,7 +25,7 @@ end = 0.2
 
 #[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let fabric = Document::new("plain.toml", FABRIC);
+    let fabric = Document::new("heavy.toml", samples::HEAVY_WEAVE);
     let scene = Scene::from_documents(&Document::new("curtain.toml", SCENE), &[fabric])?;
     let summary = Simulation::new(scene)?.run(&mut ())?;
     assert_eq!(summary.status, Status::Ok);

@@ -39,6 +39,21 @@ traction.friction = [{ plateau = 3, length = 0.001 }]
 bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4 }] }
 ";
 
+/// Text of a `fabric.toml`: a heavy plain weave, equal along warp and weft, with friction in shear
+/// and bending.
+pub const HEAVY_WEAVE: &str = "\
+name = \"heavy plain weave\"
+density = 0.2
+thickness = 0.0004
+shear = { stiffness = 50, friction = [{ plateau = 0.5, length = 0.004 }] }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
+[weft]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
+";
+
 /// Returns the fabric of [`PLAIN_WEAVE`].
 ///
 /// ```
