@@ -7,9 +7,10 @@ use crate::energy_table::EnergyTable;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::manifest::Manifest;
+use crate::source::checked::CheckedSource;
 use crate::source::folder::FolderSource;
 use crate::source::list::FrameList;
-use crate::source::{FrameSource, array_frames, check_frame};
+use crate::source::{FrameSource, array_frames};
 use crate::text::read_text;
 use crate::topology::Topology;
 
@@ -81,7 +82,7 @@ impl Recording {
         frames: Vec<Frame>,
     ) -> Result<Recording, Error> {
         let list = FrameList::new(&manifest, frames)?;
-        Recording::of_source(manifest, topology, Arc::new(list))
+        Recording::in_memory(manifest, topology, Arc::new(list))
     }
 
     /// Returns the recording of the frames of `source`.
@@ -90,6 +91,16 @@ impl Recording {
     /// [`Error`] if `topology` does not fit `manifest`, or if there is no frame. The frames are not
     /// read.
     pub fn of_source(
+        manifest: Manifest,
+        topology: Topology,
+        source: Arc<dyn FrameSource>,
+    ) -> Result<Recording, Error> {
+        let source = CheckedSource { manifest: manifest.clone(), source };
+        Recording::in_memory(manifest, topology, Arc::new(source))
+    }
+
+    /// Returns the recording of `source`, whose frames fit `manifest`.
+    fn in_memory(
         manifest: Manifest,
         topology: Topology,
         source: Arc<dyn FrameSource>,
@@ -147,12 +158,7 @@ impl Recording {
     /// content that no run writes, or if the frame of a source does not fit the parts.
     pub fn frame(&self, number: usize) -> Result<Frame, Error> {
         self.check_number(number)?;
-        let frame = self.source.frame(number)?;
-        // The readers of a folder have checked the frame.
-        if self.folder.is_none() {
-            check_frame(&self.manifest, None, &frame)?;
-        }
-        Ok(frame)
+        self.source.frame(number)
     }
 
     /// Returns whether the pressure of contact was stored for at least one frame.

@@ -1,6 +1,7 @@
-//! Source of frames: where a recording takes its frames from.
+//! Sources from which a recording takes its frames.
 
 pub(crate) mod array_frames;
+pub(crate) mod checked;
 pub(crate) mod folder;
 mod index;
 pub(crate) mod list;

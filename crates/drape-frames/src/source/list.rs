@@ -14,11 +14,8 @@ impl FrameList {
     /// anew.
     ///
     /// # Errors
-    /// [`Error::BadFrame`] if there is no frame, or if a frame does not fit `manifest`.
+    /// [`Error::BadFrame`] if a frame does not fit `manifest`.
     pub(crate) fn new(manifest: &Manifest, mut frames: Vec<Frame>) -> Result<Self, Error> {
-        if frames.is_empty() {
-            return Err(Error::BadFrame { number: 0, reason: "there is no frame".to_owned() });
-        }
         for number in 0..frames.len() {
             let (earlier, rest) = frames.split_at_mut(number);
             let frame = &mut rest[0];

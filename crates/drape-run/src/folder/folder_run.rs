@@ -135,7 +135,6 @@ impl FolderRun {
         let mut summary = simulation.run(&mut progress)?;
         let FolderProgress { mut writer, last, frames, .. } = progress;
         let saved_frames = frames.save()?;
-        drop(frames);
 
         if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
             summary.reason = Some(limit.to_owned());
