@@ -146,16 +146,16 @@ impl Tree {
         self.divide(second, centres);
     }
 
-    /// Writes the box of each node to `boxes`. `item_box` returns the box of an item.
-    pub(super) fn fit(&self, boxes: &mut Vec<AxisBox>, item_box: impl Fn(u32) -> AxisBox) {
-        boxes.clear();
-        boxes.resize(self.nodes.len(), AxisBox { low: [0.0; 3], high: [0.0; 3] });
+    /// Returns the box of each node. `item_box` returns the box of an item.
+    pub(super) fn fit(&self, item_box: impl Fn(u32) -> AxisBox) -> Vec<AxisBox> {
+        let mut boxes = vec![AxisBox { low: [0.0; 3], high: [0.0; 3] }; self.nodes.len()];
         for (node, kind) in self.nodes.iter().enumerate().rev() {
             boxes[node] = match *kind {
                 Node::Leaf(item) => item_box(item),
                 Node::Inner(second) => boxes[node + 1].union(&boxes[second as usize]),
             };
         }
+        boxes
     }
 
     /// Returns the item of `node`, or `None` if `node` is not a leaf.
@@ -222,8 +222,7 @@ mod tests {
         let centres: Vec<Vector> =
             (0..37).map(|k| [f64::from(k * 7 % 11), f64::from(k * 5 % 13), f64::from(k)]).collect();
         let tree = Tree::new(&centres);
-        let mut boxes = Vec::new();
-        tree.fit(&mut boxes, |item| AxisBox::around(&[centres[item as usize]]));
+        let boxes = tree.fit(|item| AxisBox::around(&[centres[item as usize]]));
         let mut seen = vec![0; centres.len()];
         let mut open = vec![0];
         while let Some(node) = open.pop() {

@@ -191,9 +191,15 @@ mod tests {
             }
         }
         for tolerance in [1e-2, 1e-6, 1e-12] {
-            let found = cubic.separation(0.0, 1.0, tolerance);
-            assert!(found.until <= low && low - found.until <= tolerance, "{found:?}, {low}");
-            assert!((found.root.expect("a root") - low).abs() < 1e-14, "{found:?}, {low}");
+            let separation = cubic.separation(0.0, 1.0, tolerance);
+            assert!(
+                separation.until <= low && low - separation.until <= tolerance,
+                "{separation:?}, {low}"
+            );
+            assert!(
+                (separation.root.expect("a root") - low).abs() < 1e-14,
+                "{separation:?}, {low}"
+            );
         }
     }
 
@@ -201,10 +207,10 @@ mod tests {
     fn a_cubic_that_only_nears_zero_has_no_root() {
         // Heights of a point over a resting plane: 1, 0, 0, 1 in the Bernstein basis would touch 0.
         let cubic = Coplanarity { coefficients: [1.0, -0.32, -0.32, 1.0], error: 1e-15 };
-        let found = cubic.separation(0.0, 1.0, 1e-9);
-        assert!(found.until == 1.0 && found.root.is_none(), "{found:?}");
+        let separation = cubic.separation(0.0, 1.0, 1e-9);
+        assert!(separation.until == 1.0 && separation.root.is_none(), "{separation:?}");
         let below = Coplanarity { coefficients: [1.0, -0.34, -0.34, 1.0], error: 1e-15 };
-        let found = below.separation(0.0, 1.0, 1e-9);
-        assert!(found.until < 0.5 && found.root.is_some(), "{found:?}");
+        let separation = below.separation(0.0, 1.0, 1e-9);
+        assert!(separation.until < 0.5 && separation.root.is_some(), "{separation:?}");
     }
 }

@@ -106,15 +106,10 @@ impl PairMotion {
         closest(self.kind, self.points(time))
     }
 
-    /// Returns the number of vertices of the first primitive.
-    fn first_vertex_count(&self) -> usize {
-        self.kind.first_vertex_count()
-    }
-
     /// Returns the time until which a plane with the unit `normal`, from the second primitive to
     /// the first, surely separates them, beginning at `time`. It is `time` if nothing is proved.
     fn plane_exit(&self, normal: Vector, time: f64) -> f64 {
-        let first = self.first_vertex_count();
+        let first = self.kind.first_vertex_count();
         let mut exit = f64::INFINITY;
         for i in 0..first {
             for j in first..4 {

@@ -83,12 +83,11 @@ impl ProximityMesh {
         let centres: Vec<Vector> = leaves.iter().map(middle).collect();
         let mut mesh = ProximityMesh {
             tree: Tree::new(&centres),
-            positions: Vec::new(),
+            positions: positions.to_vec(),
             leaves,
             triangle_count: triangles.len(),
             boxes: Vec::new(),
         };
-        mesh.positions.extend_from_slice(positions);
         mesh.boxes = mesh.boxes_at(positions);
         Ok(mesh)
     }
@@ -148,12 +147,10 @@ impl ProximityMesh {
 
     /// Returns the box of each node of the tree with the vertices at `positions`, in m.
     fn boxes_at(&self, positions: &[Vector]) -> Vec<AxisBox> {
-        let mut boxes = Vec::new();
-        self.tree.fit(&mut boxes, |leaf| {
+        self.tree.fit(|leaf| {
             let corners = self.leaves[leaf as usize].corners;
             AxisBox::around(&corners.map(|corner| positions[corner as usize]))
-        });
-        boxes
+        })
     }
 
     /// Checks the number and the range of `positions`, in m.

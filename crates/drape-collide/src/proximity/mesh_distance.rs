@@ -75,12 +75,12 @@ pub fn mesh_distance(first: &ProximityMesh, second: &ProximityMesh) -> MeshDista
             }
         }
     }
-    nearest.found
+    nearest.answer
 }
 
 /// Nearest pair so far.
 struct Nearest {
-    found: MeshDistance,
+    answer: MeshDistance,
     square: f64,
 }
 
@@ -88,12 +88,12 @@ impl Nearest {
     /// Returns the first vertices of `meshes` at an infinite distance. Every pair is nearer.
     fn new(meshes: [&ProximityMesh; 2]) -> Nearest {
         let [first, second] = [Primitive::Vertex(0); 2];
-        let found = MeshDistance {
+        let answer = MeshDistance {
             distance: f64::INFINITY,
             pair: PrimitivePair { first, second },
             points: meshes.map(|mesh| mesh.positions()[0]),
         };
-        Nearest { found, square: f64::INFINITY }
+        Nearest { answer, square: f64::INFINITY }
     }
 
     /// Takes `pair` of meshes at `positions` if it is nearer.
@@ -103,15 +103,15 @@ impl Nearest {
         let square = dot(closest.offset, closest.offset);
         if square < self.square {
             self.square = square;
-            self.found.distance = square.sqrt();
-            self.found.pair = pair.primitives;
+            self.answer.distance = square.sqrt();
+            self.answer.pair = pair.primitives;
             // Weights of the second primitive are negative.
             let mut ends = [[0.0; 3]; 2];
             for ((mesh, weight), point) in pair.meshes.into_iter().zip(closest.weights).zip(points)
             {
                 ends[mesh] = add(ends[mesh], scale(point, weight.abs()));
             }
-            self.found.points = ends;
+            self.answer.points = ends;
         }
     }
 
@@ -121,7 +121,7 @@ impl Nearest {
             && let Some((pair, point)) = intersection(leaves, positions, false)
         {
             let (distance, points) = (0.0, [point; 2]);
-            self.found = MeshDistance { distance, pair, points };
+            self.answer = MeshDistance { distance, pair, points };
             self.square = 0.0;
         }
     }
