@@ -40,8 +40,8 @@ impl Sparsity {
         Some(self.offsets[row] + index)
     }
 
-    /// Returns the columns of the blocks of each row, in the order of the rows. A solver takes its
-    /// own sparsity from them, such as `Sparsity::from_rows` of `drape-implicit`.
+    /// Returns the columns of the blocks of each row, in the order of the rows. The function
+    /// `Sparsity::from_rows` of `drape-implicit` takes these rows.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[usize]> {
         self.offsets.windows(2).map(|ends| &self.columns[ends[0]..ends[1]])
     }

@@ -15,9 +15,9 @@ fn impact(shapes: [&Shape; 2], ends: [&Shape; 2], tolerance: f64) -> Option<Impa
     earliest_impact(&first, &second, tolerance).unwrap()
 }
 
-fn assert_at(found: &Impact, fraction: f64, tolerance: f64) {
-    let early = fraction - found.fraction;
-    assert!((-4.0 * f64::EPSILON..=tolerance).contains(&early), "{found:?} for {fraction}");
+fn assert_at(first_impact: &Impact, fraction: f64, tolerance: f64) {
+    let early = fraction - first_impact.fraction;
+    assert!((-4.0 * f64::EPSILON..=tolerance).contains(&early), "{first_impact:?} for {fraction}");
 }
 
 fn triangle(positions: [Point; 3]) -> Shape {
@@ -43,17 +43,19 @@ fn a_triangle_that_falls_on_a_plane_meets_it_when_its_lowest_corner_does() {
         let times = [0, 1, 2].map(|k| corners[k][1] / (-3.0 * speeds[k]));
         let first = times.into_iter().fold(9e99, f64::min);
         for tolerance in [1e-2, TOLERANCE, 1e-13] {
-            let found = impact([&start, &floor], [&end, &floor], tolerance);
+            let first_impact = impact([&start, &floor], [&end, &floor], tolerance);
             if first > 1.0 {
-                assert_eq!(found, None, "{first}");
+                assert_eq!(first_impact, None, "{first}");
                 continue;
             }
-            let found = found.unwrap();
-            assert_at(&found, first, tolerance);
-            assert_eq!(found.pair.second, Primitive::Triangle(0));
-            assert!(norm(sub(found.normal, [0.0, 1.0, 0.0])) < 1e-12, "{found:?}");
-            let Primitive::Vertex(vertex) = found.pair.first else { panic!("{found:?}") };
-            assert!(times[vertex as usize] <= first + tolerance, "{found:?} of {times:?}");
+            let first_impact = first_impact.unwrap();
+            assert_at(&first_impact, first, tolerance);
+            assert_eq!(first_impact.pair.second, Primitive::Triangle(0));
+            assert!(norm(sub(first_impact.normal, [0.0, 1.0, 0.0])) < 1e-12, "{first_impact:?}");
+            let Primitive::Vertex(vertex) = first_impact.pair.first else {
+                panic!("{first_impact:?}")
+            };
+            assert!(times[vertex as usize] <= first + tolerance, "{first_impact:?} of {times:?}");
 
             let swapped = impact([&floor, &start], [&floor, &end], tolerance).unwrap();
             assert_at(&swapped, first, tolerance);
@@ -72,11 +74,11 @@ fn two_edges_cross_at_a_known_fraction() {
     let low = ridge([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 1.0], [0.0, -1.0, -1.0]]);
     let high = ridge([[0.3, 0.8, -1.0], [0.3, 0.8, 1.0], [1.3, 1.8, 0.0], [-0.7, 1.8, 0.0]]);
     let fallen = high.moved(|[x, y, z]| [x, y - 2.0, z]);
-    let found = impact([&low, &high], [&low, &fallen], TOLERANCE).unwrap();
-    assert_at(&found, 0.4, TOLERANCE);
+    let first_impact = impact([&low, &high], [&low, &fallen], TOLERANCE).unwrap();
+    assert_at(&first_impact, 0.4, TOLERANCE);
     let edges = PrimitivePair { first: Primitive::Edge([0, 1]), second: Primitive::Edge([0, 1]) };
-    assert_eq!(found.pair, edges);
-    assert!(norm(sub(found.normal, [0.0, -1.0, 0.0])) < 1e-12, "{found:?}");
+    assert_eq!(first_impact.pair, edges);
+    assert!(norm(sub(first_impact.normal, [0.0, -1.0, 0.0])) < 1e-12, "{first_impact:?}");
 
     // Both move, and the whole is turned and shifted.
     let sunk = low.moved(|[x, y, z]| [x + 0.1, y + 2.0, z]);
@@ -84,11 +86,12 @@ fn two_edges_cross_at_a_known_fraction() {
         let motion = |point: Point| turned(point, angle, [3.0, -1.0, 0.5]);
         let shapes = [low.moved(motion), high.moved(motion)];
         let ends = [sunk.moved(motion), fallen.moved(motion)];
-        let found = impact([&shapes[0], &shapes[1]], [&ends[0], &ends[1]], TOLERANCE).unwrap();
-        assert_at(&found, 0.2, TOLERANCE);
-        assert_eq!(found.pair, edges);
+        let first_impact =
+            impact([&shapes[0], &shapes[1]], [&ends[0], &ends[1]], TOLERANCE).unwrap();
+        assert_at(&first_impact, 0.2, TOLERANCE);
+        assert_eq!(first_impact.pair, edges);
         let down = sub(motion([0.0, -1.0, 0.0]), motion([0.0; 3]));
-        assert!(norm(sub(found.normal, down)) < 1e-9, "{found:?}, {down:?}");
+        assert!(norm(sub(first_impact.normal, down)) < 1e-9, "{first_impact:?}, {down:?}");
     }
 }
 
@@ -99,22 +102,25 @@ fn a_triangle_that_swings_meets_a_point_when_its_plane_does() {
     let start = triangle([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
     let end = triangle([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]]);
     let point = Shape { positions: vec![[0.5, 0.2, 0.1]], triangles: Vec::new() };
-    let found = impact([&point, &start], [&point, &end], TOLERANCE).unwrap();
-    assert_at(&found, 0.4, TOLERANCE);
+    let first_impact = impact([&point, &start], [&point, &end], TOLERANCE).unwrap();
+    assert_at(&first_impact, 0.4, TOLERANCE);
     let slope = 0.4_f64;
     let length = (1.0 + slope * slope).sqrt();
-    assert!(norm(sub(found.normal, [-slope / length, 1.0 / length, 0.0])) < 1e-6, "{found:?}");
+    assert!(
+        norm(sub(first_impact.normal, [-slope / length, 1.0 / length, 0.0])) < 1e-6,
+        "{first_impact:?}"
+    );
 }
 
 #[test]
 fn points_meet_points_and_edges_only_head_on() {
     let point = |place: Point| Shape { positions: vec![place], triangles: Vec::new() };
     let rest = point([0.0; 3]);
-    let found =
+    let first_impact =
         impact([&point([1.0, 1.0, 1.0]), &rest], [&point([-1.0; 3]), &rest], TOLERANCE).unwrap();
-    assert_at(&found, 0.5, TOLERANCE);
+    assert_at(&first_impact, 0.5, TOLERANCE);
     let third = 1.0 / 3.0_f64.sqrt();
-    assert!(norm(sub(found.normal, [third; 3])) < 1e-9, "{found:?}");
+    assert!(norm(sub(first_impact.normal, [third; 3])) < 1e-9, "{first_impact:?}");
     let beside = impact([&point([1.0, 1.0, 1.0 + 1e-9]), &rest], [&point([-1.0; 3]), &rest], 1e-7);
     assert_eq!(beside, None);
 }
@@ -136,8 +142,8 @@ fn a_sheet_meets_itself_where_it_is_folded() {
     let closed = strip.moved(|[x, y, z]| [x, -y, z]);
     let mesh = strip.mesh();
     let motion = mesh.moving_to(&closed.positions).unwrap();
-    let found = earliest_self_impact(&motion, TOLERANCE).unwrap().unwrap();
-    assert_at(&found, 0.5, TOLERANCE);
+    let first_impact = earliest_self_impact(&motion, TOLERANCE).unwrap().unwrap();
+    assert_at(&first_impact, 0.5, TOLERANCE);
     assert_eq!(earliest_self_impact(&mesh.at_rest(), TOLERANCE).unwrap(), None);
 
     // A grid that waves without touching itself.
@@ -153,12 +159,12 @@ fn meshes_that_touch_or_intersect_at_the_start_meet_at_once() {
     let lifted = |shape: &Shape| shape.moved(|[x, y, z]| [x, y + 1.0, z]);
     // One corner on the floor, parting; and an edge through the floor.
     let touches = triangle([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]]);
-    let found = impact([&touches, &floor], [&lifted(&touches), &floor], TOLERANCE).unwrap();
-    assert_eq!((found.fraction, found.pair.first), (0.0, Primitive::Vertex(0)));
+    let first_impact = impact([&touches, &floor], [&lifted(&touches), &floor], TOLERANCE).unwrap();
+    assert_eq!((first_impact.fraction, first_impact.pair.first), (0.0, Primitive::Vertex(0)));
     let crosses = triangle([[0.0, -0.1, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]]);
-    let found = impact([&crosses, &floor], [&lifted(&crosses), &floor], TOLERANCE).unwrap();
-    assert_eq!((found.fraction, found.normal), (0.0, [0.0; 3]));
-    assert!(matches!(found.pair.first, Primitive::Edge([0, _])), "{found:?}");
+    let first_impact = impact([&crosses, &floor], [&lifted(&crosses), &floor], TOLERANCE).unwrap();
+    assert_eq!((first_impact.fraction, first_impact.normal), (0.0, [0.0; 3]));
+    assert!(matches!(first_impact.pair.first, Primitive::Edge([0, _])), "{first_impact:?}");
 }
 
 #[test]
@@ -173,8 +179,8 @@ fn two_point_clouds_pass_each_other_and_a_cloud_meets_a_mesh() {
     assert_eq!(earliest_impact(&motion, &passed.at_rest(), TOLERANCE).unwrap(), None);
 
     let floor = triangle([[-9.0, -1.0, -9.0], [0.0, -1.0, 9.0], [9.0, -1.0, -9.0]]).mesh();
-    let found = earliest_impact(&motion, &floor.at_rest(), TOLERANCE).unwrap().unwrap();
+    let first_impact = earliest_impact(&motion, &floor.at_rest(), TOLERANCE).unwrap().unwrap();
     let lowest = (0..300).min_by(|a: &usize, b| cloud[*a][1].total_cmp(&cloud[*b][1])).unwrap();
-    assert_eq!(found.pair.first, Primitive::Vertex(lowest as u32));
-    assert_at(&found, (cloud[lowest][1] + 1.0) / 4.0, TOLERANCE);
+    assert_eq!(first_impact.pair.first, Primitive::Vertex(lowest as u32));
+    assert_at(&first_impact, (cloud[lowest][1] + 1.0) / 4.0, TOLERANCE);
 }

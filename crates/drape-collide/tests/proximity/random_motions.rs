@@ -61,29 +61,29 @@ fn nothing_touches_before_an_impact_and_something_does_within_the_tolerance() {
 
         let meshes = [first.mesh(), second.mesh()];
         let motions = [0, 1].map(|k| meshes[k].moving_to(&ends[k].positions).unwrap());
-        let found = earliest_impact(&motions[0], &motions[1], tolerance).unwrap();
-        let until = found.map_or(1.0, |impact| impact.fraction);
+        let first_impact = earliest_impact(&motions[0], &motions[1], tolerance).unwrap();
+        let until = first_impact.map_or(1.0, |impact| impact.fraction);
         for sample in 0..=40 {
             let fraction = until * f64::from(sample) / 40.0;
-            assert!(distance(fraction) > 0.0, "{round}: {found:?} meets at {fraction}");
+            assert!(distance(fraction) > 0.0, "{round}: {first_impact:?} meets at {fraction}");
         }
         let swapped = earliest_impact(&motions[1], &motions[0], tolerance).unwrap();
-        match (found, swapped) {
-            (Some(found), Some(swapped)) => {
+        match (first_impact, swapped) {
+            (Some(first_impact), Some(swapped)) => {
                 met += 1;
                 let speed = relative_speed(
                     [&first.positions, &ends[0].positions],
                     [&second.positions, &ends[1].positions],
                 );
                 let rounding = 1e-13 * size * 110.0;
-                let after = distance(found.fraction + 2.0 * tolerance);
+                let after = distance(first_impact.fraction + 2.0 * tolerance);
                 let most = 2.0 * tolerance * speed + rounding;
-                assert!(after <= most, "{round}: {after} m after {found:?}, at most {most}");
-                assert!((found.fraction - swapped.fraction).abs() <= tolerance, "{round}");
-                assert!((norm(found.normal) - 1.0).abs() < 1e-12, "{found:?}");
+                assert!(after <= most, "{round}: {after} m after {first_impact:?}, at most {most}");
+                assert!((first_impact.fraction - swapped.fraction).abs() <= tolerance, "{round}");
+                assert!((norm(first_impact.normal) - 1.0).abs() < 1e-12, "{first_impact:?}");
             }
             (None, None) => passed += 1,
-            _ => panic!("{round}: {found:?}, exchanged {swapped:?}"),
+            _ => panic!("{round}: {first_impact:?}, exchanged {swapped:?}"),
         }
     }
     assert!(met > 150 && passed > 100, "{met} met, {passed} passed");
@@ -137,15 +137,15 @@ fn a_crumpling_sheet_does_not_intersect_itself_before_it_meets_itself() {
         };
         let mesh = flat.mesh();
         let motion = mesh.moving_to(&end.positions).unwrap();
-        let found = earliest_self_impact(&motion, 1e-8).unwrap();
+        let first_impact = earliest_self_impact(&motion, 1e-8).unwrap();
         let meets_itself = |fraction: f64| {
             let positions = all_between(&flat.positions, &end.positions, fraction);
             let mesh = ProximityMesh::new(&positions, &flat.triangles).unwrap();
             earliest_self_impact(&mesh.at_rest(), 1e-8).unwrap().is_some()
         };
-        let until = found.map_or(1.0, |impact| impact.fraction);
-        assert!((0..50).all(|k| !meets_itself(until * f64::from(k) / 50.0)), "{found:?}");
-        if let Some(impact) = found {
+        let until = first_impact.map_or(1.0, |impact| impact.fraction);
+        assert!((0..50).all(|k| !meets_itself(until * f64::from(k) / 50.0)), "{first_impact:?}");
+        if let Some(impact) = first_impact {
             met += 1;
             let after = all_between(&flat.positions, &end.positions, impact.fraction + 1e-8);
             let place = |vertex: u32| after[vertex as usize];

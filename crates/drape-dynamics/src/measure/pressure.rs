@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::measure::vector::distance;
-use crate::world::World;
+use crate::world::{ALL_PARTICLES, World};
 
 /// Pressure above which a particle counts as touched, in Pa: a hundredth of the weight of a light
 /// weave.
@@ -22,7 +22,8 @@ struct Touched {
 pub(crate) fn at_particles(world: &mut World, positions: &[f64]) -> Option<Vec<f64>> {
     let surfaces = world.contact.surfaces_mut()?;
     let mut forces = vec![0.0; positions.len()];
-    surfaces.contact.energy(positions).ok()?.add_forces(&mut forces).ok()?;
+    let mut energy = surfaces.contact.energy(positions).expect(ALL_PARTICLES);
+    energy.add_forces(&mut forces).expect(ALL_PARTICLES);
     let areas = world.cloth.areas();
     let sizes = forces.as_chunks::<3>().0.iter().map(|force| distance(*force, [0.0; 3]));
     Some(sizes.zip(areas).map(|(size, area)| size / area).collect())

@@ -11,7 +11,7 @@ fn tables() -> String {
 
 /// Displacement of the ball by 1 cm.
 const LIFT: BodyTarget =
-    BodyTarget::Rigid(Displacement { shift: [0.0, 0.01, 0.0], ..Displacement::default() });
+    BodyTarget::Rigid(Displacement { shift: [0.0, 0.01, 0.0], turn: [0.0; 3], center: None });
 
 /// Time of the displacement at 2 m/s, in s.
 const SECONDS: f64 = 0.005;
