@@ -36,6 +36,9 @@ fn a_pattern_goes_to_toml_to_a_drawing_to_pages_and_back() {
     let back = run(&["convert", "teagan.svg"]);
     assert!(text(&back.stdout).contains("[panel.\"teagan.front\"]"), "{}", text(&back.stdout));
     run(&["check", "teagan.svg", "--spacing", "20"]);
+    let dxf = run(&["convert", "teagan.toml", "-o", "teagan.dxf"]);
+    assert!(text(&dxf.stderr).is_empty(), "{}", text(&dxf.stderr));
+    run(&["check", "teagan.dxf", "--spacing", "20"]);
     let pages = run(&["convert", "teagan.toml", "-o", "print.svg", "--paper", "a4"]);
     let pages = text(&pages.stdout);
     assert!(pages.contains("print-A1.svg") && pages.lines().count() > 8, "{pages}");

@@ -408,6 +408,14 @@ pub(crate) fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
+/// Returns the distance of `point` from the segment from `from` to `to`, in m.
+pub(crate) fn distance_from_segment(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let (chord, arm) = (difference(to, from), difference(point, from));
+    let square = (chord[0] * chord[0] + chord[1] * chord[1]).max(f64::MIN_POSITIVE);
+    let t = ((arm[0] * chord[0] + arm[1] * chord[1]) / square).clamp(0.0, 1.0);
+    distance(point, [from[0] + t * chord[0], from[1] + t * chord[1]])
+}
+
 /// Returns the distance between `a` and `b`.
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])

@@ -50,4 +50,4 @@ pub use pattern::seam::{EdgeId, Seam};
 pub use read::pattern_schema;
 pub use read::{PatternTable, Request, SeamKeys, Unit};
 pub use sketch::{Sketch, SketchFault};
-pub use write::{Page, Paper, figure, seam_colour};
+pub use write::{DxfDrawing, Page, Paper, figure, seam_colour};

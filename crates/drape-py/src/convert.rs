@@ -25,21 +25,24 @@ pub(crate) struct Conversion {
     size: Option<String>,
     paper: Option<String>,
     width: Option<f64>,
+    /// Name of a pattern in DXF.
+    style: String,
 }
 
 /// Text of a file that a conversion gives, and what its name has beside that which is asked for.
 type NamedText = (String, String);
 
-/// Converts a pattern to TOML or to a drawing; returns the files, and the notes on what was taken.
+/// Converts the pattern at `path` to a file of the kind `kind`: `"pattern"` is TOML, `"drawing"` SVG,
+/// `"dxf"` DXF. Returns the files, and the notes on what was taken and what is missing.
 #[pyfunction]
 pub(crate) fn convert_pattern(
     path: PathBuf,
-    is_drawing: bool,
+    kind: &str,
     conversion: Conversion,
 ) -> PyResult<(Vec<NamedText>, Vec<String>)> {
     FileKind::expect(&path, &PATTERNS).map_err(|mistakes| input(&mistakes))?;
-    conversion.check(is_drawing)?;
-    let Conversion { unit, size, paper, width } = conversion;
+    conversion.check(kind == "drawing")?;
+    let Conversion { unit, size, paper, width, style } = conversion;
     let unit = unit.map(|word| {
         let known = Unit::parse(&word);
         known.ok_or_else(|| usage(format!("unit={word:?}: it is mm, cm, m, in, pt or px")))
@@ -49,15 +52,21 @@ pub(crate) fn convert_pattern(
         Error::Input(mistakes) => input(&mistakes),
         other => mistake(Diagnostic::new(&path, other.to_string())),
     })?;
-    let files = match (is_drawing, paper) {
-        (false, _) => vec![(String::new(), pattern.to_toml(&heading(&path)))],
-        (true, None) => vec![(String::new(), pattern.to_svg(width))],
-        (true, Some(word)) => {
+    let mut notes: Vec<String> = pattern.notes().iter().map(ToString::to_string).collect();
+    let files = match (kind, paper) {
+        ("drawing", None) => vec![(String::new(), pattern.to_svg(width))],
+        ("drawing", Some(word)) => {
             let pages = pattern.to_pages(paper_of(&word)?).into_iter();
             pages.map(|page| (format!("-{}", page.name), page.svg)).collect()
         }
+        ("dxf", _) => {
+            let drawing = pattern.to_dxf(&style);
+            notes.extend(drawing.notes.iter().map(ToString::to_string));
+            vec![(String::new(), drawing.text)]
+        }
+        _ => vec![(String::new(), pattern.to_toml(&heading(&path)))],
     };
-    Ok((files, pattern.notes().iter().map(ToString::to_string).collect()))
+    Ok((files, notes))
 }
 
 /// Drafts the sheet of a folder of exports, for a place beside which its files are named; returns

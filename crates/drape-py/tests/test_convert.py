@@ -53,8 +53,16 @@ def test_a_pattern_is_drawn_whole_and_on_pages(skirt, command, tmp_path):
             drape.convert(skirt, tmp_path / "wrong.svg", **wrong)
     with pytest.raises(drape.UsageError, match="svg"):
         drape.convert(skirt, paper="a4")
-    with pytest.raises(drape.UsageError, match=r"\*.toml or \*.svg"):
+    with pytest.raises(drape.UsageError, match=r"\*.toml, \*.svg or \*.dxf"):
         drape.convert(skirt, tmp_path / "skirt.pdf")
+
+
+def test_a_pattern_goes_to_dxf_as_by_the_command(skirt, command, tmp_path):
+    written = drape.convert(skirt, tmp_path / "skirt.dxf")
+    assert written.kind == "dxf" and any("seams" in note for note in written.notes)
+    (tmp_path / "by_command").mkdir()
+    told(command, skirt, "-o", "by_command/skirt.dxf", cwd=tmp_path)
+    assert (tmp_path / "by_command/skirt.dxf").read_bytes() == (tmp_path / "skirt.dxf").read_bytes()
 
 
 def test_a_folder_of_exports_becomes_a_sheet(exports, command, tmp_path):

@@ -2,7 +2,7 @@
 //!
 //! [`sheet`] drafts sheets from workbooks, tables and the exports of instruments. [`pattern`]
 //! converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and any of them to SVG for a
-//! plotter or for pages of paper.
+//! plotter or for pages of paper, and to DXF.
 
 mod arguments;
 mod pattern;

@@ -11,7 +11,7 @@
 //! curve would bulge between points that are far apart. A chord that is much longer than its
 //! neighbours is a straight part, and a sharp turn is a corner.
 
-use crate::edge::{Curve, Edge, difference, distance, turning_angle};
+use crate::edge::{Curve, Edge, difference, distance, distance_from_segment, turning_angle};
 
 /// Largest distance of a point from the curve, in m.
 pub(crate) const TOLERANCE: f64 = 5e-5;
@@ -247,14 +247,6 @@ fn within_chords(
         }
     }
     if most <= limit { Ok(most) } else { Err(Misfit::Chord(worst)) }
-}
-
-/// Returns the distance of `point` from the segment from `from` to `to`, in m.
-pub(crate) fn distance_from_segment(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
-    let (chord, arm) = (difference(to, from), difference(point, from));
-    let square = (chord[0] * chord[0] + chord[1] * chord[1]).max(f64::MIN_POSITIVE);
-    let t = ((arm[0] * chord[0] + arm[1] * chord[1]) / square).clamp(0.0, 1.0);
-    distance(point, [from[0] + t * chord[0], from[1] + t * chord[1]])
 }
 
 /// Returns the two inner control points of the cubic curve from the first to the last of `points`

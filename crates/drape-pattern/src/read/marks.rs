@@ -1,7 +1,6 @@
 //! Marks on panels that other formats draw: grain lines, folds, notches.
 
-use super::fit::distance_from_segment;
-use crate::edge::{Curve, Edge, cross, difference, distance, dot};
+use crate::edge::{Curve, Edge, cross, difference, distance, distance_from_segment, dot};
 use crate::note::PatternNote;
 use crate::polygon::{contains, range};
 

@@ -58,7 +58,7 @@ impl PatternSheet {
 }
 
 /// Returns the bounding box of `panel`, in mm with y up.
-fn extent(panel: &Panel) -> Extent {
+pub(crate) fn extent(panel: &Panel) -> Extent {
     let points = panel.outline().iter().flat_map(Edge::polyline);
     let start = [[f64::MAX; 2], [f64::MIN; 2]];
     points.fold(start, |[low, high], p| {

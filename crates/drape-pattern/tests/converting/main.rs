@@ -4,6 +4,7 @@ mod added;
 mod chords;
 mod drawings;
 mod dxf;
+mod dxf_out;
 mod dxf_text;
 mod hidden;
 

@@ -12,15 +12,18 @@ from ._given import StrPath, path_of
 # Name of a sheet in its folder.
 _SHEET = "sheet.toml"
 
+# Kinds of the files of patterns, by their endings.
+_KINDS = {".toml": "pattern", ".svg": "drawing", ".dxf": "dxf"}
+
 
 @dataclass(frozen=True)
 class Converted:
     """What a conversion gave."""
 
     kind: str
-    """`"pattern"`, `"drawing"` or `"sheet"`."""
+    """`"pattern"`, `"drawing"`, `"dxf"` or `"sheet"`."""
     text: str
-    """Text of the result: TOML, or SVG of a drawing, the first page where there are several."""
+    """Text of the result: TOML, DXF, or SVG of a drawing, the first page where there are several."""
     files: list[Path] = field(default_factory=list)
     """Files that were written."""
     notes: list[str] = field(default_factory=list)
@@ -44,7 +47,8 @@ def convert(
 
     `source` is a pattern, `*.json` of GarmentCode or FreeSewing, `*.svg`, `*.dxf` or `*.toml`, or a
     folder with the exports of a laboratory's instruments, which become a sheet. Without `to` nothing is
-    written. `to` is a `*.toml`, for a sheet its folder too, or for a pattern a `*.svg`, at true scale.
+    written. `to` is a `*.toml`, for a sheet its folder too, or for a pattern a `*.svg`, at true scale, or
+    a `*.dxf` (AAMA, ASTM D6673).
 
     `unit` is that of a drawing that states none, `size` one of a graded DXF; `paper`, such as `"a4"`,
     divides a drawing into pages, and `width`, in mm, is that of a plotter's roll. `replace` lets it
@@ -56,15 +60,16 @@ def convert(
     if path.is_dir():
         return _sheet(path, target, [name for name, value in options.items() if value is not None], replace)
     ending = "" if target is None else target.suffix.lower()
-    if target is not None and ending not in (".toml", ".svg"):
-        raise UsageError(f"{target}: patterns are written as *.toml or *.svg")
-    is_drawing = ending == ".svg"
-    files, notes = _drape.convert_pattern(path, is_drawing, options)
+    if target is not None and ending not in _KINDS:
+        raise UsageError(f"{target}: patterns are written as *.toml, *.svg or *.dxf")
+    kind = _KINDS.get(ending, "pattern")
+    style = "" if target is None else target.stem
+    files, notes = _drape.convert_pattern(path, kind, {**options, "style": style})
     written: list[Path] = []
     if target is not None:
         named = {target.with_stem(target.stem + part): text for part, text in files}
         written = _write(named, replace)
-    return Converted("drawing" if is_drawing else "pattern", files[0][1], written, notes)
+    return Converted(kind, files[0][1], written, notes)
 
 
 def _sheet(folder: Path, to: Path | None, options: list[str], replace: bool) -> Converted:

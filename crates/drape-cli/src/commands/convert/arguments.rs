@@ -11,9 +11,9 @@ pub(crate) struct ConvertArguments {
     /// or another table, a .zip, or a folder with the exports of instruments.
     #[arg(required = true, value_name = "FROM")]
     pub(crate) from: Vec<PathBuf>,
-    /// File to write: *.toml, or *.svg for a drawing at true scale; for measurements a sheet.toml,
-    /// or its folder, and a folder where they are of several fabrics; without it, or with -, TOML
-    /// on stdout.
+    /// File to write: *.toml, *.svg for a drawing at true scale, or *.dxf for a program of pattern
+    /// makers; for measurements a sheet.toml, or its folder, and a folder where they are of several
+    /// fabrics; without it, or with -, TOML on stdout.
     #[arg(short, long, value_name = "TO")]
     pub(crate) output: Option<PathBuf>,
     /// The fabric to take of tables that hold several.

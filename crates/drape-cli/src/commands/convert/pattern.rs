@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape::input::{Diagnostic, Diagnostics};
-use drape::pattern::{Error, Paper, Pattern, Request, Unit};
+use drape::pattern::{Error, Paper, Pattern, PatternNote, Request, Unit};
 
 use super::arguments::ConvertArguments;
 use crate::console::print_message;
@@ -29,7 +29,7 @@ pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), F
 
     let files = target.files(from, &pattern);
     if let ConversionTarget::Text(None) = target {
-        print_notes(&pattern);
+        print_notes(pattern.notes());
         return say(files.iter().map(|file| file.content.trim_end()).collect::<String>());
     }
 
@@ -43,8 +43,9 @@ pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), F
         return Err(Failure::Usage(message));
     }
 
-    print_notes(&pattern);
+    print_notes(pattern.notes());
     for file in &files {
+        print_notes(&file.notes);
         file::write(&file.path, &file.content)?;
         say(format_args!("written to {}", file.path.display()))?;
     }
@@ -59,12 +60,23 @@ enum ConversionTarget {
     Drawing(PathBuf, Option<f64>),
     /// Drawings on pages of paper.
     Pages(PathBuf, Paper),
+    /// DXF for programs of pattern makers.
+    Dxf(PathBuf),
 }
 
 /// File to be written.
 struct OutputFile {
     path: PathBuf,
     content: String,
+    /// What the pattern has and this file cannot say.
+    notes: Vec<PatternNote>,
+}
+
+impl OutputFile {
+    /// Returns the file at `path` with `content`, which says all of the pattern.
+    fn new(path: PathBuf, content: String) -> Self {
+        Self { path, content, notes: Vec::new() }
+    }
 }
 
 impl ConversionTarget {
@@ -79,10 +91,13 @@ impl ConversionTarget {
                 let message = "--paper and --width are for a drawing: write it with -o NAME.svg";
                 return Err(Failure::Usage(message.into()));
             }
+            let is = |known: &str| ending.as_ref().is_some_and(|ending| ending == known);
             return match output {
-                Some(path) if ending.is_none_or(|ending| ending != "toml") => Err(Failure::Usage(
-                    format!("-o {}: patterns are written as *.toml or *.svg", path.display()),
-                )),
+                Some(path) if is("dxf") => Ok(Self::Dxf(path.clone())),
+                Some(path) if !is("toml") => Err(Failure::Usage(format!(
+                    "-o {}: patterns are written as *.toml, *.svg or *.dxf",
+                    path.display()
+                ))),
                 output => Ok(Self::Text(output.cloned())),
             };
         };
@@ -118,20 +133,27 @@ impl ConversionTarget {
                     env!("CARGO_PKG_VERSION")
                 );
                 let path = path.clone().unwrap_or_default();
-                vec![OutputFile { path, content: pattern.to_toml(&heading) }]
+                vec![OutputFile::new(path, pattern.to_toml(&heading))]
+            }
+
+            Self::Dxf(path) => {
+                let style = path.file_stem().unwrap_or_default().to_string_lossy();
+                let drawing = pattern.to_dxf(&style);
+                let (content, notes) = (drawing.text, drawing.notes);
+                vec![OutputFile { path: path.clone(), content, notes }]
             }
 
             Self::Drawing(path, width) => {
-                vec![OutputFile { path: path.clone(), content: pattern.to_svg(*width) }]
+                vec![OutputFile::new(path.clone(), pattern.to_svg(*width))]
             }
 
             Self::Pages(path, paper) => {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 let pages = pattern.to_pages(*paper).into_iter();
                 pages
-                    .map(|page| OutputFile {
-                        path: path.with_file_name(format!("{stem}-{}.svg", page.name)),
-                        content: page.svg,
+                    .map(|page| {
+                        let name = format!("{stem}-{}.svg", page.name);
+                        OutputFile::new(path.with_file_name(name), page.svg)
                     })
                     .collect()
             }
@@ -148,7 +170,7 @@ fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
     }
 }
 
-/// Prints the notes of `pattern`, which the TOML contains as well.
-fn print_notes(pattern: &Pattern) {
-    pattern.notes().iter().for_each(|note| print_message(format_args!("note: {note}")));
+/// Prints `notes` on a pattern or on the file that is written.
+fn print_notes(notes: &[PatternNote]) {
+    notes.iter().for_each(|note| print_message(format_args!("note: {note}")));
 }

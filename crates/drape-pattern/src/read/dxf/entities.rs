@@ -3,6 +3,7 @@
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 use super::pairs::Pair;
+use super::text::decoded;
 use crate::edge::{Curve, Edge};
 
 /// Largest coordinate, in the unit of the file; beyond it the file is damaged.
@@ -147,7 +148,7 @@ fn entity(document: &Document, open: &OpenEntity<'_>) -> Result<Entity, Diagnost
         }
         "POINT" => Form::Point([get(10)?, get(20)?]),
         "TEXT" | "MTEXT" => {
-            Form::Text(value(1).map(|pair| pair.value.to_owned()).unwrap_or_default())
+            Form::Text(value(1).map(|pair| decoded(pair.value)).unwrap_or_default())
         }
         "ARC" => {
             let (centre, radius) = ([get(10)?, get(20)?], get(40)?);

@@ -4,12 +4,12 @@ use drape_input::{Diagnostic, Document, Subject};
 
 use super::entities::{Block, Form, field, layer, texts};
 use super::slit::{close_slits, drop_specks};
-use crate::edge::{Curve, Edge, difference, distance, turning_angle};
+use crate::edge::{Curve, Edge, difference, distance, distance_from_segment, turning_angle};
 use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::read::chains::joined;
 use crate::read::diagnostic::diagnostic;
-use crate::read::fit::{TURN, distance_from_segment, fitted};
+use crate::read::fit::{TURN, fitted};
 use crate::read::marks::{add_notch, grain_angle, low_corner, says_on_fold, unfold};
 use crate::read::size::wrong_size;
 use crate::read::unit::Unit;

@@ -5,8 +5,7 @@
 //! itself there. The line is therefore closed over the mouth, and the middle of the mouth becomes a
 //! notch.
 
-use crate::edge::{Curve, Edge, difference, distance, turning_angle};
-use crate::read::fit::distance_from_segment;
+use crate::edge::{Curve, Edge, difference, distance, distance_from_segment, turning_angle};
 
 /// Widest mouth of a slit, in m.
 const SLIT: f64 = 1.5e-3;
