@@ -70,6 +70,39 @@ impl Fabric {
     }
 }
 
+impl TractionLaw {
+    /// Returns a [`Problem`] for every number outside its admissible range, with keys such as
+    /// `traction.buckling.strain`.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut check = Checker(Vec::new());
+        check.traction("traction", self);
+        check.0
+    }
+}
+
+impl BendingLaw {
+    /// Returns a [`Problem`] for every number outside its admissible range, with keys such as
+    /// `bending.rigidity`.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut check = Checker(Vec::new());
+        check.bending("bending", self);
+        check.0
+    }
+}
+
+impl ShearLaw {
+    /// Returns a [`Problem`] for every number outside its admissible range, with keys such as
+    /// `shear.stiffness`.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut check = Checker(Vec::new());
+        check.shear(self);
+        check.0
+    }
+}
+
 /// Collector of the problems of a fabric.
 struct Checker(Vec<Problem>);
 

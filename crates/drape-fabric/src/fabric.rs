@@ -15,6 +15,9 @@ pub const SURFACE_FRICTION: f64 = 0.2;
 
 /// Woven fabric: all material data of a simulation, in SI units.
 ///
+/// A fabric and its laws are data of serde. Their keys in JSON, and in other formats that describe
+/// themselves, are the keys of `fabric.toml`. A number out of range is refused while it is read.
+///
 /// ```
 /// use drape_fabric::Fabric;
 /// use drape_input::Document;

@@ -1,12 +1,14 @@
 //! The TOML form of a fabric: structs with the keys of the file, and conversions in both
 //! directions. Only this chapter knows the keys: `traction`, `bending` and `shear` have the keys of
 //! the laws, `friction`, `piecewise` and `varying` the keys of tables that several laws use.
+//! `stored` gives fabrics and laws the same keys in other formats of serde.
 
 mod bending;
 mod friction;
 mod piecewise;
 mod report;
 mod shear;
+mod stored;
 mod traction;
 mod varying;
 

@@ -30,7 +30,8 @@ use weighting::Weighting;
 /// };
 /// assert_eq!(settings.shear, None);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct FitSettings {
     /// Elastic load of the traction laws.
     pub traction: Option<TractionModel>,
@@ -72,7 +73,8 @@ impl FitSettings {
 }
 
 /// Method for the intervals of the parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Intervals {
     /// From the standard errors: valid where the law is nearly linear over them.
     #[default]

@@ -291,3 +291,34 @@ fn a_curve_of_few_points_gives_a_law_of_few_parameters_or_an_error() {
     let text = refused.expect_err("two points").to_string();
     assert!(text.contains(": a law needs 4 points, and there are 2;"), "{text}");
 }
+
+#[test]
+fn settings_and_fits_have_a_json_form_with_the_names_of_the_project() {
+    let settings = FitSettings {
+        bending: Some(LoopModel::Linear(FrictionOrder::TwoElements)),
+        ..FitSettings::default()
+    };
+    let json = serde_json::to_value(settings).expect("it has a JSON form");
+    assert_eq!((&json["bending"], &json["intervals"]), (&"two-elements".into(), &"wald".into()));
+    assert_eq!(serde_json::from_value::<FitSettings>(json).expect("it is right"), settings);
+    let some = serde_json::from_str::<FitSettings>(r#"{"shear":"varying"}"#).expect("it is right");
+    assert_eq!(some, FitSettings { shear: Some(LoopModel::Varying), ..FitSettings::default() });
+
+    let angles: Vec<f64> = (0..=40).chain((-40..40).rev()).map(|i| 0.003 * f64::from(i)).collect();
+    let forces = angles.iter().map(|angle| 30.0 * angle.sin()).collect();
+    let curve = Curve::new(Test::Shear, Direction::Weft, angles, forces).expect("it moves");
+    let identified = identify_shear(&curve, &settings).expect("a law");
+    let json = serde_json::to_value(&identified).expect("it has a JSON form");
+    assert_eq!(
+        (&json["fit"]["test"], &json["fit"]["direction"]),
+        (&"shear".into(), &"weft".into())
+    );
+    let stiffness = identified.law.backbone;
+    let drape_fabric::ShearBackbone::Linear { stiffness } = stiffness else { panic!("a line") };
+    assert_eq!(json["law"]["stiffness"], stiffness);
+    assert!(
+        json["fit"]["values"]
+            .as_array()
+            .is_some_and(|all| all.iter().any(|v| v["symbol"] == "2HG5"))
+    );
+}

@@ -28,6 +28,7 @@ pub type Loads = [f64; 2];
 /// assert!((load(10.0) - 0.6).abs() < 1e-12, "and settles");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BlimanSorine {
     /// The two elements. An element with a plateau of zero has no effect.
     pub elements: [Dahl; 2],

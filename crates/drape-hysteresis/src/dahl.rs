@@ -36,6 +36,7 @@ use crate::slip::Slip;
 /// assert!((element.advance(0.0, 200.0) - 6e-4).abs() < 1e-18);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dahl {
     /// Coulomb plateau `$F_c$`, in the unit of the load. Zero switches the element off. Only the
     /// slow element of a second-order model has a negative plateau.

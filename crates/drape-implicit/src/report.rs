@@ -5,7 +5,7 @@ use core::ops::AddAssign;
 
 /// Work done by one call of [`Stepper::advance`](crate::Stepper::advance), rejected attempts
 /// included.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct Report {
     /// Accepted sub-steps: 1 unless the step was divided.
@@ -74,7 +74,7 @@ impl AddAssign<&Report> for Report {
 /// In sampled sub-steps every entry is computed independently. The balance closes,
 /// `work = kinetic + potential + numerical_dissipation`, if the forces are the negative gradient of
 /// the potential.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepEnergy {
     /// Increase of the kinetic energy, in J.
     pub kinetic: f64,

@@ -7,7 +7,8 @@ use crate::error::Error;
 /// Both formulas solve `$M\,(x - \tilde x)/(\beta\,\mathrm{dt})^2 = f(x)$` for the end positions.
 /// The formulas differ in `$\beta$` and in the prediction `$\tilde x$`. Both are stable for steps
 /// of any length, and damp oscillations that the step is too long to resolve.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// Backward Euler: first order, `β = 1` (\[NB04\] eq. 6). Every motion is damped: an
     /// oscillation of angular frequency `ω` by a factor of `1/√(1 + ω²dt²)` per step.
@@ -24,7 +25,8 @@ pub enum Integrator {
 }
 
 /// Method that solves the equations of a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Newton's method with fewer system matrices. Each matrix is kept for a few iterations, in
     /// which Broyden's rank-one updates improve the inverse. A line search safeguards the first
@@ -45,7 +47,8 @@ pub enum Method {
 }
 
 /// Initial matrix of textbook Broyden.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum InitialMatrix {
     /// Inertia `M/(β dt)²`.
     #[default]
@@ -55,7 +58,8 @@ pub enum InitialMatrix {
 }
 
 /// Solver of linear systems with the system matrix.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LinearSolver {
     /// Conjugate gradients with an incomplete block Cholesky preconditioner. This solver needs
     /// little memory, and is the faster solver unless the step is very long.
@@ -76,7 +80,8 @@ pub enum LinearSolver {
 /// assert_eq!(settings.check(), Ok(()));
 /// assert!(Settings { tolerance: 0.0, ..settings }.check().is_err());
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Settings {
     /// Formula of the step. Default: second-order backward differentiation.
     pub integrator: Integrator,

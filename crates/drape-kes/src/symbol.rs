@@ -32,6 +32,13 @@ pub enum Symbol {
     Em,
 }
 
+impl serde::Serialize for Symbol {
+    /// Writes the symbol as laboratories write it.
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
 impl Symbol {
     /// All symbols, in the order in which laboratories print them.
     pub const ALL: [Self; 9] = [

@@ -1,6 +1,6 @@
 //! Tests and directions of a measurement.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Test that a curve comes from, which fixes the meaning of deformation and load.
 ///
@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// | shear | shear angle, in rad | force, in N/m |
 /// | bending | curvature, in 1/m | moment, in N |
 /// | loop bending | clamp distance over specimen length, minus one | force, in N/m |
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Test {
     /// Stretching of a strip along its yarns (KES-FB1).
@@ -71,7 +71,7 @@ impl Test {
 }
 
 /// Yarns along which a strip was cut and loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
     /// Along the loom.

@@ -8,7 +8,9 @@ use crate::problem::{Parameter, Problem};
 
 /// Reason why an input is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum InvalidInput {
     /// Lower bound above the upper bound.
     ReversedBounds,

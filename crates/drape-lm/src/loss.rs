@@ -16,6 +16,8 @@
 /// assert!(loss.weight(0.1) == 1.0 && loss.weight(40.0) < 0.01);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Loss {
     /// Least squares: `$\rho = u$`.
     #[default]

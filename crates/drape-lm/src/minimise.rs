@@ -63,6 +63,8 @@ const POLISH_STEPS: usize = 12;
 /// assert!(settings.polish);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct MinimiserSettings {
     /// Relative reduction of the sum at which to stop. Both the actual reduction by a step and the
     /// reduction that the linear model predicts must be this small.
@@ -97,6 +99,8 @@ impl Default for MinimiserSettings {
 
 /// Reason why the iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Stop {
     /// Convergence: the sum no longer falls.
     Reduction,
@@ -149,6 +153,7 @@ pub struct Iteration<'a> {
 
 /// Result of a minimisation.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Best parameters found.
     pub parameters: Vec<f64>,

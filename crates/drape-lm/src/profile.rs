@@ -28,6 +28,8 @@ const FIT_TOLERANCE: f64 = 1e-10;
 /// assert_eq!(settings.minimiser, drape_lm::MinimiserSettings::default());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct ProfileSettings {
     /// Probability that an interval contains the true value, 0 to 1.
     pub level: f64,
@@ -44,7 +46,9 @@ impl Default for ProfileSettings {
 
 /// One end of an interval.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum End {
     /// Value at which the loss has risen to the level.
     At(f64),
@@ -74,6 +78,7 @@ impl End {
 
 /// Interval that contains the true parameter with the probability of its level.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interval {
     /// End below the estimate.
     pub lower: End,

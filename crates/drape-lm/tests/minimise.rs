@@ -343,3 +343,26 @@ fn input_that_is_no_number_is_refused_with_the_parameter_and_the_reason() {
     let bounded = Parameter::new(inf).with_scale(1.0).between(-2.0, 0.5);
     assert!(minimise(&line, &[bounded], &MinimiserSettings::default()).stop.converged());
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn settings_and_reports_come_back_from_json() {
+    let settings = MinimiserSettings {
+        loss: drape_lm::Loss::Huber { size: 0.25 },
+        iterations: 40,
+        ..MinimiserSettings::default()
+    };
+    let text = serde_json::to_string(&settings).expect("it has a JSON form");
+    assert!(text.contains(r#""loss":{"huber":{"size":0.25}}"#), "{text}");
+    assert_eq!(serde_json::from_str::<MinimiserSettings>(&text).expect("it is right"), settings);
+    // A setting that is missing has its default, and one that is unknown is refused.
+    let some: MinimiserSettings =
+        serde_json::from_str(r#"{"iterations":40}"#).expect("it is right");
+    assert_eq!(some, MinimiserSettings { iterations: 40, ..MinimiserSettings::default() });
+    assert!(serde_json::from_str::<MinimiserSettings>(r#"{"iteratons":40}"#).is_err());
+
+    let line = ResidualFunction::new(2, |p, r| r.copy_from_slice(&[p[0] - 1.0, p[0] + 1.25]));
+    let report = minimise(&line, &[Parameter::new(3.0)], &settings);
+    let text = serde_json::to_string(&report).expect("it has a JSON form");
+    assert_eq!(serde_json::from_str::<drape_lm::Report>(&text).expect("it is right"), report);
+}

@@ -34,7 +34,6 @@ use crate::pattern::Pattern;
 use crate::sketch::Sketch;
 use diagnostic::{foreign_file, syntax};
 
-pub(crate) use dxf::text::escaped;
 pub use request::Request;
 pub use seams::{PatternTable, SeamKeys};
 #[cfg(feature = "schema")]

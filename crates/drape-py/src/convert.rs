@@ -32,8 +32,8 @@ pub(crate) struct Conversion {
 /// Text of a file that a conversion gives, and what its name has beside that which is asked for.
 type NamedText = (String, String);
 
-/// Converts the pattern at `path` to a file of the kind `kind`: `"pattern"` is TOML, `"drawing"` SVG,
-/// `"dxf"` DXF. Returns the files, and the notes on what was taken and what is missing.
+/// Converts the pattern at `path` to a file of the kind `kind`: `"pattern"` is TOML, `"drawing"` is
+/// SVG, `"dxf"` is DXF. Returns the files, and notes on what was taken and what is missing.
 #[pyfunction]
 pub(crate) fn convert_pattern(
     path: PathBuf,

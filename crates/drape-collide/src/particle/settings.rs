@@ -4,7 +4,8 @@ use crate::barrier::Barrier;
 use crate::error::{Error, check};
 
 /// Activation distance, stiffness and slip speed of the contact of particles.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ParticleSettings {
     /// Activation distance `$\hat d$` from a body, in m.
     ///

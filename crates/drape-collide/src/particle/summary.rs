@@ -3,7 +3,7 @@
 use super::detection::{ActiveParticle, NearestBody};
 
 /// Counts, distances and loads of particles in contact with bodies.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ParticleSummary {
     /// Number of particles within the activation distance of at least one body.
     pub touching: usize,
@@ -20,7 +20,7 @@ pub struct ParticleSummary {
 }
 
 /// Particle with the smallest distance from a body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct NearestParticle {
     /// Number of the particle, from 0.
     pub particle: usize,

@@ -16,7 +16,7 @@ use crate::values::bending::bending_from_values;
 use crate::values::matched::Noted;
 
 /// Identified fabric, with the fits and assumptions that it comes from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Fit {
     /// Identified fabric.
     pub fabric: Fabric,

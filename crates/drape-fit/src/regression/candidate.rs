@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Law that was compared with others on one curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Candidate {
     /// Name of the law, in words.
     pub law: String,
@@ -62,7 +62,8 @@ impl Candidate {
 }
 
 /// Reason why a law was selected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Choice {
     /// It is the only law.
     Only,

@@ -34,7 +34,7 @@ use crate::settings::Intervals;
 /// assert!(stiffness.name == "stiffness" && (stiffness.value / 30.0 - 1.0).abs() < 1e-6);
 /// # Ok::<(), drape_fit::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct CurveFit {
     /// Name of the curve.
     pub name: String,
@@ -100,13 +100,15 @@ pub struct CurveFit {
     /// Branch of each point, from zero; a reversal belongs to the branch that it ends.
     pub branches: Vec<usize>,
     /// Covariances of the parameters; zero for those that are undetermined.
+    #[serde(skip)]
     pub(crate) covariance: DMatrix<f64>,
     /// Half width of a 95 % interval over the standard error.
+    #[serde(skip)]
     pub(crate) quantile: f64,
 }
 
 /// Law with its fit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Identified<L> {
     /// Identified law.
     pub law: L,

@@ -5,7 +5,7 @@ use std::fmt;
 use drape_kes::Symbol;
 
 /// Fitted parameter, in SI.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Estimate {
     /// Name of the parameter.
     pub name: &'static str,
@@ -32,7 +32,7 @@ impl Estimate {
 }
 
 /// KES value of a fitted law, beside the value that is read from the curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ValueEstimate {
     /// Symbol of the value.
     pub symbol: Symbol,
@@ -75,7 +75,8 @@ impl ValueEstimate {
 }
 
 /// Reason why a parameter has no standard error or no interval.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Undetermined {
     /// Fixed parameter.

@@ -1,6 +1,8 @@
 //! Laws that a curve can be fitted with.
 
 use drape_kes::Model;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Friction elements of a bending or shear law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,7 +23,8 @@ impl FrictionOrder {
 }
 
 /// Whether the plateau of a shear friction grows with the angle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Plateau {
     /// Same plateau at all angles \[NB04, eq. 5\].
     Constant,
@@ -84,8 +87,26 @@ impl From<Model> for LoopModel {
     }
 }
 
+impl Serialize for LoopModel {
+    /// Writes the name of [`LoopModel::law`].
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.law().name())
+    }
+}
+
+impl<'de> Deserialize<'de> for LoopModel {
+    /// Reads the name of a law, as [`Model::named`] does.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let names = Model::ALL.map(Model::name).join(", ");
+        let unknown = || D::Error::custom(format!("\"{word}\" is no law; the laws are: {names}"));
+        Model::named(&word).map(Self::from).ok_or_else(unknown)
+    }
+}
+
 /// Traction law that a tensile curve is fitted with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum TractionModel {
     /// Exponential toe that continues as its tangent, with friction that grows with the tension.
     #[default]
@@ -131,7 +152,8 @@ impl TractionModel {
 }
 
 /// Whether the toe, or the priming zone, becomes longer once the fabric has been stretched.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Toe {
     /// Toe of constant length.
     ///

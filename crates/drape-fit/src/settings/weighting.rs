@@ -11,7 +11,8 @@ use drape_kes::Curve;
 const HALF_WEIGHT: f64 = 0.2;
 
 /// Weights of the points of a curve in the fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Weighting {
     /// Weight `$1/(|q| + 0.2\,q_m)$` of a squared residual at the deformation `$q$`, with the
     /// largest deformation `$q_m$`.

@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::test::Test;
 
 /// Curvatures at which B and 2HB are read. Laboratories differ, so the curvatures are settings.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct BendingPoints {
     /// Curvatures between which B is the mean slope, in 1/m. The default is 0.5 and 1.5 cm⁻¹.
     pub slope: [f64; 2],
@@ -21,7 +22,8 @@ impl Default for BendingPoints {
 }
 
 /// Angles at which G, 2HG and 2HG5 are read.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ShearPoints {
     /// Angles between which G is the mean slope, in rad. The default is 0.5° and 2.5°.
     pub slope: [f64; 2],

@@ -4,14 +4,13 @@
 //! corners, 3 points of curves, 4 and 80 to 83 notches, 6 a fold, 7 the grain line, 8 lines inside,
 //! 11 cut-outs, 13 drill holes. Texts name the piece, its size, and the unit. `pairs` splits the
 //! file, `entities` collects its blocks, `piece` makes a panel of a block, `slit` makes notches of
-//! slits in a line, `text` decodes texts. The reader is written here because the `dxf` crate brings a tree of packages
+//! slits in a line. The reader is written here because the `dxf` crate brings a tree of packages
 //! for whole drawings, and keeps no line numbers for diagnostics.
 
 mod entities;
 mod pairs;
 mod piece;
 mod slit;
-pub(crate) mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
 

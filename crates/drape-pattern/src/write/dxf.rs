@@ -7,6 +7,7 @@
 
 use std::fmt::Write;
 
+use super::dxf_text::escaped;
 use super::grain_line::GrainLine;
 use super::layout::Rows;
 use super::number::millimetres;
@@ -16,7 +17,6 @@ use crate::length::Millimetres;
 use crate::note::PatternNote;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
-use crate::read::escaped;
 
 /// Largest distance of a curve from its chords, in m.
 const TOLERANCE: f64 = 1e-4;

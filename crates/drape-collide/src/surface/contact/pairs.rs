@@ -13,7 +13,7 @@ pub struct SurfacePairs<'a> {
 }
 
 /// Number and smallest distances of active pairs.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct SurfaceSummary {
     /// Number of pairs within their activation distance.
     pub touching: usize,

@@ -5,7 +5,8 @@ use crate::error::{Error, check};
 use crate::surface::geometry::{ContactDistances, THINNED_FRACTION};
 
 /// Stiffness, friction and pinch policy of the contact of surfaces.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
     /// Stiffness `$k$` per area, in N/m³.
     pub stiffness: f64,
@@ -21,7 +22,8 @@ pub struct SurfaceSettings {
 }
 
 /// Policy for cloth that bodies pinch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum PinchPolicy {
     /// A step that pinches cloth fails.
     #[default]

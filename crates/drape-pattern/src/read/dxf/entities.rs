@@ -3,8 +3,8 @@
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 use super::pairs::Pair;
-use super::text::decoded;
 use crate::edge::{Curve, Edge};
+use crate::write::decoded;
 
 /// Largest coordinate, in the unit of the file; beyond it the file is damaged.
 const FARTHEST: f64 = 1e9;
