@@ -136,6 +136,6 @@ pub(crate) fn message_path(path: &Path) -> &Path {
 }
 
 /// Returns the path from which the results of the file at `path` take their names.
-pub(crate) fn result_path(path: &Path) -> &Path {
+pub(crate) fn path_for_results(path: &Path) -> &Path {
     if is_standard(path) { Path::new("standard-input") } else { path }
 }

@@ -20,6 +20,9 @@ mod error;
 mod measure;
 mod panel;
 
+// Division of work among threads.
+mod threads;
+
 // Connectors in arrays, the kernels on them, and their memories.
 mod kernel;
 mod layout;

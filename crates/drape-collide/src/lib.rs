@@ -4,6 +4,9 @@
 mod error;
 mod vector;
 
+// Division of loops among threads.
+mod threads;
+
 // Bodies, and the files of their meshes.
 mod body;
 mod mesh_io;

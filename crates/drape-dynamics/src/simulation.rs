@@ -10,6 +10,7 @@
 
 pub(crate) mod body_prescription;
 pub(crate) mod coarser_grid;
+
 #[cfg(test)]
 mod contact_tests;
 pub(crate) mod pin_prescription;
@@ -37,7 +38,7 @@ use crate::measure::garment_parts::GarmentParts;
 use crate::measure::{fallen, note_slides};
 use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
-use crate::record::stopwatch::Stopwatch;
+use crate::record::stopwatch::{Stopwatch, thread_count};
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology;
 use crate::stepping::statistics::Statistics;
@@ -466,7 +467,7 @@ impl Simulation {
             simulated_seconds: self.time(),
             wall_seconds: self.stopwatch.wall_seconds(),
             cpu_seconds: self.stopwatch.cpu_seconds(),
-            threads: rayon::current_num_threads(),
+            threads: thread_count(),
             solver: self.statistics.solver(),
             energy: self.energy(),
             strain: Strain {

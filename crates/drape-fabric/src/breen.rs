@@ -150,7 +150,7 @@ impl BreenWork {
     /// `$2\cos\frac\theta2$` for the inner angle `$\theta$`: 0 for a straight yarn, 2 for a folded
     /// yarn.
     #[must_use]
-    pub fn of_chord(&self, spacing: f64, chord: f64) -> Work {
+    pub fn at_chord(&self, spacing: f64, chord: f64) -> Work {
         let [curvature, first, second] = curvature_of_chord(spacing, chord);
         let (moment, rigidity) = (self.bending.load(curvature), self.bending.tangent(curvature));
         Work {
@@ -162,7 +162,7 @@ impl BreenWork {
 
     /// Returns the work of shearing as a function of the `sine` of the angle. The work is even.
     #[must_use]
-    pub fn of_sine(&self, sine: f64) -> Work {
+    pub fn at_sine(&self, sine: f64) -> Work {
         let (size, end) = (sine.abs(), self.shear_end);
         let (onset, limit) = (end.sin(), SHEAR_LIMIT.sin());
         let (first, second) = if size <= onset {
@@ -325,17 +325,17 @@ mod tests {
         let spacing = 0.005;
         for angle in [3.1, 2.5, 1.2, 0.79, 0.78, 0.5, 0.1] {
             let chord = 2.0 * f64::cos(0.5 * angle);
-            let work = WORK.of_chord(spacing, chord).work;
+            let work = WORK.at_chord(spacing, chord).work;
             let exact = WORK.bending(spacing, angle);
             // Near a fold the angle is the root of a small difference.
             assert!((work / exact - 1.0).abs() < 1e-11, "{work} and {exact} at {angle}");
         }
         for angle in [-1.0, -0.3, -0.1, 0.0, 0.01, 0.14, 0.2, 1.04] {
-            let (work, exact) = (WORK.of_sine(f64::sin(angle)).work, WORK.shearing(angle));
+            let (work, exact) = (WORK.at_sine(f64::sin(angle)).work, WORK.shearing(angle));
             assert!((work - exact).abs() <= 1e-12 * exact, "{work} and {exact} at {angle}");
         }
         assert!(
-            WORK.of_sine(0.868).work.is_infinite() && WORK.of_sine(-0.9).first == f64::NEG_INFINITY
+            WORK.at_sine(0.868).work.is_infinite() && WORK.at_sine(-0.9).first == f64::NEG_INFINITY
         );
     }
 
@@ -351,10 +351,10 @@ mod tests {
             assert!((bend - second).abs() < 1e-6 * second.abs(), "{bend} and {second} at {at}");
         };
         for chord in [0.01, 0.3, 1.0, 1.8, 1.9, 1.99] {
-            check(&|chord| WORK.of_chord(0.005, chord), chord, 2.0 - chord);
+            check(&|chord| WORK.at_chord(0.005, chord), chord, 2.0 - chord);
         }
         for sine in [-0.8, -0.2, -0.1, 0.005, 0.05, 0.3, 0.6, 0.85] {
-            check(&|sine| WORK.of_sine(sine), sine, 0.867 - f64::abs(sine));
+            check(&|sine| WORK.at_sine(sine), sine, 0.867 - f64::abs(sine));
         }
     }
 

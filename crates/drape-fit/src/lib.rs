@@ -15,6 +15,7 @@
 
 mod error;
 mod settings;
+mod threads;
 // Loads of a law along a history.
 mod forward;
 // The regression of one curve.

@@ -30,6 +30,9 @@ mod error;
 mod report;
 mod settings;
 
+// Division of work among threads.
+mod threads;
+
 pub use error::{Error, Quantity};
 pub use integrator::error_estimate::ErrorEstimate;
 pub use integrator::explicit::Explicit;

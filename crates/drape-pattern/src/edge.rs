@@ -1,5 +1,7 @@
 //! Edges of outlines: lines, Bézier curves and circular arcs, with their lengths and areas.
 
+mod chords;
+
 use kurbo::{
     CubicBez, Line, ParamCurve, ParamCurveArclen, ParamCurveArea, PathSeg, Point, QuadBez,
 };

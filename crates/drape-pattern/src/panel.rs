@@ -345,6 +345,24 @@ impl Panel {
         &self.outline
     }
 
+    /// Returns the outline as a polygon whose sides stay within `tolerance`, in m, of its edges.
+    /// The points run anticlockwise, and the first is not repeated at the end.
+    ///
+    /// ```
+    /// use drape_input::Document;
+    /// use drape_pattern::Pattern;
+    ///
+    /// let text = "length = \"cm\"\n[panel.a]\ngrain = 0\nrectangle = [20, 30]\n";
+    /// let pattern = Pattern::parse(&Document::new("strip.toml", text))?;
+    /// let polygon = pattern.panels()[0].outline_points(1e-4);
+    /// assert_eq!(polygon, [[0.0, 0.0], [0.2, 0.0], [0.2, 0.3], [0.0, 0.3]]);
+    /// # Ok::<(), drape_input::Diagnostics>(())
+    /// ```
+    #[must_use]
+    pub fn outline_points(&self, tolerance: f64) -> Vec<[f64; 2]> {
+        self.outline.iter().flat_map(|edge| edge.chords(tolerance)).collect()
+    }
+
     /// Darts of the panel.
     #[must_use]
     pub fn darts(&self) -> &[Dart] {

@@ -190,13 +190,13 @@ pub(crate) fn check(
 /// been reported.
 fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
     let spec = checker.spec;
-    let mut known = BTreeSet::new();
+    let mut known_names = BTreeSet::new();
     let names = spec.panel.iter().map(|panel| panel.name.as_str());
-    let twice: BTreeSet<&str> = names.filter(|name| !known.insert(*name)).collect();
-    let mut known = BTreeSet::new();
+    let twice: BTreeSet<&str> = names.filter(|name| !known_names.insert(*name)).collect();
+    let mut placed_names = BTreeSet::new();
     for PlacedPanel { panel, .. } in placed {
         let name = panel.name.as_str();
-        if !twice.contains(name) && !known.insert(name) {
+        if !twice.contains(name) && !placed_names.insert(name) {
             let message = format!("there are two panels \"{}\"", excerpt(&panel.name));
             let help =
                 "give each its own name; the panels of a garment with a name are called NAME.PANEL";

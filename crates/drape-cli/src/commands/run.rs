@@ -139,7 +139,7 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<StoredRun, Failure
 /// Returns the folder for the results of `scene`. `scene_folder` is the folder that the scene
 /// itself names.
 fn folder(scene: &Path, arguments: &RunArguments, scene_folder: Option<&PathBuf>) -> PathBuf {
-    let name = input::result_path(scene).file_stem().unwrap_or_default();
+    let name = input::path_for_results(scene).file_stem().unwrap_or_default();
     match (&arguments.output, &arguments.scenes[..]) {
         (Some(folder), [_]) => folder.clone(),
         (Some(folder), _) => folder.join(name),

@@ -91,7 +91,7 @@ pub(crate) fn holds_tables(path: &Path) -> bool {
 /// Returns the name for the files of `sheet`: the name of its folder, or of the file if that is not
 /// `sheet.toml`.
 pub(crate) fn stem(sheet: &Path) -> String {
-    let sheet = input::result_path(sheet);
+    let sheet = input::path_for_results(sheet);
     let source = if sheet.file_name().is_some_and(|name| name == SHEET_FILE) {
         sheet.parent().filter(|folder| folder.file_name().is_some()).unwrap_or(sheet)
     } else {

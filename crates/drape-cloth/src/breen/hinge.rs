@@ -96,13 +96,13 @@ impl Hinge {
         let per_area = match self.measure {
             HingeMeasure::Chord { spacing } => {
                 let chord = pose.square.sqrt();
-                let of_chord = work.of_chord(spacing, chord);
-                let secant = secant(&of_chord, chord);
+                let chord_work = work.at_chord(spacing, chord);
+                let secant = secant(&chord_work, chord);
                 let bend =
-                    if chord > STRAIGHT { (of_chord.second - secant) / pose.square } else { 0.0 };
-                Work { work: of_chord.work, first: -secant, second: bend }
+                    if chord > STRAIGHT { (chord_work.second - secant) / pose.square } else { 0.0 };
+                Work { work: chord_work.work, first: -secant, second: bend }
             }
-            HingeMeasure::Cosine => work.of_sine(1.0 - 0.5 * pose.square),
+            HingeMeasure::Cosine => work.at_sine(1.0 - 0.5 * pose.square),
         };
         Work {
             work: per_area.work * self.size.area,
@@ -115,8 +115,8 @@ impl Hinge {
         let work = &works[self.size.work as usize];
         let square = self.pose(positions).square;
         let per_area = match self.measure {
-            HingeMeasure::Chord { spacing } => work.of_chord(spacing, square.sqrt()),
-            HingeMeasure::Cosine => work.of_sine(1.0 - 0.5 * square),
+            HingeMeasure::Chord { spacing } => work.at_chord(spacing, square.sqrt()),
+            HingeMeasure::Cosine => work.at_sine(1.0 - 0.5 * square),
         };
         per_area.work * self.size.area
     }
@@ -147,7 +147,7 @@ impl Hinge {
         let [first, second, mixed] = match (self.measure, definite) {
             (HingeMeasure::Chord { spacing }, true) => {
                 let chord = pose.square.sqrt();
-                let work = works[self.size.work as usize].of_chord(spacing, chord);
+                let work = works[self.size.work as usize].at_chord(spacing, chord);
                 pose.chord_hessian(&work, self.size.area)
             }
             (HingeMeasure::Cosine, true) => {

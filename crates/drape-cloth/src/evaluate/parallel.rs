@@ -3,6 +3,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crate::kernel::buffers::StripBuffers;
+use crate::threads::{join, thread_number};
 
 /// Buffers for each available thread.
 #[derive(Debug)]
@@ -30,7 +31,7 @@ impl BufferPool {
     /// of threads may have more threads than there are buffers, so the number of a thread is a
     /// hint.
     fn try_acquire(&self) -> Option<MutexGuard<'_, StripBuffers>> {
-        let thread = rayon::current_thread_index().unwrap_or(0) % self.0.len();
+        let thread = thread_number() % self.0.len();
         let (before, after) = self.0.split_at(thread);
         after.iter().chain(before).find_map(|buffers| match buffers.try_lock() {
             Ok(buffers) => Some(buffers),
@@ -71,7 +72,7 @@ pub(crate) fn for_each<P: Sync, O: Send>(
     if pool.0.len() > 1 && parts.len() > 1 {
         let (here, there) = parts.split_at(parts.len().div_ceil(2));
         let (output, later_output) = split(output, &here[0], &there[0]);
-        rayon::join(
+        join(
             || for_each(Parts { parts: here, pool }, output, split, work),
             || for_each(Parts { parts: there, pool }, later_output, split, work),
         );

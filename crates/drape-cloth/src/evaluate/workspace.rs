@@ -17,6 +17,7 @@ use crate::rim;
 use crate::rim::connectors::{Rim, RimShape};
 use crate::rim::stiffness::RimStiffness;
 use crate::state::State;
+use crate::threads::thread_count;
 
 /// Buffers for evaluating one cloth many times. Memory is allocated only by [`Cloth::workspace`].
 ///
@@ -63,7 +64,7 @@ impl Workspace {
         let lengths =
             cloth.strips.iter().map(|strip| strip.buffer_length(cloth.panels[strip.panel].margin));
         let buffers = StripBuffers::new(lengths.max().unwrap_or(0));
-        let threads = rayon::current_num_threads().min(cloth.strips.len());
+        let threads = thread_count().min(cloth.strips.len());
         Self {
             pool: BufferPool::new(&buffers, threads),
             sums: vec![0.0; cloth.strips.len() + cloth.rims.len()],

@@ -154,8 +154,8 @@ fn edge_gradients(
     gradients
 }
 
-/// Adds the gradients of its edges and the second differences of the moments to each particle's
-/// `forces`.
+/// Adds the forces of the connectors to `forces`: for each particle the loads of the edges that end
+/// at it, and the second differences of the bending moments along its yarns.
 #[inline(always)]
 fn sum_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [f64]) {
     let StripTrial { panel, strip, .. } = *trial;

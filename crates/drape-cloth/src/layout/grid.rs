@@ -73,9 +73,9 @@ pub(crate) struct Yarns {
     pub(crate) bending: BendingBatch,
     /// Second difference at the rest curvature of the bending law, in 1/m.
     pub(crate) rest_second_difference: f64,
-    /// Column of the areas of the segments, at their first point, in m².
+    /// Cloth area of each segment, in m², in a column with the entry at the segment's first point.
     pub(crate) segment_areas: Vec<f64>,
-    /// Column of the areas of the triples, at their middle point, in m².
+    /// Cloth area of each triple, in m², in a column with the entry at the triple's middle point.
     pub(crate) triple_areas: Vec<f64>,
     /// Column of the rest curvatures that folds add to the triples, at their middle point, in 1/m.
     /// The column is empty without folds.

@@ -1,7 +1,5 @@
 //! Contact of particles: the object that a solver holds.
 
-use rayon::prelude::*;
-
 use super::detection::{ActiveParticle, NearestBody, ParticleChunk};
 use super::friction::Friction;
 use super::settings::ParticleSettings;
@@ -9,6 +7,7 @@ use super::summary::{ParticleSummary, touching_particle_count};
 use crate::barrier::Barrier;
 use crate::body::{Body, BodyFrame, Pose, SignedDistance, Solid};
 use crate::error::{Error, check, check_index, check_length};
+use crate::threads::*;
 use crate::vector::{Vector, at, combine, dot, outer};
 
 /// Contact of cloth particles with rigid bodies: potential, forces and stiffness.

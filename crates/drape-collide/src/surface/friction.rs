@@ -14,8 +14,8 @@
 //! Stretch beyond `$\delta$` is lost when the step ends. Friction that depends on speed creeps
 //! under any load. Here a load below Coulomb's limit comes to rest.
 //!
-//! [`contact`](super::contact) opens the friction of a step, evaluates it at trial positions and
-//! keeps the stretches when the step is accepted.
+//! [`contact`](super::contact) sets up the friction when a step begins, and evaluates it at trial
+//! positions. When the step is accepted, it stores the tangential displacement `$e$` of each pair.
 
 use serde::{Deserialize, Serialize};
 

@@ -49,7 +49,8 @@ pub struct Pair {
     /// Threshold `$\epsilon$` of `$|e_1 \times e_2|^2$` below which two edges count as parallel, in
     /// m⁴. It is 0 for a vertex and a triangle.
     pub parallel: f64,
-    /// Lower bound of the distance on the trajectories of the detection, in m.
+    /// Lower bound of the distance between the two primitives along the motion that the detection
+    /// searched, in m.
     pub distance: f64,
 }
 

@@ -71,3 +71,12 @@ fn processor_seconds() -> Option<f64> {
 fn processor_seconds() -> Option<f64> {
     None
 }
+
+/// Returns the number of threads that a step may use.
+pub(crate) fn thread_count() -> usize {
+    #[cfg(feature = "rayon")]
+    let count = rayon::current_num_threads();
+    #[cfg(not(feature = "rayon"))]
+    let count = 1;
+    count
+}

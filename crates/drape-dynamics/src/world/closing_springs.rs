@@ -22,8 +22,8 @@ const NEARLY_CLOSED_AFTER: f64 = 1.1;
 /// Gap to which the springs close a seam, in m. It is larger than the deviation of a spring.
 const CLOSING: f64 = 0.2 * CLOSED;
 
-/// Gap to which stiffened springs are to close a seam, in m. When the sides of a wider gap are
-/// merged, the cloth moves farther than the distance that contact keeps to bodies.
+/// Gap to which stiffened springs are to close a seam, in m. If the sides of a gap wider than this
+/// were merged, the cloth would move by more than the contact distance, and could enter a body.
 const CLOSED_STRETCHED: f64 = 0.1 * CLOSED;
 
 /// Multiple of the sewing time after which a seam that is still open ends the run.

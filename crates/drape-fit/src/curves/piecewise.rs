@@ -73,7 +73,7 @@ fn starts(first: &Curve) -> Result<Vec<Vec<NamedParameter>>, Error> {
     Ok(starts.into())
 }
 
-/// Returns the backbone with the parameters `p` of [`starts`].
+/// Returns the elastic curve with the parameters `p`, in the order of [`starts`].
 pub(crate) fn piecewise_backbone(p: &[f64]) -> Piecewise {
     Piecewise { slope: p[0], intercept: p[1], knot: p[2] }
 }

@@ -8,6 +8,7 @@ use drape_kes::Sheet;
 use crate::error::Error;
 use crate::fabric::identify::{Fit, identify_with};
 use crate::settings::FitSettings;
+use crate::threads::on_each_thread;
 
 /// Sheet of a batch with its fit.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +53,7 @@ pub fn identify_all<I: Sync, E: From<Error>, T: Send>(
     let summaries = Mutex::new(Vec::with_capacity(inputs.len()));
     // Each thread runs one loop and takes the next sheet when it has done one. As many small tasks,
     // a thread that waits for the curves of its sheet would begin another sheet and hold both.
-    rayon::broadcast(|_| {
+    on_each_thread(|| {
         while let Some((index, input)) = {
             let index = next.fetch_add(1, Ordering::Relaxed);
             inputs.get(index).map(|input| (index, input))

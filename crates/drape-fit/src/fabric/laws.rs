@@ -2,7 +2,6 @@
 
 use drape_fabric::{BendingLaw, ShearLaw, TractionLaw};
 use drape_kes::{BendingValues, Curve, Direction, ShearValues, Sheet, Test, Values};
-use rayon::prelude::*;
 
 use crate::curves::bending::identify_bending;
 use crate::curves::loop_bending::identify_loop_bending;
@@ -11,6 +10,7 @@ use crate::curves::tensile::identify_tensile;
 use crate::error::Error;
 use crate::regression::curve_fit::{CurveFit, Identified};
 use crate::settings::FitSettings;
+use crate::threads::*;
 use crate::values::assumed;
 use crate::values::bending::bending_from_values;
 use crate::values::completion::tensile_law;

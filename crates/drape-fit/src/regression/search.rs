@@ -3,9 +3,9 @@
 //! `selection` compares laws by rough searches, and `curve_fit` refines the selected law.
 
 use drape_lm::{MinimiserSettings, Parameter, Problem, Report, Stop, minimise};
-use rayon::prelude::*;
 
 use crate::regression::residuals::NamedParameter;
+use crate::threads::*;
 
 /// Iterations of every start before the best is chosen.
 ///

@@ -4,7 +4,6 @@
 
 use drape_kes::Curve;
 use drape_lm::{Report, akaike};
-use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::regression::candidate::{Candidate, Choice};
@@ -12,6 +11,7 @@ use crate::regression::noise::load_noise;
 use crate::regression::residuals::{ForwardModel, NamedParameter, Residuals};
 use crate::regression::search::{SearchResult, multistart};
 use crate::regression::uncertainty::Independence;
+use crate::threads::*;
 
 /// Root mean square residual, over the range of the load, that no instrument resolves.
 ///

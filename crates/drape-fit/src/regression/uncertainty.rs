@@ -204,8 +204,8 @@ pub(crate) fn uncertainty(
 /// Returns the standard errors of the model at each residual, from its `jacobian` and the
 /// `covariance` of the parameters.
 fn band(jacobian: &DMatrix<f64>, covariance: &DMatrix<f64>) -> impl Iterator<Item = f64> {
-    let spread = jacobian * covariance;
-    let variances = (0..jacobian.nrows()).map(|i| spread.row(i).dot(&jacobian.row(i)));
+    let jacobian_covariance = jacobian * covariance;
+    let variances = (0..jacobian.nrows()).map(|i| jacobian_covariance.row(i).dot(&jacobian.row(i)));
     variances.map(|variance| variance.max(0.0).sqrt()).collect::<Vec<_>>().into_iter()
 }
 

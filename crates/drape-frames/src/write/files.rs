@@ -47,7 +47,7 @@ const LIST_MAX: u64 = 1 << 26;
 /// the frame that was being written. Other files do not belong to the run, whatever their names.
 pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let single = SINGLE.into_iter().chain(ARRAYS).map(str::to_owned);
-    let numbered = numbers(folder)?
+    let numbered = frame_numbers(folder)?
         .into_iter()
         .flat_map(|number| KINDS.into_iter().map(move |kind| format!("{kind}-{number:05}.npy")));
     let paths = single.chain(numbered).map(|name| folder.join(name));
@@ -56,11 +56,11 @@ pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// Returns the files of the frames of the run in `folder` from the number `first` on.
 pub(crate) fn frames_from(folder: &Path, first: u64) -> io::Result<Vec<PathBuf>> {
-    let numbers = numbers(folder)?.into_iter().filter(|number| *number >= first);
+    let frame_numbers = frame_numbers(folder)?.into_iter().filter(|number| *number >= first);
     // The last frames may have been written but not listed.
-    let numbers = numbers.chain([first, first.saturating_add(1)]);
-    let names =
-        numbers.flat_map(|number| KINDS.map(|kind| folder.join(format!("{kind}-{number:05}.npy"))));
+    let frame_numbers = frame_numbers.chain([first, first.saturating_add(1)]);
+    let names = frame_numbers
+        .flat_map(|number| KINDS.map(|kind| folder.join(format!("{kind}-{number:05}.npy"))));
     let mut paths: Vec<PathBuf> = names.filter(|path| fs::symlink_metadata(path).is_ok()).collect();
     paths.sort();
     paths.dedup();
@@ -80,7 +80,7 @@ pub(crate) fn remove(files: &[PathBuf]) -> Result<(), Error> {
 }
 
 /// Returns the numbers of the frames in `folder`, and the number after them.
-fn numbers(folder: &Path) -> io::Result<Vec<u64>> {
+fn frame_numbers(folder: &Path) -> io::Result<Vec<u64>> {
     let path = folder.join(FRAMES);
     // A link or a pipe in place of the list is removed, not read.
     if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {

@@ -2,10 +2,9 @@
 
 use core::ops::Range;
 
-use rayon::prelude::*;
-
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
+use crate::threads;
 
 /// A matrix with more blocks than this is written by several threads, each with at most this
 /// number.
@@ -98,7 +97,9 @@ impl BlockMatrix {
 
     /// Sets every entry to zero and removes all couplings.
     pub fn clear(&mut self) {
-        self.blocks.par_chunks_mut(PARALLEL_BLOCKS).for_each(|blocks| blocks.fill(block::ZERO));
+        threads::for_each_chunk(&mut self.blocks, PARALLEL_BLOCKS, |blocks| {
+            blocks.fill(block::ZERO)
+        });
         self.couplings.clear();
         self.held.fill(false);
         self.outside = None;
@@ -226,7 +227,7 @@ impl Rows<'_> {
             let (first, second) = blocks.split_at_mut(offsets[half] - offsets[0]);
             let first_rows = Rows { sparsity, rows: rows.start..middle, inertia, held };
             let second_rows = Rows { sparsity, rows: middle..rows.end, inertia, held };
-            rayon::join(|| first_rows.add_inertia(first), || second_rows.add_inertia(second));
+            threads::join(|| first_rows.add_inertia(first), || second_rows.add_inertia(second));
             return;
         }
 

@@ -10,6 +10,7 @@ use crate::linear::lanes::Columns;
 use crate::linear::level_schedule::LevelSchedule;
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::packed_matrix::PackedMatrix;
+use crate::threads;
 
 /// Incomplete factor, with a coarse level or without.
 ///
@@ -56,7 +57,7 @@ impl Preconditioner {
         let Self { factor, coarse } = self;
         match coarse {
             Some(coarse) => {
-                rayon::join(
+                threads::join(
                     || factor.factorise(arch, schedule, packed),
                     || coarse.update(arch, matrix),
                 )
@@ -82,7 +83,7 @@ impl Preconditioner {
         match coarse {
             Some(coarse) => {
                 let ScaledResidual { numbers, factor: scale } = residual;
-                rayon::join(|| factor.apply(arch, layout), || coarse.solve(arch, numbers, scale));
+                threads::join(|| factor.apply(arch, layout), || coarse.solve(arch, numbers, scale));
                 coarse.add_correction(arch, layout, &mut factor.image);
             }
             None => factor.apply(arch, layout),

@@ -11,7 +11,7 @@ use crate::results::table::read_table;
 use crate::tables::grid::Grid;
 use crate::tables::heading::is_bias;
 
-/// Values of a sheet, and notes on what has no use.
+/// Values that were read from a sheet, and notes on its entries that were left out.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SheetResults {
     /// Name of each fabric, where the table gives one, and its values.

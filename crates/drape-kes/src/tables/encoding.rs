@@ -134,9 +134,9 @@ fn encoding_by_words(bytes: &[u8]) -> Option<&'static Encoding> {
     let scores = CANDIDATES.map(|encoding| {
         decode_strictly(encoding, bytes).map_or(0, |text| heading::known_letters(&text))
     });
-    let most = *scores.iter().max()?;
-    let first = scores.iter().position(|score| *score == most)?;
-    (most > 0).then_some(CANDIDATES[first])
+    let best_score = *scores.iter().max()?;
+    let first = scores.iter().position(|score| *score == best_score)?;
+    (best_score > 0).then_some(CANDIDATES[first])
 }
 
 /// Decodes `bytes` as `encoding`; `None` if a byte is not of the encoding.

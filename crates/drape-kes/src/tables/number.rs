@@ -119,7 +119,7 @@ fn are_digits(text: &str) -> bool {
 }
 
 /// Joins the digits of `whole` that stand in groups of three, between blanks, apostrophes or the
-/// sign `group`. Returns `None` for other texts.
+/// sign `group`. Returns `None` if `whole` has any other letter, or a group that is too short.
 fn join_groups(whole: &str, group: char) -> Option<String> {
     let signs = [group, ' ', '\''];
     let Some(sign) = signs.into_iter().find(|&sign| whole.contains(sign)) else {

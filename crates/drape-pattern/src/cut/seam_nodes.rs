@@ -5,7 +5,7 @@
 pub struct NodeId {
     /// Number of the panel, from 0.
     pub panel: usize,
-    /// Number of the node in the cut of the panel, from 0.
+    /// Index of the node among the nodes of the panel's [`Cut`](crate::Cut), from 0.
     pub node: u32,
 }
 

@@ -169,8 +169,8 @@ fn straight_piece(points: &[[f64; 2]]) -> Option<Piece> {
     Some(Piece { edge: Edge::line("", start, end), from_points: most, from_chords: most })
 }
 
-/// Returns the quadratic curve through three points at `parameters`, if it stays within
-/// `tolerance`, in m, of the chords.
+/// Returns the quadratic curve that passes through the three `points` at the curve parameters
+/// `parameters`, if it stays within `tolerance`, in m, of the chords between the points.
 fn quadratic_piece(
     points: [[f64; 2]; 3],
     parameters: &[f64],

@@ -12,7 +12,6 @@ use super::grain_line::GrainLine;
 use super::layout::Rows;
 use super::number::millimetres;
 use super::svg::extent;
-use crate::edge::{Curve, Edge, difference, distance_from_segment, turning_angle};
 use crate::length::Millimetres;
 use crate::note::PatternNote;
 use crate::panel::Panel;
@@ -20,12 +19,6 @@ use crate::pattern::Pattern;
 
 /// Largest distance of a curve from its chords, in m.
 const TOLERANCE: f64 = 1e-4;
-
-/// Largest angle between two chords of a curve, in rad: 10°. Readers take turns of 20° for corners.
-const TURN: f64 = 0.175;
-
-/// Largest number of chords of one edge.
-const MOST_CHORDS: usize = 1024;
 
 /// Gap between panels where the file places them, in mm.
 const GAP: f64 = 30.0;
@@ -196,7 +189,8 @@ impl DxfText {
         self.point(0, [0.0; 2]);
 
         // The outline, with what its vertices are.
-        let lines: Vec<Vec<[f64; 2]>> = panel.outline().iter().map(chords).collect();
+        let lines: Vec<Vec<[f64; 2]>> =
+            panel.outline().iter().map(|edge| edge.chords(TOLERANCE)).collect();
         let points: Vec<[f64; 2]> = lines.concat();
         self.closed_line(layers::OUTLINE, &points);
         self.marks(layers::CORNERS, panel.outline().iter().map(|edge| edge.start));
@@ -208,7 +202,8 @@ impl DxfText {
 
         // Lines inside.
         for hole in panel.loops().skip(1) {
-            let points: Vec<[f64; 2]> = hole.iter().flat_map(chords).collect();
+            let points: Vec<[f64; 2]> =
+                hole.iter().flat_map(|edge| edge.chords(TOLERANCE)).collect();
             self.closed_line(layers::INSIDE, &points);
         }
         panel.folds().iter().for_each(|fold| self.line(layers::INSIDE, fold.ends));
@@ -230,31 +225,6 @@ impl DxfText {
             self.text(key, value, [x + 2e-3, y - 1.5e-3 * TEXT * line as f64]);
         }
         self.entity("ENDBLK", layers::OUTLINE);
-    }
-}
-
-/// Returns the start of `edge` and the ends of its chords but for the last, in m. All chords are
-/// within [`TOLERANCE`] of the edge, and two chords in a row turn by [`TURN`] or less.
-fn chords(edge: &Edge) -> Vec<[f64; 2]> {
-    let mut count = 1;
-    loop {
-        let at = |k: usize, shift: f64| edge.at((k as f64 + shift) / count as f64);
-        let points: Vec<[f64; 2]> = (0..=count).map(|k| at(k, 0.0)).collect();
-        let is_near = |k: usize| {
-            let ends = [points[k], points[k + 1]];
-            [0.25, 0.5, 0.75].iter().all(|&t| distance_from_segment(at(k, t), ends) <= TOLERANCE)
-        };
-        let is_smooth = points
-            .windows(3)
-            .all(|p| turning_angle(difference(p[1], p[0]), difference(p[2], p[1])).abs() <= TURN);
-        if edge.curve == Curve::Line || count >= MOST_CHORDS {
-            return points[..count].to_vec();
-        }
-        // Two chords at least: the middle of a curve may lie on its chord.
-        if count > 1 && is_smooth && (0..count).all(is_near) {
-            return points[..count].to_vec();
-        }
-        count += count.div_ceil(4);
     }
 }
 

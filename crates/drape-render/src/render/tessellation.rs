@@ -126,7 +126,8 @@ struct Builder {
 #[derive(Clone, Copy)]
 struct Piece {
     corners: [u32; 3],
-    /// Positions of the corners in the triangle of the surface.
+    /// Barycentric coordinates of each corner in the surface triangle that is divided, the first
+    /// two of three.
     weights: [[f32; 2]; 3],
     borders: [Border; 3],
 }

@@ -83,7 +83,7 @@ impl Goal {
     }
 
     /// Returns the fraction of the run that is done after a `step`, 0 to 1. The fraction never
-    /// falls, and is 1 after the last step alone.
+    /// falls, and reaches 1 only after the last step.
     pub fn done(&mut self, step: &Step) -> f64 {
         if step.finished {
             self.done = 1.0;

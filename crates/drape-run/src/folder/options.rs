@@ -24,7 +24,7 @@ pub struct RunOptions {
 /// Watcher of a run.
 pub trait Watcher {
     /// Is called after a `step` with the fraction `done` of the run, 0 to 1. The fraction never
-    /// falls, and is 1 after the last step alone.
+    /// falls, and reaches 1 only after the last step.
     fn step(&mut self, step: &Step, done: f64);
 
     /// Is called when a [`Frame`] has been written.

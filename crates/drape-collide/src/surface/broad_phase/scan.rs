@@ -2,14 +2,13 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
 use super::body_boxes::BodyBoxes;
 use super::query::PairQuery;
 use super::tree::{Bounds, BoxTree, Probe, fill_lanes};
 use crate::error::Error;
 use crate::surface::geometry::{PrimitiveRun, WIDTH};
 use crate::surface::pair::{Pair, PairKind};
+use crate::threads::*;
 
 /// Number of primitive runs in a chunk, which one thread handles at a time.
 ///

@@ -2,10 +2,10 @@
 
 use std::borrow::Borrow;
 
-use rayon::prelude::*;
 use wide::{f32x4, u32x4};
 
 use crate::surface::geometry::{SpatialOrder, WIDTH};
+use crate::threads::*;
 use crate::vector::Vector;
 
 /// Number of nodes in a chunk, which one thread handles at a time.

@@ -1,8 +1,6 @@
 //! Active pairs: candidates whose distance at the positions of an evaluation is below their
 //! activation distance.
 
-use rayon::prelude::*;
-
 use crate::error::Error;
 use crate::surface::barrier::{Gap, Gradient};
 use crate::surface::broad_phase::Sweep;
@@ -10,6 +8,7 @@ use crate::surface::contact_surface::Surface;
 use crate::surface::pair::Pair;
 use crate::surface::placement::Placement;
 use crate::surface::tracked_pairs::TrackedPairs;
+use crate::threads::*;
 
 /// Number of candidate pairs in a chunk, for any number of threads.
 const CHUNK: usize = 256;

@@ -1,13 +1,12 @@
 //! Intersections of a surface with itself.
 
-use rayon::prelude::*;
-
 use super::predicate::segment_meets_triangle;
 use crate::error::Error;
 use crate::surface::broad_phase::{BodyBoxes, Bounds, BoxTree, Probe, fill_lanes};
 use crate::surface::contact_surface::Surface;
 use crate::surface::geometry::{PrimitiveRun, share_vertex};
 use crate::surface::placement::Placement;
+use crate::threads::*;
 use crate::vector::at;
 
 /// Number of runs of edges in a chunk, which one thread handles at a time.

@@ -14,7 +14,8 @@ fn side(a: Vector, b: Vector, c: Vector, d: Vector) -> f64 {
 /// Returns whether a segment with the ends `p` and `q` and a triangle with the corners `a`, `b` and
 /// `c` have a common point, by an exact test.
 ///
-/// Both may degenerate to a shorter segment or a point. Coordinates are finite, in m.
+/// The segment may be a single point, and the triangle may be a segment or a point. Coordinates are
+/// finite, in m.
 #[must_use]
 pub fn segment_meets_triangle([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]) -> bool {
     if surely_apart([p, q], [a, b, c]) {

@@ -35,7 +35,7 @@ impl ContactDistances {
 
 /// Parts of a [`Surface`](crate::Surface): vertices, cloth first, and triangles.
 ///
-/// [`from_meshes`](SurfaceParts::from_meshes) returns the parts of plain meshes. A vertex without a
+/// [`from_meshes`](SurfaceParts::from_meshes) makes the parts of meshes that have positions and triangles alone. A vertex without a
 /// triangle is a loose point, which has contact with triangles like a vertex of cloth. Points have
 /// no contact with points.
 #[derive(Debug, Clone, Default, PartialEq)]

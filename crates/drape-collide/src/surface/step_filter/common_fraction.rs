@@ -2,11 +2,10 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use rayon::prelude::*;
-
 use super::separating_planes::SeparatingPlane;
 use super::trial::{CHUNK, CLOSED, PLACES, Trial};
 use crate::surface::pair::Pair;
+use crate::threads::*;
 use crate::vector::{add, scale};
 
 /// Largest number of rounds of advancement for a pair. Most pairs need one or two.

@@ -7,14 +7,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use rayon::prelude::*;
-
 use super::safeguards::Safeguards;
 use super::separating_planes::SeparatingPlane;
 use super::trial::{CHUNK, CLOSED, Drift, Trial};
 use crate::surface::broad_phase::CandidatePairs;
 use crate::surface::distance::{Height, height};
 use crate::surface::pair::Pair;
+use crate::threads::*;
 use crate::vector::{Vector, add, at, at_or_zero};
 
 /// Fraction of the clearance by which a pair may approach including rounding. It is above
@@ -223,7 +222,8 @@ impl Truncator {
                 }
                 changed
             });
-            if !changed.reduce(|| false, |a, b| a | b) {
+            // All chunks set their limits, so the loop must not stop at the first change.
+            if changed.filter(|is_changed| *is_changed).count() == 0 {
                 return;
             }
         }
@@ -259,7 +259,8 @@ impl Truncator {
             }
             proved
         });
-        proved.reduce(|| true, |a, b| a & b)
+        // Every chunk is tested, so the loop must not stop at the first doubt.
+        proved.filter(|is_proved| !is_proved).count() == 0
     }
 }
 

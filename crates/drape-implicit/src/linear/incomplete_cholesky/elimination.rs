@@ -17,6 +17,7 @@ use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::{IrregularEntry, Run};
 use crate::linear::level_schedule::updates::{IrregularUpdate, UpdateTarget};
 use crate::linear::packed_matrix::PackedMatrix;
+use crate::threads;
 
 /// A pivot collapses if its determinant is below this fraction of the determinant of the original
 /// block.
@@ -161,7 +162,7 @@ impl Parts<'_> {
         let first = Self { parts: first_parts, work: first_work, factor: first_rows };
         let second = Self { parts: second_parts, work: second_work, factor: second_rows };
         let (first_success, second_success) =
-            rayon::join(|| first.eliminate(arch, input), || second.eliminate(arch, input));
+            threads::join(|| first.eliminate(arch, input), || second.eliminate(arch, input));
         first_success && second_success
     }
 }

@@ -17,6 +17,7 @@ use crate::linear::lane_block::{SymmetricBlocks, product, symmetric_product, tra
 use crate::linear::lanes::{Columns, Double, LANES, Single, narrowed, widened};
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::level_schedule::part::MatrixPart;
+use crate::threads;
 
 /// Work space of the triangular solves.
 #[derive(Debug)]
@@ -197,7 +198,7 @@ impl FactorSolver<'_> {
         let (first_parts, second_parts) = parts.split_at(parts.len() / 2);
         let (first_windows, second_windows) = windows.split_at_mut(first_parts.len());
         let (first_rows, second_rows) = rows.split_before(second_parts[0].group.rows.start);
-        rayon::join(
+        threads::join(
             || self.sweep_parts(direction, first_parts, first_windows, first_rows),
             || self.sweep_parts(direction, second_parts, second_windows, second_rows),
         );

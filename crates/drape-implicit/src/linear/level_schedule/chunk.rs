@@ -4,6 +4,7 @@
 //! The result for a chunk depends on the chunk alone, and sums over chunks run in the order of the
 //! chunks. The number of threads therefore changes no bit.
 
+use crate::threads;
 use core::ops::Range;
 
 /// Consecutive runs with their rows, blocks and irregular entries.
@@ -127,7 +128,7 @@ pub(crate) fn for_each<O: Split>(
             let (early, late) = chunks.split_at(chunks.len().div_ceil(2));
             let (early_output, late_output) = output.split(early);
             if rows > grain {
-                rayon::join(
+                threads::join(
                     || for_each(early, grain, early_output, work),
                     || for_each(late, grain, late_output, work),
                 );
@@ -173,7 +174,7 @@ mod tests {
             .chunks
             .iter()
             .map(|chunk| chunk.irregular.clone().filter(|&entry| beyond(&chunk, entry)).count());
-        assert_eq!(incoming, expected.sum());
+        assert_eq!(incoming, expected.sum::<usize>());
         assert!(incoming > 0);
         let led = |chunk: &Chunk| leading_to(&layout.chunks, chunk.index).next().is_some();
         assert!(layout.chunks.iter().filter(|chunk| led(chunk)).count() > 3);
