@@ -164,7 +164,8 @@ fn signals_and_limits_leave_a_run_that_goes_on() {
     let whole = folder.path().join("whole");
     assert!(case.begin(&whole, "1000").wait().unwrap().success());
     let expected = results(&whole);
-    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+    let signals = [("-INT", 130), ("-TERM", 143), ("-HUP", 129), ("-XCPU", 152), ("-USR1", 138)];
+    for (signal, code) in signals {
         let out = folder.path().join(signal);
         let child = case.begin(&out, "1000");
         let deadline = Instant::now() + Duration::from_secs(60);
@@ -210,6 +211,37 @@ fn signals_and_limits_leave_a_run_that_goes_on() {
     assert!(message.contains("--max-disk"), "{message}");
     ran(&["resume", place, "--no-picture"], 0);
     assert!(results(&out) == expected);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn signals_that_are_ignored_at_the_start_stay_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case { scene: "scenes/stack.toml", until: "0.06" };
+    let out = folder.path().join("run");
+    // As nohup and `&` in a script start a program.
+    let place = out.to_str().unwrap();
+    let run = command(&["run", case.scene, "--until", case.until, "--no-picture", "-o", place]);
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "trap '' HUP INT; exec \"$@\"", "sh"]).arg(run.get_program());
+    shell.args(run.get_args()).current_dir(root()).stderr(Stdio::piped());
+    let child = shell.spawn().unwrap();
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !out.join("status.json").exists() {
+        assert!(Instant::now() < deadline, "no step after a minute");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    // The run would end at once, or at its next step, if it heard one of the first two.
+    kill(&child, "-HUP");
+    kill(&child, "-INT");
+    let heard = Instant::now() + Duration::from_millis(600);
+    while Instant::now() < heard && !out.join("summary.json").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    kill(&child, "-TERM");
+    let ended = child.wait_with_output().unwrap();
+    let message = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert!(matches!(ended.status.code(), Some(0 | 143)), "{:?}: {message}", ended.status);
 }
 
 #[test]

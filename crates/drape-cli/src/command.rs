@@ -41,7 +41,8 @@ Exit codes:
   7    a figure of the validation is beyond its limit
   8    a run came to --max-wall, --max-memory or --max-disk; `drape resume` goes on
   70   the program failed in a way that it should not
-  130  interrupted (143: terminated); `drape resume` goes on
+  130  interrupted; `drape resume` goes on. The code is 128 and the number of the signal: 130 after
+       SIGINT, 143 after SIGTERM, 129 after SIGHUP, 138 after SIGUSR1, 152 after SIGXCPU
   134  no memory was left; `drape resume` goes on from the last checkpoint
 
 Results that are there already, of a run, a fit, an export or `new`, are replaced with --force

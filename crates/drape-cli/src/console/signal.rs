@@ -1,7 +1,8 @@
 //! Signals that ask the program to end.
 //!
 //! The first signal ends a run at its next step, or cancels the current step if that step takes
-//! long. A later signal ends the program at once.
+//! long. A later signal ends the program at once. A signal that is ignored when the program starts,
+//! as under `nohup` or behind `&` in a script, stays ignored.
 
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, LazyLock, Once, OnceLock, mpsc};
@@ -9,8 +10,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use rustix::process::Signal;
-use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
+
+/// Signals that ask the program to end: from the keyboard, from another program, from a terminal
+/// that closes, at the limit of the processor time, and from the scheduler of a cluster.
+const WATCHED: [Signal; 5] = [Signal::INT, Signal::TERM, Signal::HUP, Signal::XCPU, Signal::USR1];
 
 /// Signals within this time of the first one count as one signal, because shells and wrappers send
 /// a signal to a process and to its group.
@@ -46,7 +50,10 @@ pub(crate) fn watch() {
         // A thread waits for signals, because a handler may do little more than set a flag. The
         // thread registers the signals itself: without a thread they must end the program.
         let watcher = thread::Builder::new().spawn(move || {
-            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+            let ignored = ignored_signals();
+            let watched = WATCHED.map(Signal::as_raw).into_iter();
+            let watched = watched.filter(|number| ignored & (1 << (number - 1)) == 0);
+            let Ok(mut signals) = Signals::new(watched) else { return };
             let _ = sender.send(());
             let mut first_time = None;
             for signal in signals.forever() {
@@ -58,6 +65,14 @@ pub(crate) fn watch() {
             let _ = receiver.recv();
         }
     });
+}
+
+/// Returns the signals that the program ignores: the signal with the number 1 in the lowest bit.
+/// Only Linux tells them; elsewhere no signal is ignored.
+fn ignored_signals() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
 /// Records a `signal`, where the first signal came at `first_time`. A signal that the user sent
