@@ -1,0 +1,72 @@
+//! Areas of the panels and lengths of the seams of a skirt, whose drawing is a string.
+
+use std::f64::consts::PI;
+use std::time::Instant;
+
+use drape_input::Document;
+use drape_pattern::{EdgeId, Error, Pattern, Seam};
+
+/// Drawing in mm of a front with a round waist and of a back with a straight one.
+const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="1000mm" height="700mm" viewBox="0 0 1000 700">
+  <path id="front" d="M 50 650 L 450 650 L 400 50 A 150 150 0 0 1 100 50 Z"/>
+  <g transform="translate(500 0)">
+    <path id="back" d="M 50 650 L 450 650 L 400 50 L 100 50 Z"/>
+  </g>
+</svg>"#;
+
+/// Returns the number of the edge of `panel` that runs between two heights, on the side at which
+/// `is_right` says; of the others none.
+fn side(pattern: &Pattern, panel: usize, is_right: bool) -> Option<EdgeId> {
+    let outline = pattern.panels()[panel].outline();
+    let slanting = outline.iter().position(|edge| {
+        let [across, along] = [0, 1].map(|k| edge.end[k] - edge.start[k]);
+        across.abs() > 0.01 && along.abs() > 0.1 && (along > 0.0) == is_right
+    });
+    slanting.map(|edge| EdgeId { panel, edge })
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let begin = Instant::now();
+    let drawn = Pattern::parse(&Document::new("skirt.svg", DRAWING))?;
+
+    // A drawing has no seams. The right side of the front is sewn to the left side of the back.
+    let mut seams = Vec::new();
+    for (name, is_right) in [("right", true), ("left", false)] {
+        let edges = [side(&drawn, 0, is_right), side(&drawn, 1, !is_right)];
+        let [Some(front), Some(back)] = edges else { return Err("no side".into()) };
+        seams.push(Seam {
+            name: name.into(),
+            sides: [vec![front], vec![back]],
+            reversed: false,
+            max_ease: 1.1,
+            angle: 0.0,
+            allowance: 0.01,
+        });
+    }
+    let pattern = Pattern::new(drawn.panels().to_vec(), seams).map_err(Error::Pattern)?;
+    let area = |panel: usize| pattern.panels()[panel].area();
+    let length = |side: &[EdgeId]| -> f64 {
+        let edges = side.iter().map(|id| &pattern.panels()[id.panel].outline()[id.edge]);
+        edges.map(|edge| edge.length()).sum()
+    };
+    let lengths = pattern.seams().iter().map(|seam| seam.sides.each_ref().map(|s| length(s)));
+    let lengths: Vec<[f64; 2]> = lengths.collect();
+    let milliseconds = 1e3 * begin.elapsed().as_secs_f64();
+
+    // A trapezium, less half a disc at the waist of the front.
+    let trapezium = 0.5 * (0.4 + 0.3) * 0.6;
+    for (found, exact) in [(area(0), trapezium - 0.5 * PI * 0.15 * 0.15), (area(1), trapezium)] {
+        assert!((found / exact - 1.0).abs() < 1e-9, "{found} m², not {exact} m²");
+    }
+    for length in lengths.iter().flatten() {
+        assert!((length / 0.6_f64.hypot(0.05) - 1.0).abs() < 1e-9, "{length} m");
+    }
+    println!(
+        "front {:.4} m², back {:.4} m², seams of {:.4} and {:.4} m: {milliseconds:.2} ms",
+        area(0),
+        area(1),
+        lengths[0][0],
+        lengths[1][0]
+    );
+    Ok(())
+}
