@@ -81,8 +81,8 @@ fn wrong_laws_are_refused_with_key_and_remedy() {
     assert!(said.contains("bending.rigidity") && said.contains("-1"), "{said}");
     let said = refusal::<BendingLaw>(json!({}));
     assert!(said.contains("bending: the bending curve must be given once; give one of"), "{said}");
-    let said = refusal::<ShearLaw>(json!({ "stiffness": 30.0, "growht": 1.0 }));
-    assert!(said.contains("growht"), "{said}");
+    let said = refusal::<ShearLaw>(json!({ "stiffness": 30.0, "rise": 1.0 }));
+    assert!(said.contains("rise"), "{said}");
     let said = refusal::<TractionLaw>(json!({
         "primed": { "stiffness": -5.0, "toe_ratio": 0.1, "toe_strain": 0.01, "toe_strain_after": 0.02 },
     }));

@@ -359,7 +359,7 @@ fn settings_and_reports_come_back_from_json() {
     let some: MinimiserSettings =
         serde_json::from_str(r#"{"iterations":40}"#).expect("it is right");
     assert_eq!(some, MinimiserSettings { iterations: 40, ..MinimiserSettings::default() });
-    assert!(serde_json::from_str::<MinimiserSettings>(r#"{"iteratons":40}"#).is_err());
+    assert!(serde_json::from_str::<MinimiserSettings>(r#"{"rounds":40}"#).is_err());
 
     let line = ResidualFunction::new(2, |p, r| r.copy_from_slice(&[p[0] - 1.0, p[0] + 1.25]));
     let report = minimise(&line, &[Parameter::new(3.0)], &settings);

@@ -23,7 +23,7 @@ fn settings_and_reports_come_back_from_json() {
     let some: Settings = serde_json::from_str(r#"{"method":{"textbook":{"initial":"diagonal"}}}"#)
         .expect("the other settings have their defaults");
     assert_eq!(some.tolerance, Settings::default().tolerance);
-    assert!(serde_json::from_str::<Settings>(r#"{"tolerence":1}"#).is_err());
+    assert!(serde_json::from_str::<Settings>(r#"{"exactness":1}"#).is_err());
 
     let mut report = Report::default();
     report.energy = Some(drape_implicit::StepEnergy { work: 0.1, ..Default::default() });
