@@ -104,7 +104,7 @@ fn what_does_not_fit_is_refused_with_a_remedy() {
         (vec!["convert", &shirt, "--paper", "a4"], 2, "-o NAME.svg"),
         (vec!["convert", &shirt, "-o", "a.svg", "--paper", "b9"], 2, "210x297"),
         (vec!["convert", &shirt, "-o", "a.svg", "--width", "5"], 2, "such as 900"),
-        (vec!["convert", &shirt, "-o", "a.obj"], 2, "*.toml or *.svg"),
+        (vec!["convert", &shirt, "-o", "a.obj"], 2, "*.toml, *.svg or *.dxf"),
         (vec!["convert", "empty"], 3, "no file of the folder is a curve or a value: note.txt"),
         (vec!["convert", ".", "--size", "M"], 2, "--size is for patterns"),
         (vec!["convert", ".", "-o", "a.svg"], 2, "*.toml, or into a folder"),

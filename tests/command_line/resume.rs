@@ -54,7 +54,11 @@ impl Case {
     fn begin(&self, out: &Path, every: &str) -> Child {
         let out = out.to_str().unwrap();
         let arguments = ["run", self.scene, "--until", self.until, "-o", out, "--no-picture"];
-        command(&arguments).args(["--checkpoint-every", every]).spawn().unwrap()
+        let mut command = command(&arguments);
+        command.args(["--checkpoint-every", every]);
+        let mut hearing = crate::hearing_signals(&command);
+        hearing.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+        hearing.spawn().unwrap()
     }
 }
 

@@ -62,7 +62,9 @@ impl Bench {
     }
 
     fn begin(&self) -> Child {
-        self.command(&["sweep", "run", "study.toml", "--jobs", "2"]).spawn().unwrap()
+        let mut hearing =
+            hearing_signals(&self.command(&["sweep", "run", "study.toml", "--jobs", "2"]));
+        hearing.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
     }
 
     /// Returns the rows of the table without times.
@@ -86,6 +88,18 @@ impl Bench {
         let point = |line: &str| serde_json::from_str::<serde_json::Value>(line).unwrap();
         text.lines().map(|line| point(line)["key"].as_str().unwrap().to_owned()).collect()
     }
+}
+
+/// Returns `command` for a program that hears all signals. A shell starts what runs in its
+/// background with `SIGINT` ignored, and a program leaves such a signal ignored.
+fn hearing_signals(command: &Command) -> Command {
+    let mut hearing = Command::new("env");
+    hearing.arg("--default-signal=INT,TERM,HUP,XCPU,USR1");
+    hearing.arg(command.get_program()).args(command.get_args());
+    if let Some(folder) = command.get_current_dir() {
+        hearing.current_dir(folder);
+    }
+    hearing
 }
 
 fn kill(number: u32, signal: &str) {
