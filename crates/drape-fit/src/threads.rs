@@ -1,25 +1,14 @@
-//! Loops over slices on several threads with the feature `rayon`, and on one thread without it.
+//! Work on several threads with the feature `rayon`, and on one thread without it.
 
-#[cfg(feature = "rayon")]
-pub(crate) use rayon::prelude::*;
-#[cfg(not(feature = "rayon"))]
-pub(crate) use serial::*;
-
-/// The methods of rayon that this crate uses, on one thread.
-#[cfg(not(feature = "rayon"))]
-mod serial {
-    use std::slice::Iter;
-
-    /// Loops over the items of a slice.
-    pub(crate) trait SerialSlice<T> {
-        fn par_iter(&self) -> Iter<'_, T>;
+/// Returns the results of `work` for `items`, in the order of `items`.
+pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Send + Sync) -> Vec<R> {
+    #[cfg(feature = "rayon")]
+    {
+        use rayon::prelude::*;
+        items.par_iter().map(work).collect()
     }
-
-    impl<T> SerialSlice<T> for [T] {
-        fn par_iter(&self) -> Iter<'_, T> {
-            self.iter()
-        }
-    }
+    #[cfg(not(feature = "rayon"))]
+    items.iter().map(work).collect()
 }
 
 /// Calls `work` once on each thread of the pool.

@@ -10,7 +10,7 @@ use crate::curves::tensile::identify_tensile;
 use crate::error::Error;
 use crate::regression::curve_fit::{CurveFit, Identified};
 use crate::settings::FitSettings;
-use crate::threads::*;
+use crate::threads;
 use crate::values::assumed;
 use crate::values::bending::bending_from_values;
 use crate::values::completion::tensile_law;
@@ -81,13 +81,11 @@ impl<'a> SheetLaws<'a> {
     /// Identifies the law of every curve of `sheet`, in parallel.
     pub(crate) fn new(sheet: &'a Sheet, settings: &'a FitSettings) -> Result<Self, Error> {
         let groups = groups(&sheet.curves);
-        let identified: Result<Vec<Vec<CurveLaw>>, Error> = groups
-            .par_iter()
-            .map(|group| {
-                let curves: Vec<&Curve> = group.iter().map(|&index| &sheet.curves[index]).collect();
-                CurveLaw::identify_group(&curves, settings)
-            })
-            .collect();
+        let identified = threads::map(&groups, |group| {
+            let curves: Vec<&Curve> = group.iter().map(|&index| &sheet.curves[index]).collect();
+            CurveLaw::identify_group(&curves, settings)
+        });
+        let identified: Result<Vec<Vec<CurveLaw>>, Error> = identified.into_iter().collect();
         let indices = groups.into_iter().flatten();
         let mut laws: Vec<(usize, CurveLaw)> =
             indices.zip(identified?.into_iter().flatten()).collect();

@@ -5,7 +5,7 @@
 use drape_lm::{MinimiserSettings, Parameter, Problem, Report, Stop, minimise};
 
 use crate::regression::residuals::NamedParameter;
-use crate::threads::*;
+use crate::threads;
 
 /// Iterations of every start before the best is chosen.
 ///
@@ -72,17 +72,14 @@ pub(crate) fn multistart(
         polish: false,
         ..MinimiserSettings::default()
     };
-    let screened: Vec<SearchResult> = starts
-        .par_iter()
-        .map(|start| {
-            let report = minimise_named(problem, start, &screening);
-            SearchResult {
-                parameters: with_start(start, &report),
-                evaluations: report.evaluations,
-                report,
-            }
-        })
-        .collect();
+    let screened = threads::map(starts, |start| {
+        let report = minimise_named(problem, start, &screening);
+        SearchResult {
+            parameters: with_start(start, &report),
+            evaluations: report.evaluations,
+            report,
+        }
+    });
     let evaluations = screened.iter().map(|result| result.evaluations).sum();
 
     let best = screened

@@ -11,7 +11,7 @@ use crate::regression::noise::load_noise;
 use crate::regression::residuals::{ForwardModel, NamedParameter, Residuals};
 use crate::regression::search::{SearchResult, multistart};
 use crate::regression::uncertainty::Independence;
-use crate::threads::*;
+use crate::threads;
 
 /// Root mean square residual, over the range of the load, that no instrument resolves.
 ///
@@ -52,10 +52,9 @@ pub(crate) struct Selection {
 /// [`Error::TooFewPoints`] if every law has more parameters than `curve` has points.
 pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Result<Selection, Error> {
     let points = curve.load().len();
-    let mut results: Vec<SearchResult> = models
-        .par_iter()
-        .map(|model| multistart(&Residuals::new(curve, &*model.forward), &model.starts))
-        .collect();
+    let mut results = threads::map(models, |model| {
+        multistart(&Residuals::new(curve, &*model.forward), &model.starts)
+    });
     let misfits: Vec<f64> = models
         .iter()
         .zip(&results)
