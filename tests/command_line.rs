@@ -15,6 +15,8 @@ mod report;
 mod resume;
 #[path = "command_line/sheet_values.rs"]
 mod sheet_values;
+#[path = "command_line/signals.rs"]
+mod signals;
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -22,18 +24,6 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
-
-/// Returns `command` for a program that hears all signals. A shell starts what runs in its
-/// background with `SIGINT` ignored, and a program leaves such a signal ignored.
-fn hearing_signals(command: &Command) -> Command {
-    let mut hearing = Command::new("env");
-    hearing.arg("--default-signal=INT,TERM,HUP,XCPU,USR1");
-    hearing.arg(command.get_program()).args(command.get_args());
-    if let Some(folder) = command.get_current_dir() {
-        hearing.current_dir(folder);
-    }
-    hearing
-}
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drape"));
@@ -216,7 +206,7 @@ fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_checkpoint() {
     let folder = started();
     let out = folder.path().join("out/scene");
     let running = command(folder.path(), &["run", "scene.toml", "--threads", "1"]);
-    let mut running = hearing_signals(&running);
+    let mut running = signals::hearing(&running);
     let running = running.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it runs");
     let deadline = Instant::now() + Duration::from_secs(60);
     while !out.join("frame-00001.npy").exists() {

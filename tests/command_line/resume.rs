@@ -16,6 +16,8 @@ use drape::run::{FolderRun, RunOptions, RunRequest, Watcher, end_at};
 
 use serde_json::Value;
 
+use crate::signals;
+
 /// Files that differ from run to run: times, the lock, what was asked for, states on the way.
 const OWN: [&str; 4] = ["run.lock", "run.json", "status.json", "view.html"];
 
@@ -56,7 +58,7 @@ impl Case {
         let arguments = ["run", self.scene, "--until", self.until, "-o", out, "--no-picture"];
         let mut command = command(&arguments);
         command.args(["--checkpoint-every", every]);
-        let mut hearing = crate::hearing_signals(&command);
+        let mut hearing = signals::hearing(&command);
         hearing.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         hearing.spawn().unwrap()
     }
@@ -82,11 +84,6 @@ fn results(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     }
     assert!(files.len() > 4);
     files
-}
-
-fn kill(child: &Child, signal: &str) {
-    // The process may have ended by itself.
-    let _ = Command::new("kill").args([signal, &child.id().to_string()]).output();
 }
 
 /// Goes on until a run has ended, whatever its outcome.
@@ -130,7 +127,7 @@ fn kills(case: &Case, times: usize, random: &mut Random) -> usize {
             let deadline = Instant::now() + Duration::from_secs(2);
             while !out.join("checkpoint.part").exists() && Instant::now() < deadline {}
         }
-        kill(&child, "-KILL");
+        signals::send(child.id(), "-KILL");
         if child.wait().unwrap().code().is_some() {
             continue;
         }
@@ -177,7 +174,7 @@ fn signals_and_limits_leave_a_run_that_goes_on() {
             assert!(Instant::now() < deadline, "no step after a minute");
             std::thread::sleep(Duration::from_millis(2));
         }
-        kill(&child, signal);
+        signals::send(child.id(), signal);
         let begin = Instant::now();
         let ended = child.wait_with_output().unwrap();
         let message = String::from_utf8_lossy(&ended.stderr).into_owned();
@@ -236,13 +233,13 @@ fn signals_that_are_ignored_at_the_start_stay_ignored() {
         std::thread::sleep(Duration::from_millis(2));
     }
     // The run would end at once, or at its next step, if it heard one of the first two.
-    kill(&child, "-HUP");
-    kill(&child, "-INT");
+    signals::send(child.id(), "-HUP");
+    signals::send(child.id(), "-INT");
     let heard = Instant::now() + Duration::from_millis(600);
     while Instant::now() < heard && !out.join("summary.json").exists() {
         std::thread::sleep(Duration::from_millis(5));
     }
-    kill(&child, "-TERM");
+    signals::send(child.id(), "-TERM");
     let ended = child.wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&ended.stderr).into_owned();
     assert!(matches!(ended.status.code(), Some(0 | 143)), "{:?}: {message}", ended.status);
@@ -265,7 +262,7 @@ fn one_run_at_a_time_writes_to_a_folder() {
         let refused = ran(arguments, 2);
         assert!(refused.contains("another run is writing"), "{refused}");
     }
-    kill(&child, "-KILL");
+    signals::send(child.id(), "-KILL");
     child.wait().unwrap();
     // The lock is gone with its process.
     ran(&["run", CASES[2].scene, "--until", "0.01", "--force", "-o", place, "--no-picture"], 0);

@@ -6,6 +6,8 @@
 mod base;
 mod converge;
 mod setting;
+#[path = "../command_line/signals.rs"]
+mod signals;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -63,7 +65,7 @@ impl Bench {
 
     fn begin(&self) -> Child {
         let mut hearing =
-            hearing_signals(&self.command(&["sweep", "run", "study.toml", "--jobs", "2"]));
+            signals::hearing(&self.command(&["sweep", "run", "study.toml", "--jobs", "2"]));
         hearing.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
     }
 
@@ -88,23 +90,6 @@ impl Bench {
         let point = |line: &str| serde_json::from_str::<serde_json::Value>(line).unwrap();
         text.lines().map(|line| point(line)["key"].as_str().unwrap().to_owned()).collect()
     }
-}
-
-/// Returns `command` for a program that hears all signals. A shell starts what runs in its
-/// background with `SIGINT` ignored, and a program leaves such a signal ignored.
-fn hearing_signals(command: &Command) -> Command {
-    let mut hearing = Command::new("env");
-    hearing.arg("--default-signal=INT,TERM,HUP,XCPU,USR1");
-    hearing.arg(command.get_program()).args(command.get_args());
-    if let Some(folder) = command.get_current_dir() {
-        hearing.current_dir(folder);
-    }
-    hearing
-}
-
-fn kill(number: u32, signal: &str) {
-    // The process may have ended by itself.
-    let _ = Command::new("kill").args([signal, &number.to_string()]).output();
 }
 
 /// Returns the processes that a process has started.
@@ -237,7 +222,7 @@ fn a_killed_sweep_goes_on_to_the_table_of_a_serial_one() {
         let mut sweep = bench.begin();
         std::thread::sleep(length.mul_f64(part));
         met += usize::from(sweep.try_wait().unwrap().is_none());
-        kill(sweep.id(), "-KILL");
+        signals::send(sweep.id(), "-KILL");
         sweep.wait().unwrap();
     }
     // A run is killed, and tried again.
@@ -247,7 +232,7 @@ fn a_killed_sweep_goes_on_to_the_table_of_a_serial_one() {
     while killed < 2 && Instant::now() < deadline {
         std::thread::sleep(Duration::from_millis(30));
         if let Some(child) = children(sweep.id()).first() {
-            kill(*child, "-KILL");
+            signals::send(*child, "-KILL");
             killed += 1;
             std::thread::sleep(Duration::from_millis(100));
         }
@@ -271,13 +256,13 @@ fn a_run_that_outlives_its_sweep_is_waited_for() {
         assert!(sweep.try_wait().unwrap().is_none(), "it had no run");
     };
     // The run may not have come as far as its folder.
-    kill(run, "-STOP");
-    kill(sweep.id(), "-KILL");
+    signals::send(run, "-STOP");
+    signals::send(sweep.id(), "-KILL");
     sweep.wait().unwrap();
     let sweep = bench.begin();
     std::thread::sleep(Duration::from_secs(1));
     let beside = children(sweep.id());
-    kill(run, "-CONT");
+    signals::send(run, "-CONT");
     let ended = sweep.wait_with_output().unwrap();
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
     assert!(beside.is_empty(), "a second run of the point began");
@@ -297,7 +282,7 @@ fn an_interrupted_sweep_ends_its_runs_and_goes_on() {
         std::thread::sleep(Duration::from_millis(400));
         let runs = children(sweep.id());
         assert_eq!(runs.len(), 2);
-        kill(sweep.id(), signal);
+        signals::send(sweep.id(), signal);
         let ended = sweep.wait_with_output().unwrap();
         let messages = String::from_utf8_lossy(&ended.stderr);
         assert_eq!(ended.status.code(), Some(code), "{messages}");
