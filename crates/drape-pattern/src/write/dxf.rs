@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use super::dxf_text::escaped;
 use super::grain_line::GrainLine;
-use super::layout::Rows;
+use super::layout::{Rows, usual_width};
 use super::number::millimetres;
 use super::svg::extent;
 use crate::length::Millimetres;
@@ -45,7 +45,7 @@ mod layers {
 pub struct DxfDrawing {
     /// Text of the file.
     pub text: String,
-    /// What the pattern has and the file cannot say, to be shown to the user.
+    /// Notes on the parts of the pattern that DXF cannot express, for the user.
     pub notes: Vec<PatternNote>,
 }
 
@@ -89,9 +89,7 @@ impl Pattern {
 
         file.open_section("ENTITIES");
         let extents: Vec<_> = self.panels().iter().map(extent).collect();
-        let area: f64 =
-            extents.iter().map(|[low, high]| (high[0] - low[0]) * (high[1] - low[1])).sum();
-        let rows = Rows::new(&extents, GAP, (1.5 * area).sqrt());
+        let rows = Rows::new(&extents, GAP, usual_width(&extents));
         for (name, [x, y]) in names.iter().zip(rows.origins) {
             file.entity("INSERT", layers::OUTLINE);
             file.pair(2, name);
@@ -113,7 +111,7 @@ impl Pattern {
     }
 }
 
-/// Size that the pieces state: a pattern has one.
+/// Size that every piece states, because a pattern has one size.
 const SIZE: &str = "ONE";
 
 /// Text of a file, pair by pair.
@@ -126,13 +124,13 @@ impl DxfText {
         let _ = writeln!(self.0, "{code}\n{value}");
     }
 
-    /// Writes the begin of the section `name`.
+    /// Writes the beginning of the section `name`.
     fn open_section(&mut self, name: &str) {
         self.pair(0, "SECTION");
         self.pair(2, name);
     }
 
-    /// Writes the begin of an entity of the kind `kind` on `layer`.
+    /// Writes the beginning of an entity of the kind `kind` on `layer`.
     fn entity(&mut self, kind: &str, layer: u32) {
         self.pair(0, kind);
         self.pair(8, &layer.to_string());
@@ -145,7 +143,7 @@ impl DxfText {
         self.pair(30 + number, "0");
     }
 
-    /// Writes a text that says that `key` is `value`, at `at`, in m.
+    /// Writes the text `key: value` at the point `at`, in m.
     fn text(&mut self, key: &str, value: &str, at: [f64; 2]) {
         self.entity("TEXT", layers::OUTLINE);
         self.point(0, at);
@@ -188,7 +186,7 @@ impl DxfText {
         self.pair(70, "0");
         self.point(0, [0.0; 2]);
 
-        // The outline, with what its vertices are.
+        // The outline, with marks at corners, points of curves and notches.
         let lines: Vec<Vec<[f64; 2]>> =
             panel.outline().iter().map(|edge| edge.chords(TOLERANCE)).collect();
         let points: Vec<[f64; 2]> = lines.concat();
@@ -228,8 +226,8 @@ impl DxfText {
     }
 }
 
-/// Returns the names of the blocks of `panels`: the letters and digits of their names, shortened,
-/// and with a number where two would be the same.
+/// Returns a different block name for each of `panels`: the letters and digits of its name,
+/// shortened to the length that DXF allows. A name that an earlier panel has gets a number.
 fn block_names(panels: &[Panel]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for panel in panels {
@@ -251,7 +249,7 @@ fn block_names(panels: &[Panel]) -> Vec<String> {
     names
 }
 
-/// Returns notes on what `pattern` has and DXF cannot say.
+/// Returns a note for each part of `pattern` that DXF cannot express.
 fn missing(pattern: &Pattern) -> Vec<PatternNote> {
     let mut notes = Vec::new();
     let mut leave_out = |part: String, reason: &str| {

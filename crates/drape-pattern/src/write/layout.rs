@@ -1,5 +1,8 @@
 //! Layout of panels in rows on a sheet.
 
+/// Ratio of the width of a sheet to its height if no width is given.
+const SHAPE: f64 = 1.5;
+
 /// Corners of the bounding box of a panel, low and high, with y up.
 pub(crate) type Extent = [[f64; 2]; 2];
 
@@ -9,6 +12,12 @@ pub(crate) struct Rows {
     pub(crate) size: [f64; 2],
     /// Position of the origin of each panel's frame, with y down.
     pub(crate) origins: Vec<[f64; 2]>,
+}
+
+/// Returns the width of a sheet of the usual shape that has the area of the boxes `extents`.
+pub(crate) fn usual_width(extents: &[Extent]) -> f64 {
+    let areas = extents.iter().map(|[low, high]| (high[0] - low[0]) * (high[1] - low[1]));
+    (SHAPE * areas.sum::<f64>()).sqrt()
 }
 
 impl Rows {

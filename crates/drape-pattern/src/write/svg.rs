@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 use drape_input::{figure_in_decimals, toml_key, toml_string, xml_text};
 
-use super::layout::{Extent, Rows};
+use super::layout::{Extent, Rows, usual_width};
 use super::marks::PanelMarks;
 use super::number::millimetres;
 use super::toml_text::{degrees, write_darts, write_placement};
@@ -23,9 +23,6 @@ pub(crate) const NAMESPACE: &str = "urn:drape:pattern";
 
 /// Gap between panels, in mm.
 const GAP: f64 = 15.0;
-
-/// Ratio of the width of a sheet to its height if no width is given.
-const SHAPE: f64 = 1.5;
 
 /// Panels drawn on one sheet.
 pub(crate) struct PatternSheet {
@@ -40,9 +37,7 @@ impl PatternSheet {
     /// fits.
     pub(crate) fn new(pattern: &Pattern, width: Option<f64>) -> Self {
         let extents: Vec<Extent> = pattern.panels().iter().map(extent).collect();
-        let area: f64 =
-            extents.iter().map(|[low, high]| (high[0] - low[0]) * (high[1] - low[1])).sum();
-        let limit = width.map_or((SHAPE * area).sqrt(), |width| width - GAP);
+        let limit = width.map_or_else(|| usual_width(&extents), |width| width - GAP);
         let Rows { size, origins } = Rows::new(&extents, GAP, limit);
         let groups = pattern.panels().iter().zip(extents.iter().zip(&origins));
         let groups = groups.map(|(panel, ([low, high], origin))| {

@@ -68,12 +68,12 @@ enum ConversionTarget {
 struct OutputFile {
     path: PathBuf,
     content: String,
-    /// What the pattern has and this file cannot say.
+    /// Notes on the parts of the pattern that this file does not contain.
     notes: Vec<PatternNote>,
 }
 
 impl OutputFile {
-    /// Returns the file at `path` with `content`, which says all of the pattern.
+    /// Returns the file at `path` with `content`. The file contains the whole pattern.
     fn new(path: PathBuf, content: String) -> Self {
         Self { path, content, notes: Vec::new() }
     }
@@ -84,14 +84,13 @@ impl ConversionTarget {
     fn new(arguments: &ConvertArguments) -> Result<Self, Failure> {
         let output = arguments.output.as_ref().filter(|path| !input::is_standard(path));
         let ending = output.and_then(|path| path.extension()).map(|e| e.to_ascii_lowercase());
-        let drawing = ending.as_ref().is_some_and(|ending| ending == "svg");
+        let is = |known: &str| ending.as_ref().is_some_and(|ending| ending == known);
 
-        let Some(path) = output.filter(|_| drawing) else {
+        let Some(path) = output.filter(|_| is("svg")) else {
             if arguments.paper.is_some() || arguments.width.is_some() {
                 let message = "--paper and --width are for a drawing: write it with -o NAME.svg";
                 return Err(Failure::Usage(message.into()));
             }
-            let is = |known: &str| ending.as_ref().is_some_and(|ending| ending == known);
             return match output {
                 Some(path) if is("dxf") => Ok(Self::Dxf(path.clone())),
                 Some(path) if !is("toml") => Err(Failure::Usage(format!(
@@ -170,7 +169,7 @@ fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
     }
 }
 
-/// Prints `notes` on a pattern or on the file that is written.
+/// Prints the `notes` of a pattern or of an [`OutputFile`].
 fn print_notes(notes: &[PatternNote]) {
     notes.iter().for_each(|note| print_message(format_args!("note: {note}")));
 }
