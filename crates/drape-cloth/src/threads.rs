@@ -9,7 +9,7 @@ pub(crate) fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) 
     (first(), second())
 }
 
-/// Returns the number of threads that work may be divided among.
+/// Returns the number of threads among which work may be divided.
 pub(crate) fn thread_count() -> usize {
     #[cfg(feature = "rayon")]
     let count = rayon::current_num_threads();
@@ -18,7 +18,8 @@ pub(crate) fn thread_count() -> usize {
     count
 }
 
-/// Returns the number of the calling thread, below [`thread_count`]; 0 outside a pool of threads.
+/// Returns the number of the calling thread, which is below [`thread_count`]. The number is 0
+/// outside a pool of threads.
 pub(crate) fn thread_number() -> usize {
     #[cfg(feature = "rayon")]
     let number = rayon::current_thread_index().unwrap_or(0);

@@ -5,7 +5,7 @@ pub(crate) use rayon::prelude::*;
 #[cfg(not(feature = "rayon"))]
 pub(crate) use serial::*;
 
-/// The methods of rayon that this crate uses, on one thread.
+/// Methods with the names of rayon's methods, which work on one thread.
 #[cfg(not(feature = "rayon"))]
 mod serial {
     use std::slice::{Chunks, ChunksMut, Iter, IterMut};

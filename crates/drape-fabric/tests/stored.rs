@@ -1,4 +1,4 @@
-//! Fabrics and laws as JSON: the keys of the TOML file, to the last bit, with the same checks.
+//! Fabrics and laws in JSON have the keys and the checks of the TOML file, and keep every bit.
 
 use drape_fabric::{BendingLaw, Fabric, ShearLaw, TractionLaw, samples};
 use drape_input::Document;
@@ -56,7 +56,7 @@ fn fabrics_and_their_laws_come_back_from_json_to_the_last_bit() {
         let text = serde_json::to_string(&fabric).expect("it has a JSON form");
         let again: Fabric = serde_json::from_str(&text).expect("what was written is right");
         assert_eq!(fabric, again, "{name}");
-        // The keys are those of the TOML file.
+        // JSON and TOML have the same keys.
         let json: toml::Table = serde_json::from_str(&text).expect("a table");
         let file: toml::Table = fabric.to_toml().parse().expect("TOML");
         assert_eq!(json, file, "{name}");

@@ -33,7 +33,8 @@ pub(crate) struct Conversion {
 type NamedText = (String, String);
 
 /// Converts the pattern at `path` to a file of the kind `kind`: `"pattern"` is TOML, `"drawing"` is
-/// SVG, `"dxf"` is DXF. Returns the files, and notes on what was taken and what is missing.
+/// SVG, `"dxf"` is DXF. Returns the files, and notes on choices of the reader and on parts that
+/// the files do not contain.
 #[pyfunction]
 pub(crate) fn convert_pattern(
     path: PathBuf,

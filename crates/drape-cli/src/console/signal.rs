@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 use rustix::process::Signal;
 use signal_hook::iterator::Signals;
 
-/// Signals that ask the program to end: from the keyboard, from another program, from a terminal
-/// that closes, at the limit of the processor time, and from the scheduler of a cluster.
+/// Signals that ask the program to end. They come from the keyboard, from another program, from a
+/// terminal that closes, at the limit of the processor time, and from the scheduler of a cluster.
 const WATCHED: [Signal; 5] = [Signal::INT, Signal::TERM, Signal::HUP, Signal::XCPU, Signal::USR1];
 
 /// Signals within this time of the first one count as one signal, because shells and wrappers send
@@ -67,8 +67,8 @@ pub(crate) fn watch() {
     });
 }
 
-/// Returns the signals that the program ignores: the signal with the number 1 in the lowest bit.
-/// Only Linux tells them; elsewhere no signal is ignored.
+/// Returns the signals that the program ignores as a mask, whose lowest bit is the signal with the
+/// number 1. Linux alone reports the mask. It is 0 on other systems.
 fn ignored_signals() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -1,4 +1,4 @@
-//! Source of a program, whose frames are checked as they come.
+//! Source of frames that a program implements. Each frame is checked when it is read.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::frame::Frame;
 use crate::manifest::Manifest;
 use crate::source::{FrameSource, check_frame};
 
-/// Frames of a program, which must fit the parts of `manifest`.
+/// Source of a program, whose frames must fit the parts of `manifest`.
 #[derive(Debug)]
 pub(crate) struct CheckedSource {
     pub(crate) manifest: Manifest,

@@ -229,11 +229,11 @@ fn curve_schema() -> Value {
             "description": "Table file beside the sheet, or several with repeats of the test.",
         },
         "deformation": axis_schema("Column of the deformation; detected if missing.", json!({
-            "gauge": size_schema("Length of the specimen with its unit, or the column with the length, in metres if the column has no unit; needed for a length only; that of the file if missing."),
+            "gauge": size_schema("Length of the specimen with its unit, or the column with the length, in metres if the column has no unit; needed for a length only; the gauge of the file if missing."),
             "zero": choice_schema(&Zero::ALL.map(Zero::name), "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
         })),
         "load": axis_schema("Column of the load; detected if missing.", json!({
-            "width": size_schema("Width of the specimen with its unit, or the column with the width, in metres if the column has no unit, for loads of a whole specimen; that of the file if missing."),
+            "width": size_schema("Width of the specimen with its unit, or the column with the width, in metres if the column has no unit, for loads of a whole specimen; the width of the file if missing."),
         })),
         "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start, so that the zeros of strain and force are fitted; `false` if missing." },
         "zero_strain": json!({ "anyOf": [{ "type": "number" }, { "type": "string" }], "description": "Strain of the file at which a tensile strip is taut and carries nothing, in percent: positive for a strip that hung slack before, negative for one under a pretension. The curve counts from there; from its first point if missing." }),

@@ -119,7 +119,8 @@ fn are_digits(text: &str) -> bool {
 }
 
 /// Joins the digits of `whole` that stand in groups of three, between blanks, apostrophes or the
-/// sign `group`. Returns `None` if `whole` has any other letter, or a group that is too short.
+/// sign `group`. Returns `None` if `whole` has any other letter, or a later group of more or fewer
+/// than three digits.
 fn join_groups(whole: &str, group: char) -> Option<String> {
     let signs = [group, ' ', '\''];
     let Some(sign) = signs.into_iter().find(|&sign| whole.contains(sign)) else {

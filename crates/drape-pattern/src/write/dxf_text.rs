@@ -1,6 +1,6 @@
 //! Texts of DXF: letters beyond ASCII stand as `\U+00E9`, with the code units of UTF-16.
 
-/// Begin of the code of a letter.
+/// Characters with which the code of a letter begins.
 const CODE: &str = "\\U+";
 
 /// Returns `text` as it stands in a file, on one line. Control letters become spaces.
@@ -22,7 +22,8 @@ pub(crate) fn escaped(text: &str) -> String {
     result
 }
 
-/// Returns the text that stands as `text` in a file. A code that is no letter stays as it is.
+/// Returns `text` of a file with its codes replaced by their letters. A code that is no letter
+/// stays as it is.
 pub(crate) fn decoded(text: &str) -> String {
     let mut result = String::new();
     let mut rest = text;

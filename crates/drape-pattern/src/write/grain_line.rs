@@ -11,11 +11,11 @@ const LONGEST: f64 = 120.0;
 
 /// Grain line in a polygon, in mm.
 pub(crate) struct GrainLine {
-    /// Middle of the line, which is far from the outline.
+    /// Middle of the line, a point far from the sides of the polygon.
     pub(crate) middle: [f64; 2],
-    /// Distance of the middle from the outline.
+    /// Distance of `middle` from the nearest side of the polygon.
     pub(crate) clearance: f64,
-    /// Ends of the line, the second in the direction of the warp.
+    /// Ends of the line. The warp points from the first end to the second.
     pub(crate) ends: [[f64; 2]; 2],
 }
 
@@ -105,8 +105,8 @@ mod tests {
             ([290.0, 115.0], 20.0),
             ([20.0, -20.0], 50.0),
         ] {
-            let found = clearance(&TRIANGLE, point);
-            assert!((found - expected).abs() < 1e-9, "{point:?}: {found}");
+            let measured = clearance(&TRIANGLE, point);
+            assert!((measured - expected).abs() < 1e-9, "{point:?}: {measured}");
         }
     }
 }

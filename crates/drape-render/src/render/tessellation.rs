@@ -126,8 +126,8 @@ struct Builder {
 #[derive(Clone, Copy)]
 struct Piece {
     corners: [u32; 3],
-    /// Barycentric coordinates of each corner in the surface triangle that is divided, the first
-    /// two of three.
+    /// First two of the three barycentric coordinates of each corner in the surface triangle that
+    /// is divided.
     weights: [[f32; 2]; 3],
     borders: [Border; 3],
 }

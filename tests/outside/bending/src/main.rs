@@ -7,7 +7,8 @@ use drape_fabric::{Law, drive};
 use drape_fit::{FitSettings, identify_bending};
 use drape_kes::{Direction, SheetDraft, Test};
 
-/// Rigidity in gf·cm²/cm, plateau of the friction in gf·cm/cm, and its length in 1/cm.
+/// Bending rigidity in gf·cm²/cm, plateau of the friction in gf·cm/cm, and length of the friction
+/// in 1/cm.
 const TRUTH: [f64; 3] = [0.12, 0.05, 0.04];
 
 /// Units of moments per width and of curvatures, in SI.

@@ -92,7 +92,8 @@ fn mode(i: usize) -> f64 {
     (std::f64::consts::PI * i as f64 / LINKS as f64).sin()
 }
 
-/// Returns the largest error of the positions after a period, over the amplitude, in `steps` steps.
+/// Integrates one period in `steps` steps. Returns the largest error of a position at the end, as a
+/// fraction of the amplitude.
 fn error(steps: u32) -> Result<f64, Error> {
     let mut held = vec![false; LINKS + 1];
     (held[0], held[LINKS]) = (true, true);

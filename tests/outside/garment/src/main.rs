@@ -18,7 +18,7 @@ const WIDTH: f64 = 0.36;
 const HEIGHT: f64 = 0.3;
 const START_RADIUS: f64 = 0.125;
 
-/// Radius of the body, in m, and its radius after the change over the one before.
+/// Radius of the body in m, and factor by which the radius grows.
 const RADIUS: f64 = 0.09;
 const GROWTH: f64 = 1.06;
 

@@ -11,7 +11,7 @@ use drape_lm::nalgebra::DMatrix;
 use drape_lm::{Covariance, Loss, MinimiserSettings, Parameter, Problem, Undetermined, minimise};
 use problem::{MGH17, MISRA1A, Reference};
 
-/// Number of fits of which the fastest counts.
+/// Number of fits of each problem. The fastest counts.
 const REPETITIONS: usize = 200;
 
 impl Problem for Reference {
@@ -43,9 +43,9 @@ fn fit(problem: &Reference) -> Result<(), Undetermined> {
 
     let covariance = Covariance::new(problem, &start, &report, Loss::Squares);
     for (j, [value, error]) in problem.certified.iter().enumerate() {
-        let found = [report.parameters[j], covariance.standard_error(j)?];
-        assert!((found[0] / value - 1.0).abs() < 1e-8, "b{} = {}", j + 1, found[0]);
-        assert!((found[1] / error - 1.0).abs() < 1e-6, "error of b{}: {}", j + 1, found[1]);
+        let fitted = [report.parameters[j], covariance.standard_error(j)?];
+        assert!((fitted[0] / value - 1.0).abs() < 1e-8, "b{} = {}", j + 1, fitted[0]);
+        assert!((fitted[1] / error - 1.0).abs() < 1e-6, "error of b{}: {}", j + 1, fitted[1]);
     }
     Ok(())
 }

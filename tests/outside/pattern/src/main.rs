@@ -15,8 +15,8 @@ const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="1000mm" 
   </g>
 </svg>"#;
 
-/// Returns the number of the edge of `panel` that runs between two heights, on the side at which
-/// `is_right` says; of the others none.
+/// Returns the slanting edge of `panel`, a number of a panel of `pattern`: its right edge if
+/// `is_right`, or else its left edge. `None` if the panel has no such edge.
 fn side(pattern: &Pattern, panel: usize, is_right: bool) -> Option<EdgeId> {
     let outline = pattern.panels()[panel].outline();
     let slanting = outline.iter().position(|edge| {
@@ -58,8 +58,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // A trapezium, less half a disc at the waist of the front.
     let trapezium = 0.5 * (0.4 + 0.3) * 0.6;
-    for (found, exact) in [(area(0), trapezium - 0.5 * PI * 0.15 * 0.15), (area(1), trapezium)] {
-        assert!((found / exact - 1.0).abs() < 1e-9, "{found} m², not {exact} m²");
+    for (measured, exact) in [(area(0), trapezium - 0.5 * PI * 0.15 * 0.15), (area(1), trapezium)] {
+        assert!((measured / exact - 1.0).abs() < 1e-9, "{measured} m², not {exact} m²");
     }
     for length in lengths.iter().flatten() {
         assert!((length / 0.6_f64.hypot(0.05) - 1.0).abs() < 1e-9, "{length} m");

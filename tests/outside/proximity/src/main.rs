@@ -12,7 +12,7 @@ use mesh::BumpySphere;
 /// Tolerance of the fraction of the motion.
 const TOLERANCE: f64 = 1e-6;
 
-/// Number of answers of which the fastest counts.
+/// Number of repetitions. The fastest counts.
 const REPETITIONS: usize = 5;
 
 /// Displacement of the second mesh, in m: past the first one, which it grazes.
@@ -45,31 +45,31 @@ fn main() -> Result<(), Error> {
     let first = BumpySphere::new(80, 0.0, [0.0; 3]);
     let second = BumpySphere::new(80, 1.3, [2.3, -0.2, 0.1]);
     let mut best = f64::MAX;
-    let mut found = answer(&first, &second)?;
+    let mut result = answer(&first, &second)?;
     for _ in 0..REPETITIONS {
         let begin = Instant::now();
-        found = answer(&first, &second)?;
+        result = answer(&first, &second)?;
         best = best.min(1e3 * begin.elapsed().as_secs_f64());
     }
 
     // At the impact the meshes do not touch yet, and are as near as the tolerance allows.
     let still = ProximityMesh::new(&first.positions, &first.triangles)?;
-    let arrived = ProximityMesh::new(&second.shifted(found.fraction), &second.triangles)?;
+    let arrived = ProximityMesh::new(&second.shifted(result.fraction), &second.triangles)?;
     let gap = mesh_distance(&still, &arrived).distance;
     let path = SHIFT.iter().map(|shift| shift * shift).sum::<f64>().sqrt();
     assert!(gap > 0.0 && gap <= path * TOLERANCE, "{gap} m apart at the impact");
     print!(
         "{} triangles each, {:.4} m apart, impact at {:.4}: {best:.1} ms",
         first.triangles.len(),
-        found.distance,
-        found.fraction
+        result.distance,
+        result.fraction
     );
 
     #[cfg(feature = "rival")]
     {
         let (rival, milliseconds) = rival::answer(&first, &second, REPETITIONS);
-        assert!((rival.distance - found.distance).abs() < 1e-12, "distance {}", rival.distance);
-        assert!((rival.fraction - found.fraction).abs() < 2.0 * TOLERANCE, "{}", rival.fraction);
+        assert!((rival.distance - result.distance).abs() < 1e-12, "distance {}", rival.distance);
+        assert!((rival.fraction - result.fraction).abs() < 2.0 * TOLERANCE, "{}", rival.fraction);
         print!("; parry3d-f64: {milliseconds:.1} ms");
     }
     println!();

@@ -35,9 +35,9 @@ impl ContactDistances {
 
 /// Parts of a [`Surface`](crate::Surface): vertices, cloth first, and triangles.
 ///
-/// [`from_meshes`](SurfaceParts::from_meshes) makes the parts of meshes that have positions and triangles alone. A vertex without a
-/// triangle is a loose point, which has contact with triangles like a vertex of cloth. Points have
-/// no contact with points.
+/// [`from_meshes`](SurfaceParts::from_meshes) makes the parts of meshes that have positions and
+/// triangles alone. A vertex without a triangle is a loose point, which has contact with triangles
+/// like a vertex of cloth. Points have no contact with points.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SurfaceParts {
     /// Three coordinates per vertex at rest, in m. Cloth takes them from its flat panel.

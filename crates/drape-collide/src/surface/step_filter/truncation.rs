@@ -259,7 +259,7 @@ impl Truncator {
             }
             proved
         });
-        // Every chunk is tested, so the loop must not stop at the first doubt.
+        // Every chunk is tested, so the loop must not stop at the first chunk without a proof.
         proved.filter(|is_proved| !is_proved).count() == 0
     }
 }
