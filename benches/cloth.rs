@@ -28,7 +28,7 @@ fn primed() -> TractionLaw {
             toe_strain: 0.015,
             toe_strain_after: 0.02,
         }),
-        friction: BlimanSorine::first_order(3.0, 0.001).into(),
+        friction: BlimanSorine::first_order(3.0, 0.001).expect("a friction").into(),
         buckling: Buckling::default(),
     }
 }
@@ -57,7 +57,7 @@ fn fabric(traction: TractionLaw) -> Fabric {
         bending: BendingLaw {
             backbone: BendingBackbone::Linear { rigidity },
             rest_curvature: 0.0,
-            friction: BlimanSorine::first_order(4e-4, 10.0),
+            friction: BlimanSorine::first_order(4e-4, 10.0).expect("a friction"),
         },
     };
     Fabric {
@@ -72,7 +72,7 @@ fn fabric(traction: TractionLaw) -> Fabric {
         weft: direction(1.2e-5),
         shear: ShearLaw {
             backbone: ShearBackbone::Linear { stiffness: 56.0 },
-            friction: BlimanSorine::first_order(0.4, 0.006),
+            friction: BlimanSorine::first_order(0.4, 0.006).expect("a friction"),
             growth: 6.0,
             locking: Some(Locking::default()),
         },
@@ -94,7 +94,7 @@ impl Sheet {
         let spacing = 1.0 / (side - 1) as f64;
         let lattice = Lattice::rectangle(1.0, 1.0, spacing).expect("a square");
         let panels = [(&lattice, &fabric)];
-        let cloth = Cloth::new(&panels);
+        let cloth = Cloth::new(&panels).expect("a cloth");
         // Strains of some tenths of a per cent of either sign and a shear of some degrees.
         let shape = |time: f64| -> Vec<f64> {
             let fold = |&[u, v]: &[f64; 2]| {
@@ -102,14 +102,14 @@ impl Sheet {
                 let depth = 0.02 * (1.0 + 0.02 * time) * (12.0 * u + 3.0 * v).sin();
                 [0.985 * u + 0.05 * u * v, v + 0.2 * ripple * u, depth + ripple]
             };
-            lattice.coordinates.iter().flat_map(fold).collect()
+            lattice.coordinates().iter().flat_map(fold).collect()
         };
         let mut state = cloth.state(shape(0.0)).expect("it fits");
-        let mut reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
+        let mut reference = ReferenceCloth::new(&panels, &cloth, &state).expect("a cloth");
         let rest = vec![0.0; 3 * cloth.particle_count()];
         for time in [0.1, 0.2] {
-            cloth.commit(&mut state, &shape(time), &rest);
-            reference.commit(&shape(time), state.normals());
+            cloth.commit(&mut state, &shape(time), &rest).expect("the lists fit");
+            reference.commit(&shape(time), state.normals()).expect("the lists fit");
         }
         Self { trial: shape(0.3), cloth, state, reference }
     }
@@ -119,7 +119,7 @@ impl Sheet {
     }
 
     fn trial(&self) -> Trial<'_> {
-        self.cloth.trial(&self.state, &self.trial)
+        self.cloth.trial(&self.state, &self.trial).expect("the lists fit")
     }
 
     /// Returns a workspace for a number of threads.
@@ -165,14 +165,16 @@ fn forces(criterion: &mut Criterion) {
             let mut forces = vec![0.0; 3 * sheet.particle_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
-                    workspace.add_forces(sheet.trial(), &mut forces);
+                    workspace.add_forces(sheet.trial(), &mut forces).expect("the lists fit");
                 });
             });
         },
         |group, id, sheet| {
             let mut forces = vec![0.0; 3 * sheet.particle_count()];
             group.bench_function(id, |bencher| {
-                bencher.iter(|| sheet.reference.add_forces(&sheet.trial, &mut forces));
+                bencher.iter(|| {
+                    sheet.reference.add_forces(&sheet.trial, &mut forces).expect("the lists fit")
+                });
             });
         },
     );
@@ -185,14 +187,16 @@ fn potential(criterion: &mut Criterion) {
         |group, id, sheet, mut workspace| {
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
-                    let potential = workspace.potential(sheet.trial());
+                    let potential = workspace.potential(sheet.trial()).expect("the lists fit");
                     black_box(potential)
                 });
             });
         },
         |group, id, sheet| {
             group.bench_function(id, |bencher| {
-                bencher.iter(|| black_box(sheet.reference.potential(&sheet.trial)));
+                bencher.iter(|| {
+                    black_box(sheet.reference.potential(&sheet.trial).expect("the lists fit"))
+                });
             });
         },
     );
@@ -206,14 +210,21 @@ fn stiffness(criterion: &mut Criterion) {
             let mut values = vec![0.0; 9 * sheet.cloth.sparsity().block_count()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
-                    workspace.add_stiffness(sheet.trial(), false, &mut values);
+                    workspace
+                        .add_stiffness(sheet.trial(), false, &mut values)
+                        .expect("the lists fit");
                 });
             });
         },
         |group, id, sheet| {
             let mut values = vec![0.0; 9 * sheet.cloth.sparsity().block_count()];
             group.bench_function(id, |bencher| {
-                bencher.iter(|| sheet.reference.add_stiffness(&sheet.trial, false, &mut values));
+                bencher.iter(|| {
+                    sheet
+                        .reference
+                        .add_stiffness(&sheet.trial, false, &mut values)
+                        .expect("the lists fit")
+                });
             });
         },
     );
@@ -230,7 +241,9 @@ fn commit(criterion: &mut Criterion) {
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
                     for shape in [&sheet.trial, &start] {
-                        workspace.commit(&sheet.cloth, &mut state, shape, &rest);
+                        workspace
+                            .commit(&sheet.cloth, &mut state, shape, &rest)
+                            .expect("the lists fit");
                     }
                 });
             });
@@ -240,7 +253,7 @@ fn commit(criterion: &mut Criterion) {
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
                     for shape in [&sheet.trial, &sheet.state.positions] {
-                        black_box(reference.commit(shape, normals));
+                        black_box(reference.commit(shape, normals).expect("the lists fit"));
                     }
                 });
             });
@@ -259,13 +272,13 @@ fn laws(criterion: &mut Criterion) {
         let mut forces = vec![0.0; 3 * sheet.particle_count()];
         group.bench_function(BenchmarkId::new("forces", name), |bencher| {
             bencher.iter(|| {
-                workspace.add_forces(sheet.trial(), &mut forces);
+                workspace.add_forces(sheet.trial(), &mut forces).expect("the lists fit");
             });
         });
         let mut values = vec![0.0; 9 * sheet.cloth.sparsity().block_count()];
         group.bench_function(BenchmarkId::new("stiffness", name), |bencher| {
             bencher.iter(|| {
-                workspace.add_stiffness(sheet.trial(), false, &mut values);
+                workspace.add_stiffness(sheet.trial(), false, &mut values).expect("the lists fit");
             });
         });
     }

@@ -113,19 +113,19 @@ fn sheet(seed: u64) -> Sheet {
                 toe_strain: 0.016,
                 toe_strain_after: 0.021,
             }),
-            friction: BlimanSorine::first_order(18.0, 0.0012).into(),
+            friction: BlimanSorine::first_order(18.0, 0.0012).expect("a friction").into(),
             buckling: Buckling::default(),
         };
         let shear = ShearLaw {
             backbone: ShearBackbone::Linear { stiffness: 40.0 },
-            friction: BlimanSorine::first_order(0.5, 0.005),
+            friction: BlimanSorine::first_order(0.5, 0.005).expect("a friction"),
             growth: 5.0,
             locking: None,
         };
         let bending = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity: 8e-6 * factor },
             rest_curvature: 0.0,
-            friction: BlimanSorine::first_order(3e-4, 9.0),
+            friction: BlimanSorine::first_order(3e-4, 9.0).expect("a friction"),
         };
         let reversals = &[0.0, 0.05, 0.0];
         let tensile = Protocol { test: Test::Tensile, direction, reversals };

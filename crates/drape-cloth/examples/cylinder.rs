@@ -48,16 +48,16 @@ fn fabric() -> Fabric {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (side, radius) = (0.2, 0.05);
     let lattice = Lattice::rectangle(side, side, 0.005)?;
-    let cloth = Cloth::new(&[(&lattice, &fabric())]);
+    let cloth = Cloth::new(&[(&lattice, &fabric())])?;
     let state =
-        cloth.state(lattice.coordinates.iter().flat_map(|&[u, v]| [u, v, 0.0]).collect())?;
+        cloth.state(lattice.coordinates().iter().flat_map(|&[u, v]| [u, v, 0.0]).collect())?;
 
     // Particles on the cylinder, with chords of the rest length between them: the yarns do not
     // stretch.
-    let spacing = lattice.spacing[0];
+    let spacing = lattice.spacing()[0];
     let angle = 2.0 * (0.5 * spacing / radius).asin();
     let bent: Vec<f64> = lattice
-        .coordinates
+        .coordinates()
         .iter()
         .flat_map(|&[u, v]| {
             let turned = angle * u / spacing;
@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         })
         .collect();
 
-    let energy = cloth.potential(&state, &bent) - cloth.potential(&state, &state.positions);
+    let energy = cloth.potential(&state, &bent)? - cloth.potential(&state, &state.positions)?;
     let curvature = angle / spacing;
     let exact = 0.5 * RIGIDITY * curvature * curvature * side * side;
     assert!((energy / exact - 1.0).abs() < 1e-6, "{energy:e} against {exact:e} J");

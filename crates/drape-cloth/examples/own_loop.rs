@@ -21,6 +21,9 @@ const SPACING: f64 = 0.02;
 /// Acceleration of gravity, in m/s².
 const GRAVITY: f64 = 9.806_65;
 
+/// Why lists of the sheet cannot be refused.
+const FIT: &str = "state and lists belong to the cloth of the sheet";
+
 /// Length of a frame, in s.
 const FRAME: f64 = 1.0 / 60.0;
 
@@ -76,7 +79,8 @@ impl System for Sheet {
         for ((force, mass), wind) in each.zip(&self.wind) {
             *force = [wind[0], wind[1] - mass * GRAVITY, wind[2]];
         }
-        self.workspace.add_forces(self.cloth.trial(&self.state, positions), forces);
+        let trial = self.cloth.trial(&self.state, positions).expect(FIT);
+        self.workspace.add_forces(trial, forces).expect(FIT);
     }
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
@@ -84,13 +88,14 @@ impl System for Sheet {
         let outer = particles.zip(&self.wind).map(|((x, mass), wind)| {
             mass * GRAVITY * x[1] - wind.iter().zip(x).map(|(force, x)| force * x).sum::<f64>()
         });
-        outer.sum::<f64>() + self.workspace.potential(self.cloth.trial(&self.state, positions))
+        let trial = self.cloth.trial(&self.state, positions).expect(FIT);
+        outer.sum::<f64>() + self.workspace.potential(trial).expect(FIT)
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         let definite = kind == Stiffness::Definite;
-        let trial = self.cloth.trial(&self.state, positions);
-        self.workspace.add_stiffness(trial, definite, matrix.values_mut());
+        let trial = self.cloth.trial(&self.state, positions).expect(FIT);
+        self.workspace.add_stiffness(trial, definite, matrix.values_mut()).expect(FIT);
     }
 
     fn sparsity(&self) -> Sparsity {
@@ -98,14 +103,14 @@ impl System for Sheet {
     }
 
     fn accept(&mut self, positions: &[f64], velocities: &[f64], _dt: f64) {
-        self.workspace.commit(&self.cloth, &mut self.state, positions, velocities);
+        self.workspace.commit(&self.cloth, &mut self.state, positions, velocities).expect(FIT);
     }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The sheet hangs from its two upper corners.
     let lattice = Lattice::rectangle(SIDE, SIDE, SPACING)?;
-    let cloth = Cloth::new(&[(&lattice, &samples::plain_weave_with_friction())]);
+    let cloth = Cloth::new(&[(&lattice, &samples::plain_weave_with_friction())])?;
     let positions: Vec<f64> =
         cloth.coordinates().iter().flat_map(|&[u, v]| [u, v - SIDE, 0.0]).collect();
     let corner = |u: f64| {

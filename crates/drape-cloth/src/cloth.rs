@@ -2,7 +2,9 @@
 
 use drape_fabric::Fabric;
 
+use crate::error::{Error, check_length};
 use crate::layout::connectors::BendingConnectors;
+use crate::layout::fingerprint::Fingerprint;
 use crate::layout::grid::{GridPanel, PanelStart, Yarns};
 use crate::layout::sparsity::Sparsity;
 use crate::layout::strip::Strip;
@@ -33,7 +35,7 @@ use crate::state::State;
 /// use drape_cloth::{Cloth, Lattice};
 /// let fabric = drape_fabric::samples::plain_weave();
 /// let lattice = Lattice::rectangle(0.2, 0.3, 0.01)?;
-/// let cloth = Cloth::new(&[(&lattice, &fabric)]);
+/// let cloth = Cloth::new(&[(&lattice, &fabric)])?;
 /// // Every kind of connector stands for the whole panel.
 /// let areas = cloth.connector_areas();
 /// assert!((areas.shear - 0.06).abs() < 1e-12 && (areas.bending[0] - 0.06).abs() < 1e-12);
@@ -54,6 +56,7 @@ pub struct Cloth {
     pub(crate) strips: Vec<Strip>,
     pub(crate) rims: Vec<Rim>,
     sparsity: Sparsity,
+    fingerprint: Fingerprint,
 }
 
 /// Areas of the connectors of each kind. Each is the area of the whole cloth.
@@ -82,8 +85,11 @@ pub struct Strains {
 
 impl Cloth {
     /// Returns a cloth of `panels`, each with its fabric. Particles are numbered panel by panel.
-    #[must_use]
-    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Self {
+    ///
+    /// # Errors
+    /// There is no panel, a panel has no area, or a number of a fabric is out of range.
+    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, Error> {
+        check_panels(panels)?;
         let mut cloth = Self {
             masses: Vec::new(),
             areas: Vec::new(),
@@ -96,6 +102,7 @@ impl Cloth {
             strips: Vec::new(),
             rims: Vec::new(),
             sparsity: Sparsity::default(),
+            fingerprint: Fingerprint::new(),
         };
         panels.iter().for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
 
@@ -108,7 +115,39 @@ impl Cloth {
             Strip::append(&mut cloth.strips, panel, index, &cloth.sparsity);
         }
         cloth.rims.iter_mut().for_each(|rim| rim.find_slots(&cloth.sparsity));
-        cloth
+        cloth.fingerprint = cloth.take_fingerprint();
+        Ok(cloth)
+    }
+
+    /// Returns the fingerprint of the layout: of what the state of one cloth may share with no
+    /// other cloth.
+    fn take_fingerprint(&self) -> Fingerprint {
+        let mut fingerprint = Fingerprint::new();
+        fingerprint.add(self.starts.iter().map(|&start| start as u64));
+        fingerprint
+            .add(self.panels.iter().flat_map(|panel| [panel.base, panel.stride]).map(|n| n as u64));
+        fingerprint.add(self.triangles.iter().flatten().map(|&particle| u64::from(particle)));
+        fingerprint.add(self.coordinates.iter().flatten().map(|coordinate| coordinate.to_bits()));
+        fingerprint
+    }
+
+    /// Checks that `state` belongs to this cloth and has three numbers for every particle.
+    pub(crate) fn check_state(&self, state: &State) -> Result<(), Error> {
+        if state.fingerprint != self.fingerprint.number() {
+            return Err(Error::OtherCloth { what: "state" });
+        }
+        self.check_vectors("positions of the state", &state.positions)?;
+        self.check_vectors("velocities of the state", &state.velocities)
+    }
+
+    /// Checks that the list called `name` has three numbers for every particle.
+    pub(crate) fn check_vectors(&self, name: &'static str, numbers: &[f64]) -> Result<(), Error> {
+        check_length(name, 3 * self.particle_count(), numbers.len())
+    }
+
+    /// Returns the fingerprint, which the states of this cloth share.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        self.fingerprint.number()
     }
 
     /// Appends the particles and connectors of a panel of `fabric` with the shape `lattice`.
@@ -148,15 +187,22 @@ impl Cloth {
 
     /// Returns the cloth with the masses of tied particles moved to the two particles between which
     /// each of `ties` lies. The sum and the centre of the masses stay.
-    #[must_use]
-    pub fn with_ties<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Self {
-        for &Tie { particle, ends, fraction } in ties {
+    ///
+    /// # Errors
+    /// A tie names a particle that does not exist, or a fraction beyond 0 to 1.
+    pub fn with_ties<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Result<Self, Error> {
+        for (tie, &Tie { particle, ends, fraction }) in ties.into_iter().enumerate() {
+            let mut particles = ends.into_iter().chain([particle]);
+            let exist = particles.all(|particle| (particle as usize) < self.masses.len());
+            if !exist || !(0.0..=1.0).contains(&fraction) {
+                return Err(Error::Tie { tie });
+            }
             let mass = std::mem::take(&mut self.masses[particle as usize]);
             for (end, part) in ends.into_iter().zip([1.0 - fraction, fraction]) {
                 self.masses[end as usize] += part * mass;
             }
         }
-        self
+        Ok(self)
     }
 
     /// Returns the number of particles, each with three coordinates in a [`State`].
@@ -232,8 +278,11 @@ impl Cloth {
     }
 
     /// Returns the deformation at `state`, from the memories of its connectors, as [`Strains`].
-    #[must_use]
-    pub fn strains(&self, state: &State) -> Strains {
+    ///
+    /// # Errors
+    /// The state belongs to another cloth.
+    pub fn strains(&self, state: &State) -> Result<Strains, Error> {
+        self.check_state(state)?;
         let (mut traction, mut shear, mut curvature) = (Vec::new(), Vec::new(), Vec::new());
         let State { grid, rim, .. } = state;
 
@@ -268,29 +317,31 @@ impl Cloth {
         for values in [&mut traction, &mut shear, &mut curvature] {
             values.sort_by(f64::total_cmp);
         }
-        Strains {
-            traction_max: traction[traction.len() - 1],
+        Ok(Strains {
+            traction_max: traction.last().copied().unwrap_or(0.0),
             traction_p99: percentile_99(&traction),
-            shear_max: shear[shear.len() - 1].min(1.0).asin(),
+            shear_max: shear.last().map_or(0.0, |sine| sine.min(1.0).asin()),
             curvature_p99: percentile_99(&curvature),
-        }
+        })
     }
 
     /// Returns the strains of the triangles of the surface, in the order of
     /// [`triangles`](Cloth::triangles), with the particles at `positions` (three numbers each, in
     /// m).
     ///
-    /// # Panics
-    /// Positions of some particles are missing.
-    #[must_use]
-    pub fn triangle_strains(&self, positions: &[f64]) -> Vec<TriangleStrain> {
-        self.triangles
+    /// # Errors
+    /// There are not three numbers for every particle.
+    pub fn triangle_strains(&self, positions: &[f64]) -> Result<Vec<TriangleStrain>, Error> {
+        self.check_vectors("positions", positions)?;
+        let strains = self
+            .triangles
             .iter()
             .map(|triangle| {
                 let coordinates = triangle.map(|particle| self.coordinates[particle as usize]);
                 TriangleStrain::new(coordinates, triangle.map(|p| vector_at(positions, p)))
             })
-            .collect()
+            .collect();
+        Ok(strains)
     }
 
     /// Computes the normals of the surface at the positions of `state`, and stores them there.
@@ -314,7 +365,27 @@ impl Cloth {
     }
 }
 
-/// Returns the 99th percentile of the sorted `values`.
+/// Returns the 99th percentile of the sorted `values`, 0 without values.
 fn percentile_99(values: &[f64]) -> f64 {
-    values[(values.len() - 1) * 99 / 100]
+    values.get(values.len().saturating_sub(1) * 99 / 100).copied().unwrap_or(0.0)
+}
+
+/// Checks that there are `panels`, that each has an area, and that the numbers of its fabric are in
+/// range.
+pub(crate) fn check_panels(panels: &[(&Lattice, &Fabric)]) -> Result<(), Error> {
+    if panels.is_empty() {
+        return Err(Error::Empty);
+    }
+    for (panel, (lattice, fabric)) in panels.iter().enumerate() {
+        let area = lattice.area();
+        if !(area > 0.0 && area.is_finite()) {
+            return Err(Error::Area { panel, area });
+        }
+        let problems = fabric.problems();
+        if !problems.is_empty() {
+            let problems = problems.iter().map(|p| format!("{}: {}", p.key, p.message)).collect();
+            return Err(Error::Fabric { panel, problems });
+        }
+    }
+    Ok(())
 }

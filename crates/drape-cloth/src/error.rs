@@ -1,6 +1,6 @@
 //! Errors of panels, seams and states, with the values that do not fit.
 
-/// Reason why a cloth, or a part of it, cannot be made.
+/// Reason why a cloth, or a part of it, cannot be made or evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -75,12 +75,50 @@ pub enum Error {
         "the model of Breen, House & Wozny has no rims: cut the panel as a rectangle or a disc"
     )]
     Rim,
-    /// The number of coordinates does not fit the cloth.
-    #[error("{found} numbers were given for the positions of {particles} particles; give 3 each")]
-    Positions {
-        /// Number of coordinates given.
-        found: usize,
-        /// Number of particles of the cloth.
-        particles: usize,
+    /// A cloth has no panels.
+    #[error("a cloth needs at least one panel")]
+    Empty,
+    /// A panel of a cloth has no area, or more than a number can hold.
+    #[error("panel {panel} has an area of {area} m²; it must be greater than 0 and finite")]
+    Area {
+        /// Index of the panel, counted from 0.
+        panel: usize,
+        /// Area of the panel, in m².
+        area: f64,
     },
+    /// The fabric of a panel is out of range.
+    #[error("the fabric of panel {panel}: {}", problems.join("; "))]
+    Fabric {
+        /// Index of the panel, counted from 0.
+        panel: usize,
+        /// Problems of the fabric, each with its key.
+        problems: Vec<String>,
+    },
+    /// A tie of a cloth names a particle that does not exist, or a fraction beyond 0 to 1.
+    #[error("tie {tie} names a particle that does not exist, or a fraction beyond 0 to 1")]
+    Tie {
+        /// Index of the tie, counted from 0.
+        tie: usize,
+    },
+    /// A list has another length than the cloth requires.
+    #[error("{name}: {found} numbers given for a cloth that needs {expected}")]
+    Dimension {
+        /// Name of the list.
+        name: &'static str,
+        /// Length that the cloth requires.
+        expected: usize,
+        /// Length of the list.
+        found: usize,
+    },
+    /// A state or a workspace belongs to another cloth.
+    #[error("the {what} belongs to another cloth")]
+    OtherCloth {
+        /// Name of the object.
+        what: &'static str,
+    },
+}
+
+/// Checks that the list called `name` has the `expected` length.
+pub(crate) fn check_length(name: &'static str, expected: usize, found: usize) -> Result<(), Error> {
+    if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
 }

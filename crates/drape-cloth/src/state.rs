@@ -25,6 +25,8 @@ pub struct State {
     pub(crate) grid: GridMemories,
     /// Memories of the connectors of the rims.
     pub(crate) rim: RimMemories,
+    /// Fingerprint of the cloth.
+    pub(crate) fingerprint: u64,
 }
 
 impl State {
@@ -39,7 +41,8 @@ impl State {
     #[must_use]
     pub fn may_follow(&self, earlier: &Self) -> bool {
         let mut numbers = self.positions.iter().chain(&self.velocities).chain(&self.normals);
-        self.positions.len() == earlier.positions.len()
+        self.fingerprint == earlier.fingerprint
+            && self.positions.len() == earlier.positions.len()
             && self.velocities.len() == earlier.velocities.len()
             && self.normals.len() == earlier.normals.len()
             && numbers.all(|number| number.is_finite())

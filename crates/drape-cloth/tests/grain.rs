@@ -28,8 +28,8 @@ fn a_turned_rectangle_has_its_own_area() {
 #[test]
 fn its_particles_are_on_the_yarns_and_within_a_cell_of_it() {
     for (what, size, lattice) in rectangles() {
-        let [u, v] = lattice.coordinates[0];
-        for place in &lattice.coordinates {
+        let [u, v] = lattice.coordinates()[0];
+        for place in lattice.coordinates() {
             let rows = [(place[0] - u) / 0.01, (place[1] - v) / 0.01];
             assert!(rows.iter().all(|row| (row - row.round()).abs() < 1e-9), "{what}: {rows:?}");
         }
@@ -44,9 +44,9 @@ fn its_particles_are_on_the_yarns_and_within_a_cell_of_it() {
 #[test]
 fn it_hangs_together_and_no_particle_is_without_area() {
     for (what, _, lattice) in rectangles() {
-        let mut areas = vec![0.0; lattice.coordinates.len()];
+        let mut areas = vec![0.0; lattice.coordinates().len()];
         let mut piece: Vec<usize> = (0..areas.len()).collect();
-        for cell in &lattice.cells {
+        for cell in lattice.cells() {
             for (corner, quadrant) in cell.corners.iter().zip(cell.quadrants) {
                 areas[*corner as usize] += quadrant;
             }
@@ -55,7 +55,7 @@ fn it_hangs_together_and_no_particle_is_without_area() {
         let mut changed = true;
         while changed {
             changed = false;
-            for cell in &lattice.cells {
+            for cell in lattice.cells() {
                 let corners = cell.corners.map(|corner| corner as usize);
                 let least = corners.iter().map(|corner| piece[*corner]).min().expect("four");
                 for corner in corners {
@@ -76,8 +76,8 @@ fn a_quarter_of_a_circle_exchanges_the_sides() {
         Lattice::rectangle_at(Grain::from_degrees(angle), [0.0; 2], size, 0.01).expect("a panel")
     };
     let (straight, turned) = (lattice(0.0, [0.2, 0.05]), lattice(90.0, [0.05, 0.2]));
-    assert_eq!(turned.spacing, straight.spacing);
-    assert_eq!(turned.cells, straight.cells);
+    assert_eq!(turned.spacing(), straight.spacing());
+    assert_eq!(turned.cells(), straight.cells());
     // The lower left corner of the one is the lower right of the other.
     for (place, [x, y]) in turned.panel_coordinates().iter().zip(straight.panel_coordinates()) {
         assert!((place[0] - (0.05 - y)).hypot(place[1] - x) < 1e-15, "{place:?} {x} {y}");

@@ -28,7 +28,7 @@ fn cloth() -> Cloth {
     let fabric = Fabric::from_document(&Document::new("linen.toml", LINEN)).expect("it is right");
     let sheet = Lattice::rectangle(1.0, 0.8, 0.01).expect("a rectangle");
     let disc = Lattice::disc(0.2, 0.008).expect("a disc");
-    Cloth::new(&[(&sheet, &fabric), (&disc, &fabric)])
+    Cloth::new(&[(&sheet, &fabric), (&disc, &fabric)]).expect("a cloth")
 }
 
 /// A shape that ripples with time.
@@ -48,12 +48,18 @@ fn evaluate(cloth: &Cloth, workspace: &mut Workspace, numbers: &mut Numbers, sha
     let (state, sum, forces, values) = numbers;
     for pair in shapes.windows(2) {
         for trial in pair {
-            workspace.add_forces(cloth.trial(state, trial), forces);
-            *sum += workspace.potential(cloth.trial(state, trial));
-            workspace.add_stiffness(cloth.trial(state, trial), false, values);
+            workspace
+                .add_forces(cloth.trial(state, trial).expect("the lists fit"), forces)
+                .expect("the lists fit");
+            *sum += workspace
+                .potential(cloth.trial(state, trial).expect("the lists fit"))
+                .expect("the lists fit");
+            workspace
+                .add_stiffness(cloth.trial(state, trial).expect("the lists fit"), false, values)
+                .expect("the lists fit");
         }
         let rest = &pair[0];
-        *sum += workspace.commit(cloth, state, &pair[1], rest);
+        *sum += workspace.commit(cloth, state, &pair[1], rest).expect("the lists fit");
     }
 }
 

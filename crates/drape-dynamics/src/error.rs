@@ -7,6 +7,10 @@ pub enum Error {
     /// The solver cannot be set up for the scene.
     #[error("the solver cannot be set up: {0}")]
     Solver(#[from] drape_implicit::Error),
+    /// The cloth, or the way it is sewn, does not fit the scene, which was changed after it was
+    /// checked.
+    #[error("the cloth does not fit the scene: {0}")]
+    Cloth(#[from] drape_cloth::Error),
     /// Contact cannot be set up for the scene, which was changed after it was checked.
     #[error("the contact cannot be set up: {0}")]
     Contact(#[from] drape_collide::Error),

@@ -27,7 +27,6 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use drape_cloth::Interpolation;
 use drape_frames::{Frame, Manifest, Topology};
 use drape_implicit::{Report, Stop};
 use drape_scene::{Relaxation, Scene, Source};
@@ -45,7 +44,7 @@ use crate::stepping::statistics::Statistics;
 use crate::stepping::{
     AcceptedStep, PhaseSteps, ReferenceScheme, RestDetector, Scheme, StepMotion, Stepping,
 };
-use crate::world::{Energy, PinLoad, World};
+use crate::world::{ALL_PARTICLES, Energy, PinLoad, World};
 
 /// Unit of imbalances, in m/s².
 const GRAVITY: f64 = 9.81;
@@ -118,8 +117,7 @@ pub struct Simulation {
 #[derive(Debug)]
 struct CoarserGrid {
     simulation: Box<Simulation>,
-    /// Interpolation of each panel, with the index of the first coordinate of the panel.
-    panels: Vec<(usize, Interpolation)>,
+    panels: Vec<coarser_grid::CoarserPanel>,
 }
 
 /// Phases of a run.
@@ -225,7 +223,7 @@ impl Simulation {
     /// When the solver cannot be set up.
     pub fn with_scheme(mut scene: Scene, scheme: Scheme) -> Result<Self, Error> {
         let coarser = CoarserGrid::take_from(&mut scene, &scheme)?;
-        let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
+        let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing());
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let (schedule, source) = (scene.schedule, scene.source.clone());
         let parts = GarmentParts::new(&scene);
@@ -451,7 +449,7 @@ impl Simulation {
     #[must_use]
     pub fn summary(&self) -> Summary {
         let World { cloth, state, .. } = &self.world;
-        let strains = cloth.strains(state);
+        let strains = cloth.strains(state).expect(ALL_PARTICLES);
 
         Summary {
             status: self.outcome.status.clone(),

@@ -204,7 +204,7 @@ impl Stepping {
 
             // A step whose error is too large is repeated from its start.
             let start = self.step_start(world);
-            self.predict(world, dt);
+            self.predict(world, dt)?;
             let report = self.integrate(world, dt)?;
             let error = self.estimate_error();
             if self.control.adapt_to_error(self.ticks, ticks, error) {
@@ -305,14 +305,14 @@ impl Stepping {
     }
 
     /// Predicts the end of a step of the length `dt`, in s, for the estimate of its error.
-    fn predict(&mut self, world: &World, dt: f64) {
+    fn predict(&mut self, world: &World, dt: f64) -> Result<(), Error> {
         let integrator = match &self.scheme {
             Scheme::Implicit(settings) if !world.relaxes() => settings.integrator,
             _ => Integrator::BackwardEuler,
         };
         match &self.reduction {
             Some(reduction) => {
-                self.estimate.predict(&reduction.prolonged(&self.state), integrator, dt);
+                self.estimate.predict(&reduction.prolonged(&self.state), integrator, dt)
             }
             None => self.estimate.predict(&self.state, integrator, dt),
         }

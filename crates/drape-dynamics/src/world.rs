@@ -105,7 +105,7 @@ impl World {
     ///
     /// # Errors
     ///
-    /// Returns an error if contact cannot be set up for `scene`.
+    /// Returns an error if contact cannot be set up for `scene`, or if its cloth does not fit it.
     pub(crate) fn new(scene: Scene) -> Result<Self, Error> {
         let contact = Contact::new(&scene)?;
         let held = scene.held_particles();
@@ -121,11 +121,16 @@ impl World {
             None => Seams { springs: None, sewn: None },
         };
 
-        let mut state = cloth.state(start.positions).expect("a scene places every particle");
+        if let Some(SewnCloth { cloth, bending }) = &seams.sewn {
+            // A scene that was changed after it was checked is refused now, not when it is sewn.
+            bending.state(&start.positions)?;
+            cloth.state(start.positions.clone())?;
+        }
+        let mut state = cloth.state(start.positions)?;
         state.velocities = start.velocities;
         let coupled = seams.springs.as_ref().map_or_else(Vec::new, ClosingSprings::coupled_pairs);
-        let mut internal = InternalForces::new(&cloth, breen, &coupled, &state.positions);
-        let stored = internal.stored(&cloth, &state);
+        let mut internal = InternalForces::new(&cloth, breen, &coupled, &state.positions)?;
+        let stored = internal.stored(&cloth, &state)?;
 
         let with_balance = scene.solver.energy_balance;
         let is_sewing = seams.springs.is_some();
@@ -254,11 +259,11 @@ impl World {
         self.gravity.start_ramp(time);
         if let Some(SewnCloth { cloth, bending }) = self.seams.sewn.take() {
             self.cloth = cloth;
-            self.internal.sew(&self.cloth, bending, positions);
+            self.internal.sew(&self.cloth, bending, positions).expect(ALL_PARTICLES);
         }
 
         let state = self.cloth.state(positions.to_vec());
-        self.state = state.expect("a place for every particle");
+        self.state = state.expect(ALL_PARTICLES);
         self.pins.release(HoldUntil::Sewn, time);
         self.begin_balance();
     }
@@ -293,7 +298,7 @@ impl World {
     /// Starts the energy balance at the current state, if the run keeps one.
     fn begin_balance(&mut self) {
         if self.with_balance {
-            let stored = self.internal.stored(&self.cloth, &self.state);
+            let stored = self.internal.stored(&self.cloth, &self.state).expect(ALL_PARTICLES);
             self.balance = Some(EnergyBalance::new(stored, self.kinetic_energy()));
         }
     }
@@ -314,8 +319,8 @@ impl World {
     pub(crate) fn forget(&mut self) {
         let velocities = std::mem::take(&mut self.state.velocities);
         let positions = std::mem::take(&mut self.state.positions);
-        self.internal.forget(&positions);
-        self.state = self.cloth.state(positions).expect("a place for every particle");
+        self.internal.forget(&positions).expect(ALL_PARTICLES);
+        self.state = self.cloth.state(positions).expect(ALL_PARTICLES);
         self.state.velocities = velocities;
         self.begin_balance();
     }

@@ -9,7 +9,7 @@ fn main() {
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: 1.2e-5 },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(6e-4, 4.0),
+        friction: BlimanSorine::first_order(6e-4, 4.0).expect("a friction"),
     };
 
     // Loading to 250 1/m, unloading to −250 1/m and back, read at 50, 100 and 150 1/m on the upper

@@ -360,7 +360,7 @@ mod tests {
 
     #[test]
     fn the_first_branch_of_a_law_has_its_load_far_out_and_its_work() {
-        let friction = BlimanSorine::first_order(6e-4, 4.0);
+        let friction = BlimanSorine::first_order(6e-4, 4.0).expect("a friction");
         let law = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity: 1.2e-5 },
             rest_curvature: 0.0,
@@ -368,7 +368,7 @@ mod tests {
         };
         let shear = ShearLaw {
             backbone: ShearBackbone::Linear { stiffness: 30.0 },
-            friction: BlimanSorine::first_order(0.4, 0.004),
+            friction: BlimanSorine::first_order(0.4, 0.004).expect("a friction"),
             growth: 6.0,
             locking: Some(Locking::default()),
         };
@@ -392,7 +392,7 @@ mod tests {
         let twice = BreenWork::from_laws(&again, &shear).bending;
         assert!((twice.knot / found.bending.knot - 1.0).abs() < 1e-12, "{twice:?}");
         // Friction that overshoots has a knot all the same.
-        let stiction = BlimanSorine::second_order(6e-4, 5e-4, 0.1, 4.0);
+        let stiction = BlimanSorine::second_order(6e-4, 5e-4, 0.1, 4.0).expect("a friction");
         let found = BreenWork::from_laws(&BendingLaw { friction: stiction, ..law }, &shear).bending;
         assert!(found.knot > 0.0 && found.intercept > 0.0, "{found:?}");
     }

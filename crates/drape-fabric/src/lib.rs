@@ -37,7 +37,9 @@ pub use batch::shear::ShearBatch;
 pub use batch::traction::TractionBatch;
 pub use breen::{BreenWork, Work, breen_curvature};
 pub use check::Problem;
-pub use drape_hysteresis::{BlimanSorine, Dahl, Loads, PassedKnot, PreparedDahl, Response, Stroke};
+pub use drape_hysteresis::{
+    BlimanSorine, Dahl, Error as FrictionError, Loads, PassedKnot, PreparedDahl, Response, Stroke,
+};
 pub use fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
 #[cfg(feature = "schema")]
 pub use file::fabric_schema;

@@ -87,8 +87,8 @@ fn compare<L: Law, B: BatchLaw>(law: &L, batch: &B, range: (f64, f64), places: &
 fn traction_side_by_side_is_traction_one_by_one() {
     let frictions = [
         BlimanSorine::none(),
-        BlimanSorine::first_order(3.0, 0.001),
-        BlimanSorine::second_order(5.0, 2.0, 0.2, 0.01),
+        BlimanSorine::first_order(3.0, 0.001).expect("a friction"),
+        BlimanSorine::second_order(5.0, 2.0, 0.2, 0.01).expect("a friction"),
     ];
     for friction in frictions {
         for (toe_ratio, toe_strain_after) in [(0.505, 0.015), (0.6, 0.022), (1.0, 0.03)] {
@@ -151,7 +151,11 @@ fn shear_side_by_side_is_shear_one_by_one() {
     ];
     for backbone in backbones {
         for (growth, locking) in [(0.0, None), (11.0, Some(Locking::default()))] {
-            let friction = BlimanSorine::parallel(Dahl::new(0.5, 0.004), Dahl::new(0.3, 0.05));
+            let friction = BlimanSorine::parallel(
+                Dahl::new(0.5, 0.004).expect("a friction"),
+                Dahl::new(0.3, 0.05).expect("a friction"),
+            )
+            .expect("a friction");
             let law = ShearLaw { backbone, friction, growth, locking };
             let places = [-0.14, -0.02, 0.0, 0.02, 0.139];
             compare(&law, &ShearBatch::new(law), (-0.2, 0.2), &places);
@@ -170,7 +174,10 @@ fn bending_side_by_side_is_bending_one_by_one() {
         BendingBackbone::Varying(varying),
     ];
     for backbone in backbones {
-        for friction in [BlimanSorine::none(), BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0)] {
+        for friction in [
+            BlimanSorine::none(),
+            BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0).expect("a friction"),
+        ] {
             let law = BendingLaw { backbone, rest_curvature: 12.0, friction };
             let places = [0.0, 12.0, 52.0];
             compare(&law, &BendingBatch::new(law), (-250.0, 250.0), &places);
@@ -182,7 +189,7 @@ fn bending_side_by_side_is_bending_one_by_one() {
 fn a_trial_that_is_no_number_gives_none() {
     let law = ShearLaw {
         backbone: ShearBackbone::Linear { stiffness: 35.0 },
-        friction: BlimanSorine::first_order(0.5, 0.004),
+        friction: BlimanSorine::first_order(0.5, 0.004).expect("a friction"),
         growth: 6.0,
         locking: Some(Locking::default()),
     };

@@ -14,7 +14,7 @@ fn primed(toe_ratio: f64, after: f64) -> TractionLaw {
             toe_strain: 0.015,
             toe_strain_after: after,
         }),
-        friction: BlimanSorine::first_order(3.0, 0.001).into(),
+        friction: BlimanSorine::first_order(3.0, 0.001).expect("a friction").into(),
         buckling: Buckling::default(),
     }
 }
@@ -61,7 +61,11 @@ fn bending(backbone: BendingBackbone, friction: BlimanSorine) -> BendingLaw {
 }
 
 fn shear(backbone: ShearBackbone, growth: f64) -> ShearLaw {
-    let friction = BlimanSorine::parallel(Dahl::new(0.5, 0.004), Dahl::new(0.3, 0.05));
+    let friction = BlimanSorine::parallel(
+        Dahl::new(0.5, 0.004).expect("a friction"),
+        Dahl::new(0.3, 0.05).expect("a friction"),
+    )
+    .expect("a friction");
     ShearLaw { backbone, friction, growth, locking: Some(Locking::default()) }
 }
 
@@ -152,10 +156,13 @@ fn bending_load_and_tangent_are_derivatives_of_the_work() {
     let linear = BendingBackbone::Linear { rigidity: 1.2e-5 };
     let breen = Piecewise { slope: 1.2e-5, intercept: 4e-4, knot: 40.0 };
     for law in [
-        bending(linear, BlimanSorine::first_order(6e-4, 4.0)),
-        bending(linear, BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0)),
+        bending(linear, BlimanSorine::first_order(6e-4, 4.0).expect("a friction")),
+        bending(linear, BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0).expect("a friction")),
         bending(BendingBackbone::Piecewise(breen), BlimanSorine::none()),
-        bending(BendingBackbone::Varying(SOFTENING), BlimanSorine::first_order(6e-4, 4.0)),
+        bending(
+            BendingBackbone::Varying(SOFTENING),
+            BlimanSorine::first_order(6e-4, 4.0).expect("a friction"),
+        ),
     ] {
         check_derivatives(&law, (-250.0, 250.0), &[12.0, 52.0, -28.0]);
     }
@@ -237,7 +244,7 @@ fn closed_loops_of_every_law_dissipate() {
             cycle(&law, low, high);
         }
     }
-    let friction = BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0);
+    let friction = BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0).expect("a friction");
     let law = bending(BendingBackbone::Linear { rigidity: 1.2e-5 }, friction);
     for (low, high) in [(-250.0, 250.0), (-5.0, 3.0), (100.0, 140.0)] {
         cycle(&law, low, high);
@@ -272,7 +279,7 @@ fn a_steady_bending_loop_has_the_closed_form() {
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: b },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(fc, length),
+        friction: BlimanSorine::first_order(fc, length).expect("a friction"),
     };
     let mut history = [tip, -tip].repeat(10);
     history.extend([50.0, tip, 50.0]);

@@ -15,7 +15,7 @@ fn bending_loop() -> Result<Curve, drape_kes::Error> {
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(plateau, length),
+        friction: BlimanSorine::first_order(plateau, length).expect("a friction"),
     };
     let curvature: Vec<f64> =
         (0..=125).chain((-125..125).rev()).map(|i| 2.0 * f64::from(i)).collect();

@@ -23,7 +23,8 @@ fn sheet(seed: u64, good: bool) -> Sheet {
         let law = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity: 1e-5 * (0.5 + random.unit()) },
             rest_curvature: 0.0,
-            friction: BlimanSorine::first_order(3e-4, 5.0 + 20.0 * random.unit()),
+            friction: BlimanSorine::first_order(3e-4, 5.0 + 20.0 * random.unit())
+                .expect("a friction"),
         };
         let steps = |from: f64, to: f64, n: u32| {
             (1..=n).map(move |i| from + (to - from) * f64::from(i) / f64::from(n))

@@ -4,7 +4,7 @@
 
 mod random;
 
-use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
+use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Dahl, Law, drive};
 use drape_fit::{FitSettings, FrictionOrder, LoopModel, identify_bending};
 use drape_kes::{Curve, Direction, Test};
 use random::Random;
@@ -57,7 +57,7 @@ fn chosen(reversals: &[f64], friction: impl Fn(&mut Random) -> BlimanSorine + Sy
 
 /// 2HB of 0.6 cm⁻¹ times B, slipping over 8 to 30 1/m.
 fn first(random: &mut Random) -> BlimanSorine {
-    BlimanSorine::first_order(3e-4, random.between(8.0, 30.0))
+    BlimanSorine::first_order(3e-4, random.between(8.0, 30.0)).expect("a friction")
 }
 
 /// Stiction: the load overshoots by some 4 % of the range and settles within the test.
@@ -69,12 +69,16 @@ fn second(random: &mut Random) -> BlimanSorine {
         random.between(0.1, 0.25),
         random.between(30.0, 80.0),
     )
+    .expect("a friction")
 }
 
 /// Loops that widen with their amplitude.
 fn parallel(random: &mut Random) -> BlimanSorine {
     let slow = random.between(4e-4, 7e-4);
-    BlimanSorine::second_order(4e-4, -slow, random.between(0.05, 0.15), random.between(60.0, 120.0))
+    let (ratio, length) = (random.between(0.05, 0.15), random.between(60.0, 120.0));
+    let [first, second] = [(4e-4, ratio * length), (slow, length)]
+        .map(|(plateau, length)| Dahl::new(plateau, length).expect("an element"));
+    BlimanSorine::parallel(first, second).expect("a friction")
 }
 
 #[test]

@@ -83,7 +83,7 @@ fn cases() -> [Case; 3] {
                 let law = BendingLaw {
                     backbone: BendingBackbone::Linear { rigidity: p[0] },
                     rest_curvature: 0.0,
-                    friction: BlimanSorine::first_order(p[2], p[3]),
+                    friction: BlimanSorine::first_order(p[2], p[3]).expect("a friction"),
                 };
                 let mut load = along(&law, &bend);
                 load.iter_mut().for_each(|load| *load += p[1]);
@@ -96,7 +96,7 @@ fn cases() -> [Case; 3] {
             predict: Box::new(move |p| {
                 let law = ShearLaw {
                     backbone: ShearBackbone::Linear { stiffness: p[0] },
-                    friction: BlimanSorine::first_order(p[1], p[3]),
+                    friction: BlimanSorine::first_order(p[1], p[3]).expect("a friction"),
                     growth: p[2],
                     locking: None,
                 };

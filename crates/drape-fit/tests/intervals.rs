@@ -68,7 +68,7 @@ fn tensile(growth: f64) -> TractionLaw {
             toe_strain: 0.018,
             toe_strain_after: growth * 0.018,
         }),
-        friction: BlimanSorine::first_order(18.0, 0.003).into(),
+        friction: BlimanSorine::first_order(18.0, 0.003).expect("a friction").into(),
         buckling: Buckling::default(),
     }
 }
@@ -91,11 +91,11 @@ fn cases() -> Vec<Case> {
     let bending = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: 6e-6 },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(3e-4, 15.0),
+        friction: BlimanSorine::first_order(3e-4, 15.0).expect("a friction"),
     };
     let shear = ShearLaw {
         backbone: ShearBackbone::Linear { stiffness: 30.0 },
-        friction: BlimanSorine::first_order(0.9, 0.008),
+        friction: BlimanSorine::first_order(0.9, 0.008).expect("a friction"),
         growth: 8.0,
         locking: None,
     };

@@ -9,7 +9,7 @@
 mod random;
 
 use drape_fabric::{
-    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Piecewise, Polynomial, Primed,
+    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Dahl, Law, Piecewise, Polynomial, Primed,
     ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, drive,
 };
 use drape_fit::{
@@ -137,7 +137,7 @@ fn primed(random: &mut Random) -> (Vec<f64>, TractionLaw, f64) {
     if let TractionBackbone::Primed(primed) = &mut law.backbone {
         primed.stiffness = stiffness;
     }
-    law.friction = BlimanSorine::first_order(plateau, length).into();
+    law.friction = BlimanSorine::first_order(plateau, length).expect("a friction").into();
     (vec![stiffness, toe_ratio, toe_strain, growth, plateau, length], law, top)
 }
 
@@ -170,7 +170,7 @@ fn a_polynomial_traction_law_is_recovered() {
         let (plateau, length) = (random.between(2.0, 40.0), top * random.logarithmic(0.01, 0.2));
         let law = TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic, quartic }),
-            friction: BlimanSorine::first_order(plateau, length).into(),
+            friction: BlimanSorine::first_order(plateau, length).expect("a friction").into(),
             buckling: Buckling::default(),
         };
         let curve = curve(Test::Tensile, &law, history(&[0.0, top, 0.0], top / 120.0), 0.0);
@@ -210,7 +210,7 @@ fn a_bending_law_with_first_order_friction_is_recovered() {
         let law = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity },
             rest_curvature: 0.0,
-            friction: BlimanSorine::first_order(plateau, length),
+            friction: BlimanSorine::first_order(plateau, length).expect("a friction"),
         };
         let curve = curve(Test::Bending, &law, bending_history(), zero);
         let truth = vec![rigidity, zero, plateau, length];
@@ -238,7 +238,12 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
         let law = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity },
             rest_curvature: 0.0,
-            friction: BlimanSorine::second_order(plateau, -slow * plateau, ratio, length),
+            friction: BlimanSorine {
+                elements: [
+                    Dahl { plateau, length: ratio * length },
+                    Dahl { plateau: slow * plateau, length },
+                ],
+            },
         };
         let curve = curve(Test::Bending, &law, bending_history(), zero);
         let truth = vec![rigidity, zero, plateau, length, slow, ratio];
@@ -274,7 +279,7 @@ fn shear(random: &mut Random, grows: bool) -> (Vec<f64>, Curve) {
     let zero = stiffness * random.between(-0.01, 0.01);
     let law = ShearLaw {
         backbone: ShearBackbone::Linear { stiffness },
-        friction: BlimanSorine::first_order(plateau, length),
+        friction: BlimanSorine::first_order(plateau, length).expect("a friction"),
         growth,
         locking: None,
     };
@@ -329,8 +334,8 @@ fn bending_with(friction: BlimanSorine) -> BendingLaw {
 #[test]
 fn a_friction_length_far_below_the_sampling_leaves_no_trace() {
     // Steps of 2 1/m: a friction length of a fiftieth of one is at its plateau at every sample.
-    let short = bending_with(BlimanSorine::first_order(6e-4, 0.04));
-    let shorter = bending_with(BlimanSorine::first_order(6e-4, 0.02));
+    let short = bending_with(BlimanSorine::first_order(6e-4, 0.04).expect("a friction"));
+    let shorter = bending_with(BlimanSorine::first_order(6e-4, 0.02).expect("a friction"));
     let apart = difference(&bending_history(), &short, &shorter);
     // e^{-2/0.04} of the plateau.
     assert!(apart < 1e-15, "the curves differ by {apart:e} of their range");
@@ -339,8 +344,9 @@ fn a_friction_length_far_below_the_sampling_leaves_no_trace() {
 #[test]
 fn the_plateaus_of_two_elements_of_like_length_are_told_apart_by_their_sum_only() {
     // The same sum of plateaus in different shares, with lengths that differ by 1 %.
-    let one = bending_with(BlimanSorine::second_order(9e-4, 3e-4, 0.99, 20.0));
-    let other = bending_with(BlimanSorine::second_order(7e-4, 1e-4, 0.99, 20.0));
+    let one = bending_with(BlimanSorine::second_order(9e-4, 3e-4, 0.99, 20.0).expect("a friction"));
+    let other =
+        bending_with(BlimanSorine::second_order(7e-4, 1e-4, 0.99, 20.0).expect("a friction"));
     let apart = difference(&bending_history(), &one, &other);
     // 2e-4·(1 − ratio)·e^{-1} at most, doubled after a reversal, of a range of 7e-3: below what any
     // instrument resolves.

@@ -17,7 +17,7 @@ fn specimen(times: f64) -> Curve {
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: times * RIGIDITY },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(times * 6e-4, 4.0),
+        friction: BlimanSorine::first_order(times * 6e-4, 4.0).expect("a friction"),
     };
     let there = (0..=50).chain((-50..50).rev()).chain(-49..=50);
     let curvature: Vec<f64> = there.map(|i| 5.0 * f64::from(i)).collect();

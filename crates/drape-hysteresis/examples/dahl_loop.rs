@@ -9,7 +9,7 @@ fn main() {
     // Bending friction with a plateau of 6e-4 N and a pre-sliding curvature of 4 1/m over the cycle
     // of the KES bending tester, ±2.5 cm⁻¹.
     let (plateau, length, amplitude) = (6e-4, 4.0, 250.0);
-    let element = Dahl::new(plateau, length);
+    let element = Dahl::new(plateau, length).expect("a friction");
 
     // From a virgin element to the lower tip, then cycles until the loop closes.
     let mut lower = element.advance(0.0, -amplitude);

@@ -1,6 +1,7 @@
 //! Friction of one or two elements: the Bliman–Sorine model, which the laws of a fabric use.
 
 use crate::dahl::Dahl;
+use crate::error::Error;
 use crate::response::Response;
 use crate::slip::Slip;
 
@@ -22,11 +23,15 @@ pub type Loads = [f64; 2];
 /// ```
 /// use drape_hysteresis::BlimanSorine;
 ///
-/// let friction = BlimanSorine::second_order(1.0, 0.4, 0.2, 0.1);
+/// let friction = BlimanSorine::second_order(1.0, 0.4, 0.2, 0.1)?;
 /// let load = |slip: f64| friction.respond([0.0, 0.0], slip).load;
 /// assert!(load(0.05) > friction.plateau(), "the load overshoots");
 /// assert!((load(10.0) - 0.6).abs() < 1e-12, "and settles");
+/// # Ok::<(), drape_hysteresis::Error>(())
 /// ```
+///
+/// The constructors check their numbers, so that no closed cycle creates energy. Elements that are
+/// written as literals are not checked: [`BlimanSorine::check`] does that.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BlimanSorine {
@@ -40,34 +45,81 @@ impl Default for BlimanSorine {
     }
 }
 
+impl From<Dahl> for BlimanSorine {
+    /// Returns the friction of one element. The element is not checked.
+    fn from(element: Dahl) -> Self {
+        Self { elements: [element, Dahl::NONE] }
+    }
+}
+
 impl BlimanSorine {
     /// Returns a friction without elements, whose load is zero.
     #[must_use]
     pub fn none() -> Self {
-        Self::parallel(Dahl::NONE, Dahl::NONE)
+        Self { elements: [Dahl::NONE; 2] }
     }
 
     /// Returns the friction of one element with the given `plateau` (in the unit of the load) and
     /// friction `length` (in the unit of the deformation).
-    #[must_use]
-    pub fn first_order(plateau: f64, length: f64) -> Self {
-        Self::parallel(Dahl::new(plateau, length), Dahl::NONE)
+    ///
+    /// # Errors
+    /// The plateau is negative, the length is not positive, or one of them is not finite.
+    pub fn first_order(plateau: f64, length: f64) -> Result<Self, Error> {
+        Ok(Dahl::new(plateau, length)?.into())
     }
 
     /// Returns the friction of a fast element and a slow element of opposite sign.
     ///
-    /// The plateaus are `fast_plateau` > `slow_plateau` ≥ 0 (in the unit of the load). The friction
+    /// The plateaus are `fast_plateau` ≥ `slow_plateau` ≥ 0 (in the unit of the load). The friction
     /// lengths are `ratio × length` and `length` (in the unit of the deformation) with
     /// 0 < `ratio` < 1.
-    #[must_use]
-    pub fn second_order(fast_plateau: f64, slow_plateau: f64, ratio: f64, length: f64) -> Self {
-        Self::parallel(Dahl::new(fast_plateau, ratio * length), Dahl::new(-slow_plateau, length))
+    ///
+    /// # Errors
+    /// A number is outside its range or not finite.
+    pub fn second_order(
+        fast_plateau: f64,
+        slow_plateau: f64,
+        ratio: f64,
+        length: f64,
+    ) -> Result<Self, Error> {
+        let fast = Dahl::new(fast_plateau, ratio * length)?;
+        let slow = Dahl { plateau: -slow_plateau, length };
+        if !(slow_plateau >= 0.0) {
+            return Err(Error::SlowPlateau { fast: fast_plateau, slow: slow_plateau });
+        }
+        Self::parallel(fast, slow)
     }
 
-    /// Returns the friction of the elements `first` and `second` in parallel.
-    #[must_use]
-    pub fn parallel(first: Dahl, second: Dahl) -> Self {
-        Self { elements: [first, second] }
+    /// Returns the friction of the elements `first` and `second` in parallel. The second element
+    /// may have a negative plateau, as the slow element of a second-order model.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub fn parallel(first: Dahl, second: Dahl) -> Result<Self, Error> {
+        let friction = Self { elements: [first, second] };
+        friction.check()?;
+        Ok(friction)
+    }
+
+    /// Checks the elements: each has a plateau of at least 0 and a positive length. A second
+    /// element with a negative plateau has no larger plateau and a larger length than the first
+    /// element.
+    ///
+    /// # Errors
+    /// An element that is out of range.
+    pub fn check(&self) -> Result<(), Error> {
+        let [first, second] = self.elements;
+        first.check()?;
+        Dahl { plateau: second.plateau.abs(), ..second }.check()?;
+        if second.plateau < 0.0 {
+            if -second.plateau > first.plateau {
+                return Err(Error::SlowPlateau { fast: first.plateau, slow: -second.plateau });
+            }
+            if !(second.length > first.length) {
+                return Err(Error::SlowLength { fast: first.length, slow: second.length });
+            }
+        }
+        Ok(())
     }
 
     /// Returns the load that a long slip reaches, in the unit of the load.
@@ -132,7 +184,7 @@ mod tests {
     #[test]
     fn second_order_shows_a_stiction_peak_and_settles() {
         let (f1, f2, ratio, length) = (1.0, 0.4, 0.2, 0.1);
-        let friction = BlimanSorine::second_order(f1, f2, ratio, length);
+        let friction = BlimanSorine::second_order(f1, f2, ratio, length).expect("a friction");
         let load = |u: f64| sum(friction.advance([0.0, 0.0], u));
         // dF/du = 0 of the virgin curve f1(1 − e^{−u/ηx}) − f2(1 − e^{−u/x}).
         let rate = 1.0 / (ratio * length) - 1.0 / length;
@@ -150,7 +202,7 @@ mod tests {
     #[test]
     fn the_response_of_two_elements_is_the_virgin_curve_and_its_slope() {
         let (f1, f2, ratio, length) = (1.0, 0.4, 0.2, 0.1);
-        let friction = BlimanSorine::second_order(f1, f2, ratio, length);
+        let friction = BlimanSorine::second_order(f1, f2, ratio, length).expect("a friction");
         for u in [0.003, 0.02, 0.07, 0.5] {
             let [fast, slow] = [(-u / (ratio * length)).exp(), (-u / length).exp()];
             let load = f1 * (1.0 - fast) - f2 * (1.0 - slow);
@@ -166,7 +218,7 @@ mod tests {
         // Closed forms of a Dahl loop between ±q: tip Fc·tanh(q/x), width at p
         // 2Fc(1 − cosh(p/x)/cosh(q/x)), area 4Fc(q − x·tanh(q/x)).
         let (plateau, length, amplitude) = (0.6, 0.04, 0.25);
-        let friction = BlimanSorine::first_order(plateau, length);
+        let friction = BlimanSorine::first_order(plateau, length).expect("a friction");
         let mut lower = [0.0, 0.0];
         for _ in 0..20 {
             let upper = friction.advance(lower, 2.0 * amplitude);
@@ -188,7 +240,11 @@ mod tests {
 
     #[test]
     fn two_positive_elements_give_loops_that_widen_with_amplitude() {
-        let friction = BlimanSorine::parallel(Dahl::new(0.2, 0.01), Dahl::new(0.5, 0.3));
+        let friction = BlimanSorine::parallel(
+            Dahl::new(0.2, 0.01).expect("a friction"),
+            Dahl::new(0.5, 0.3).expect("a friction"),
+        )
+        .expect("a friction");
         let width = |amplitude: f64| {
             let mut lower = [0.0, 0.0];
             for _ in 0..200 {
@@ -205,7 +261,7 @@ mod tests {
 
     #[test]
     fn closed_loops_of_the_second_order_dissipate() {
-        let friction = BlimanSorine::second_order(1.0, 0.4, 0.2, 0.1);
+        let friction = BlimanSorine::second_order(1.0, 0.4, 0.2, 0.1).expect("a friction");
         for amplitude in [0.001, 0.01, 0.05, 0.2, 1.0] {
             let mut loads = [0.0, 0.0];
             let mut lost = 0.0;

@@ -1,5 +1,6 @@
 //! Friction of one element: the Dahl model, which is Bliman–Sorine friction of first order.
 
+use crate::error::Error;
 use crate::response::Response;
 use crate::slip::Slip;
 
@@ -30,11 +31,15 @@ use crate::slip::Slip;
 /// ```
 /// use drape_hysteresis::Dahl;
 ///
-/// let element = Dahl::new(6e-4, 4.0);
+/// let element = Dahl::new(6e-4, 4.0)?;
 /// let half = element.advance(element.advance(0.0, 1.0), 1.0);
 /// assert!((half - element.advance(0.0, 2.0)).abs() < 1e-18);
 /// assert!((element.advance(0.0, 200.0) - 6e-4).abs() < 1e-18);
+/// # Ok::<(), drape_hysteresis::Error>(())
 /// ```
+///
+/// [`Dahl::new`] checks its numbers. An element that is written as a literal is not checked:
+/// [`Dahl::check`] does that.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dahl {
@@ -60,9 +65,27 @@ impl Dahl {
 
     /// Returns an element with the given `plateau` (in the unit of the load) and friction `length`
     /// (in the unit of the deformation).
-    #[must_use]
-    pub fn new(plateau: f64, length: f64) -> Self {
-        Self { plateau, length }
+    ///
+    /// # Errors
+    /// The plateau is negative, the length is not positive, or one of them is not finite.
+    pub fn new(plateau: f64, length: f64) -> Result<Self, Error> {
+        let element = Self { plateau, length };
+        element.check()?;
+        Ok(element)
+    }
+
+    /// Checks that the plateau is at least 0 and the length is greater than 0, both finite.
+    ///
+    /// # Errors
+    /// [`Error::Plateau`] and [`Error::Length`].
+    pub fn check(&self) -> Result<(), Error> {
+        if !(self.plateau >= 0.0 && self.plateau.is_finite()) {
+            return Err(Error::Plateau(self.plateau));
+        }
+        if !(self.length > 0.0 && self.length.is_finite()) {
+            return Err(Error::Length(self.length));
+        }
+        Ok(())
     }
 
     /// Returns the stiffness at the start of a loading, `$F_c/x_f$`, in load per deformation.
@@ -287,7 +310,7 @@ mod tests {
     fn a_closed_loop_under_a_varying_weight_dissipates() {
         // A weight that falls to zero at one end, as in the priming zone of a yarn.
         for length in [0.001, 0.01, 0.1, 1.0] {
-            let element = Dahl::new(1.0, length);
+            let element = Dahl::new(1.0, length).expect("a friction");
             let mut load = 0.0;
             let mut lost = 0.0;
             for _ in 0..2000 {

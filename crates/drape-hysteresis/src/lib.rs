@@ -7,11 +7,12 @@
 //!
 //! * The models: `dahl` (one element), `bliman_sorine` (one or two elements in parallel).
 //! * Argument and result of the models: `slip` (a monotone piece of a path), `response` (load and
-//!   tangent).
+//!   tangent), `error`.
 //! * Dahl elements for SIMD loops: `prepared` (an element that is evaluated without branches),
 //!   `exponential` (the exponential function without branches).
 
-// Argument and result of the models.
+// Argument, result and errors of the models.
+mod error;
 mod response;
 mod slip;
 
@@ -25,6 +26,7 @@ mod prepared;
 
 pub use bliman_sorine::{BlimanSorine, Loads};
 pub use dahl::Dahl;
+pub use error::Error;
 pub use exponential::exp_m1;
 pub use prepared::{PassedKnot, PreparedDahl, Stroke};
 pub use response::Response;

@@ -58,6 +58,16 @@ pub enum Error {
         /// Mass of the particle, in kg.
         mass: f64,
     },
+    /// A material point has coordinates that are not finite, or a spacing that is not a positive
+    /// number.
+    #[error(
+        "the material point of particle {particle} must have finite coordinates and a positive \
+         spacing"
+    )]
+    MaterialPoint {
+        /// First particle with such a point.
+        particle: usize,
+    },
     /// The length of a step is not a positive number.
     #[error("a step of {dt} s: its length must be positive and finite")]
     StepLength {

@@ -97,7 +97,7 @@ pub fn check_system(
     let mut product = vec![0.0; length];
     for seed in 0..DIRECTIONS as u64 {
         let direction = direction(length, seed);
-        exact.multiply(&direction, &mut product);
+        exact.write_product(&direction, &mut product);
         let power = dot(&forces, &direction);
         let magnitude: f64 = forces.iter().zip(&direction).map(|(f, d)| (f * d).abs()).sum();
 

@@ -79,7 +79,7 @@ pub(crate) fn check(
     }
     check_names(checker, &placed);
     let clock = time::clock(checker);
-    let spacings = placed.iter().flat_map(|placed| placed.panel.lattice.spacing);
+    let spacings = placed.iter().flat_map(|placed| placed.panel.lattice.spacing());
     let spacing = spacings.fold(f64::INFINITY, f64::min);
     let relaxation = time::relaxation(checker, spacing.min(1.0));
     time::refinement(checker);
@@ -129,7 +129,10 @@ pub(crate) fn check(
         Model::Kes => Cloth::new(&pairs),
         Model::Breen1994 => frictionless_cloth(&pairs),
     };
-    let cloth = cloth.with_ties(sewing.iter().flat_map(|sewing| &sewing.pairs.ties));
+    let ties = sewing.iter().flat_map(|sewing| &sewing.pairs.ties);
+    let cloth = cloth.and_then(|cloth| cloth.with_ties(ties));
+    let cloth =
+        cloth.map_err(|error| Diagnostics::from(document.at("panel", error.to_string())))?;
     let materials: Vec<Material> = materials.into_iter().flatten().collect();
     let positions: Vec<f64> = placed.iter().flat_map(|placed| &placed.positions).copied().collect();
     let velocities = placed.iter().flat_map(|placed| &placed.velocities).copied().collect();

@@ -224,7 +224,7 @@ impl Scene {
     /// Returns the smallest distance of neighbouring particles, in m.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.panels.iter().flat_map(|panel| panel.lattice.spacing).fold(f64::INFINITY, f64::min)
+        self.panels.iter().flat_map(|panel| panel.lattice.spacing()).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the index of the garment of a panel.

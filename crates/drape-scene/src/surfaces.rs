@@ -84,7 +84,7 @@ impl StartSurfaces {
         for (index, panel) in panels.iter().enumerate() {
             surface
                 .groups
-                .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
+                .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates().len()));
             surface.distances.push(distances(fabric(panel)));
             frictions.push(Friction::Fabric(fabric(panel).surface_friction));
         }

@@ -42,7 +42,7 @@ fn a_scene_sews_and_turns_what_its_pattern_does_not() {
     let turned = read("panel.\"draft.front\".grain = 45\n").expect("it is right");
     let front = |scene: &Scene| {
         let mut panels = scene.panels.iter();
-        panels.find(|p| p.name == "draft.front").expect("there").lattice.coordinates.len()
+        panels.find(|p| p.name == "draft.front").expect("there").lattice.coordinates().len()
     };
     assert_ne!(front(&turned), front(&plain), "a bias cut has a rim");
 }

@@ -5,7 +5,8 @@ use drape_fabric::{BreenWork, Fabric};
 use crate::breen::close_pairs::ClosePairs;
 use crate::breen::hinge::{Hinge, HingeSize};
 use crate::breen::well::Well;
-use crate::error::Error;
+use crate::cloth::check_panels;
+use crate::error::{Error, check_length};
 use crate::layout::connectors::{Segment, Triple, segments, triples};
 use crate::measure::block::Block;
 use crate::measure::vector::{Vector, add_at, length, scale, subtract, vector_at};
@@ -63,8 +64,10 @@ impl Breen {
     /// numbers of the cloth.
     ///
     /// # Errors
-    /// A panel has a rim of triangles, or folds.
+    /// A panel has a rim of triangles, or folds, or the panels make no
+    /// [`Cloth`](crate::Cloth).
     pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, Error> {
+        check_panels(panels)?;
         if panels.iter().any(|(lattice, _)| !lattice.rim.is_empty()) {
             return Err(Error::Rim);
         }
@@ -126,8 +129,17 @@ impl Breen {
     /// Returns the pairs of particles that are close in space at `positions` and no neighbours on a
     /// yarn, the first less than the second. All pairs nearer than the spacing are listed, and some
     /// that may soon be.
-    pub fn close_pairs(&mut self, positions: &[f64]) -> &[[u32; 2]] {
-        self.close_pairs.find(positions)
+    ///
+    /// # Errors
+    /// There are not three numbers for every particle.
+    pub fn close_pairs(&mut self, positions: &[f64]) -> Result<&[[u32; 2]], Error> {
+        self.check("positions", positions)?;
+        Ok(self.close_pairs.find(positions))
+    }
+
+    /// Checks that the list called `name` has three numbers for every particle.
+    fn check(&self, name: &'static str, numbers: &[f64]) -> Result<(), Error> {
+        check_length(name, 3 * self.wells.len(), numbers.len())
     }
 
     /// Returns the positions at which the close pairs were listed last, in m, empty before the
@@ -138,14 +150,22 @@ impl Breen {
     }
 
     /// Lists the close pairs at `positions`, in m, as [`Breen::close_pairs`] does for a first call.
-    pub fn list_pairs(&mut self, positions: &[f64]) {
+    ///
+    /// # Errors
+    /// There are not three numbers for every particle.
+    pub fn list_pairs(&mut self, positions: &[f64]) -> Result<(), Error> {
+        self.check("positions", positions)?;
         self.close_pairs.list(positions);
+        Ok(())
     }
 
     /// Returns the energy of the particles at `positions`, in J. Its negative derivative is
     /// [`Breen::add_forces`].
-    #[must_use]
-    pub fn energy(&mut self, positions: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// There are not three numbers for every particle.
+    pub fn energy(&mut self, positions: &[f64]) -> Result<f64, Error> {
+        self.check("positions", positions)?;
         let stretched: f64 = self
             .edges
             .iter()
@@ -162,11 +182,16 @@ impl Breen {
                 if distance < mean.spacing { mean.at(distance).energy } else { 0.0 }
             })
             .sum();
-        stretched + angles + repelled
+        Ok(stretched + angles + repelled)
     }
 
     /// Adds the forces on the particles at `positions` to `forces`, in N, three numbers each.
-    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
+    ///
+    /// # Errors
+    /// A list has another length than three numbers for every particle.
+    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) -> Result<(), Error> {
+        self.check("positions", positions)?;
+        self.check("forces", forces)?;
         for edge in &self.edges {
             add_pair_forces(&edge.well, edge.particles, positions, forces);
         }
@@ -177,6 +202,7 @@ impl Breen {
                 add_pair_forces(&mean, [a, b], positions, forces);
             }
         }
+        Ok(())
     }
 
     /// Passes the second derivatives of the energy at `positions` to `put`, block by block. Each
@@ -185,12 +211,16 @@ impl Breen {
     ///
     /// With `definite`, parts that make the matrix indefinite are left out: compression across a
     /// pair, and the rotation of the gradients of angles.
+    ///
+    /// # Errors
+    /// There are not three numbers for every particle.
     pub fn add_stiffness(
         &mut self,
         positions: &[f64],
         definite: bool,
         put: &mut dyn FnMut([u32; 2], &Block),
-    ) {
+    ) -> Result<(), Error> {
+        self.check("positions", positions)?;
         for edge in &self.edges {
             let block = edge.well.block(span(positions, edge.particles), definite);
             put_pair_blocks(edge.particles, &block, put);
@@ -205,6 +235,7 @@ impl Breen {
                 put_pair_blocks([a, b], &mean.block(span, definite), put);
             }
         }
+        Ok(())
     }
 }
 

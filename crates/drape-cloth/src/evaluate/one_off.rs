@@ -15,15 +15,13 @@ impl Cloth {
     /// # Errors
     /// There are not three numbers for every particle.
     pub fn state(&self, positions: Vec<f64>) -> Result<State, Error> {
-        let particles = self.particle_count();
-        if positions.len() != 3 * particles {
-            return Err(Error::Positions { found: positions.len(), particles });
-        }
+        self.check_vectors("positions", &positions)?;
         let mut state = State {
             velocities: vec![0.0; positions.len()],
             normals: vec![0.0; positions.len()],
             grid: GridMemories::new(&self.panels),
             rim: RimMemories::new(&self.rims, &self.panels),
+            fingerprint: self.fingerprint(),
             positions,
         };
         self.update_normals(&mut state);
@@ -32,9 +30,13 @@ impl Cloth {
     }
 
     /// Returns trial `positions` of this cloth from `state`, for a [`Workspace`].
-    #[must_use]
-    pub fn trial<'a>(&'a self, state: &'a State, positions: &'a [f64]) -> Trial<'a> {
-        Trial { cloth: self, state, positions }
+    ///
+    /// # Errors
+    /// The state belongs to another cloth, or there are not three numbers for every particle.
+    pub fn trial<'a>(&'a self, state: &'a State, positions: &'a [f64]) -> Result<Trial<'a>, Error> {
+        self.check_state(state)?;
+        self.check_vectors("trial positions", positions)?;
+        Ok(Trial { cloth: self, state, positions })
     }
 
     /// Returns a [`Workspace`], which evaluates this cloth many times without allocating memory.
@@ -45,16 +47,27 @@ impl Cloth {
 
     /// Adds the forces of all connectors at the positions `trial` to `forces`, in N. For many
     /// evaluations use a [`Workspace`].
-    pub fn add_forces(&self, state: &State, trial: &[f64], forces: &mut [f64]) {
-        self.workspace().add_forces(self.trial(state, trial), forces);
+    ///
+    /// # Errors
+    /// The state belongs to another cloth, or a list has another length than three numbers for
+    /// every particle.
+    pub fn add_forces(
+        &self,
+        state: &State,
+        trial: &[f64],
+        forces: &mut [f64],
+    ) -> Result<(), Error> {
+        self.workspace().add_forces(self.trial(state, trial)?, forces)
     }
 
     /// Returns the potential of the connectors within a step at the positions `trial`, in J. Its
     /// negative derivative with respect to `trial` is [`Cloth::add_forces`]. Only differences at
     /// one `state` are meaningful.
-    #[must_use]
-    pub fn potential(&self, state: &State, trial: &[f64]) -> f64 {
-        self.workspace().potential(self.trial(state, trial))
+    ///
+    /// # Errors
+    /// As [`Cloth::trial`].
+    pub fn potential(&self, state: &State, trial: &[f64]) -> Result<f64, Error> {
+        self.workspace().potential(self.trial(state, trial)?)
     }
 
     /// Adds the negative derivative of the forces with respect to `trial`, in N/m, to `values`: the
@@ -62,20 +75,40 @@ impl Cloth {
     ///
     /// With `definite`, parts that make the matrix indefinite are left out: compression across a
     /// segment, negative tangents, and the second derivatives of the sine of shear.
-    pub fn add_stiffness(&self, state: &State, trial: &[f64], definite: bool, values: &mut [f64]) {
-        self.workspace().add_stiffness(self.trial(state, trial), definite, values);
+    ///
+    /// # Errors
+    /// As [`Cloth::trial`], or there are not nine values for every block.
+    pub fn add_stiffness(
+        &self,
+        state: &State,
+        trial: &[f64],
+        definite: bool,
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        self.workspace().add_stiffness(self.trial(state, trial)?, definite, values)
     }
 
     /// Accepts a step: advances the positions, velocities and all memories of `state`. Only this
     /// method and [`Workspace::commit`] write memories. Returns the energy dissipated by the
     /// fabric's friction, in J.
-    pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// The state belongs to another cloth, or a list has another length than three numbers for
+    /// every particle. The state is then unchanged.
+    pub fn commit(
+        &self,
+        state: &mut State,
+        positions: &[f64],
+        velocities: &[f64],
+    ) -> Result<f64, Error> {
         self.workspace().commit(self, state, positions, velocities)
     }
 
     /// Returns the energy that the connectors can return at `state`, in J.
-    #[must_use]
-    pub fn stored(&self, state: &State) -> f64 {
+    ///
+    /// # Errors
+    /// The state belongs to another cloth.
+    pub fn stored(&self, state: &State) -> Result<f64, Error> {
         self.workspace().stored(self, state)
     }
 }

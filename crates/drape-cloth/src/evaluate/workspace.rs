@@ -4,6 +4,7 @@
 use pulp::Arch;
 
 use crate::cloth::Cloth;
+use crate::error::{Error, check_length};
 use crate::evaluate::dispatch::{
     AddForces, AddRimForces, AddRimStiffness, AddStiffness, Commit, CommitRim, Potential,
     RimPotential,
@@ -31,22 +32,39 @@ pub struct Workspace {
     /// Sums of each strip, then of each rim.
     sums: Vec<f64>,
     arch: Arch,
+    /// Fingerprint of the cloth.
+    fingerprint: u64,
 }
 
 /// Trial positions at which a cloth is evaluated, and the state whose memory its laws start from.
 ///
-/// [`Cloth::trial`] returns a trial.
+/// [`Cloth::trial`] checks the lists and returns a trial.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
-    /// Cloth that is evaluated.
-    pub cloth: &'a Cloth,
-    /// State at the start of the step.
-    pub state: &'a State,
-    /// Trial positions, three numbers for each particle, in m.
-    pub positions: &'a [f64],
+    pub(crate) cloth: &'a Cloth,
+    pub(crate) state: &'a State,
+    pub(crate) positions: &'a [f64],
 }
 
 impl<'a> Trial<'a> {
+    /// Returns the cloth that is evaluated.
+    #[must_use]
+    pub fn cloth(&self) -> &'a Cloth {
+        self.cloth
+    }
+
+    /// Returns the state at the start of the step.
+    #[must_use]
+    pub fn state(&self) -> &'a State {
+        self.state
+    }
+
+    /// Returns the trial positions, three numbers for each particle, in m.
+    #[must_use]
+    pub fn positions(&self) -> &'a [f64] {
+        self.positions
+    }
+
     fn strip(self, strip: &'a Strip) -> StripTrial<'a> {
         let Self { cloth, state, positions } = self;
         let panel = &cloth.panels[strip.panel];
@@ -69,12 +87,24 @@ impl Workspace {
             pool: BufferPool::new(&buffers, threads),
             sums: vec![0.0; cloth.strips.len() + cloth.rims.len()],
             arch: Arch::new(),
+            fingerprint: cloth.fingerprint(),
         }
     }
 
+    /// Checks that this workspace belongs to `cloth`.
+    fn check(&self, cloth: &Cloth) -> Result<(), Error> {
+        let is_own = self.fingerprint == cloth.fingerprint();
+        if is_own { Ok(()) } else { Err(Error::OtherCloth { what: "workspace" }) }
+    }
+
     /// Adds the forces to `forces`, in N, like [`Cloth::add_forces`].
-    pub fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
+    ///
+    /// # Errors
+    /// The trial is of another cloth, or `forces` has not three numbers for every particle.
+    pub fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) -> Result<(), Error> {
         let Trial { cloth, state, .. } = trial;
+        self.check(cloth)?;
+        cloth.check_vectors("forces", forces)?;
         let (arch, pool) = (self.arch, &self.pool);
 
         // Strips write to the particles of the grids, rims to all particles of their panel.
@@ -89,7 +119,7 @@ impl Workspace {
             },
         );
 
-        let Some(first) = cloth.rims.first() else { return };
+        let Some(first) = cloth.rims.first() else { return Ok(()) };
         for_each(
             Parts { parts: &cloth.rims, pool },
             &mut forces[3 * first.particles.start..],
@@ -101,12 +131,16 @@ impl Workspace {
                 arch.dispatch(AddRimForces { shape, memories, forces });
             },
         );
+        Ok(())
     }
 
     /// Returns the potential, in J, like [`Cloth::potential`].
-    #[must_use]
-    pub fn potential(&mut self, trial: Trial<'_>) -> f64 {
+    ///
+    /// # Errors
+    /// The trial is of another cloth.
+    pub fn potential(&mut self, trial: Trial<'_>) -> Result<f64, Error> {
         let Trial { cloth, state, .. } = trial;
+        self.check(cloth)?;
         let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
 
@@ -129,12 +163,22 @@ impl Workspace {
             },
         );
 
-        self.sums.iter().sum()
+        Ok(self.sums.iter().sum())
     }
 
     /// Adds the stiffness to `values`, in N/m, like [`Cloth::add_stiffness`].
-    pub fn add_stiffness(&mut self, trial: Trial<'_>, definite: bool, values: &mut [f64]) {
+    ///
+    /// # Errors
+    /// The trial is of another cloth, or `values` has not nine numbers for every block.
+    pub fn add_stiffness(
+        &mut self,
+        trial: Trial<'_>,
+        definite: bool,
+        values: &mut [f64],
+    ) -> Result<(), Error> {
         let Trial { cloth, state, .. } = trial;
+        self.check(cloth)?;
+        check_length("stiffness values", 9 * cloth.sparsity().block_count(), values.len())?;
         let (arch, pool) = (self.arch, &self.pool);
 
         for_each(
@@ -147,7 +191,7 @@ impl Workspace {
             },
         );
 
-        let Some(first) = cloth.rims.first() else { return };
+        let Some(first) = cloth.rims.first() else { return Ok(()) };
         for_each(
             Parts { parts: &cloth.rims, pool },
             &mut values[9 * first.blocks.start..],
@@ -158,16 +202,24 @@ impl Workspace {
                 arch.dispatch(AddRimStiffness { stiffness, values });
             },
         );
+        Ok(())
     }
 
     /// Accepts a step and returns the energy dissipated, in J, like [`Cloth::commit`].
+    ///
+    /// # Errors
+    /// As [`Cloth::commit`], or this workspace belongs to another cloth.
     pub fn commit(
         &mut self,
         cloth: &Cloth,
         state: &mut State,
         positions: &[f64],
         velocities: &[f64],
-    ) -> f64 {
+    ) -> Result<f64, Error> {
+        self.check(cloth)?;
+        cloth.check_state(state)?;
+        cloth.check_vectors("positions", positions)?;
+        cloth.check_vectors("velocities", velocities)?;
         state.positions.copy_from_slice(positions);
         state.velocities.copy_from_slice(velocities);
         cloth.update_normals(state);
@@ -209,18 +261,23 @@ impl Workspace {
                 sums[0] = arch.dispatch(CommitRim { shape, memories });
             },
         );
-        self.sums.iter().sum()
+        Ok(self.sums.iter().sum())
     }
 
     /// Returns the energy that the connectors of `cloth` can return at `state`, in J.
-    #[must_use]
-    pub fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
+    ///
+    /// # Errors
+    /// The state or this workspace belongs to another cloth.
+    pub fn stored(&mut self, cloth: &Cloth, state: &State) -> Result<f64, Error> {
+        self.check(cloth)?;
+        cloth.check_state(state)?;
         let trial = Trial { cloth, state, positions: &state.positions };
         let buffers = self.pool.exclusive();
         let strips = cloth.strips.iter();
         let strips: f64 = strips.map(|strip| energy::stored(buffers, &trial.strip(strip))).sum();
         let rims = cloth.rims.iter();
-        strips + rims.map(|rim| rim::energy::stored(&trial.rim(rim), &state.rim)).sum::<f64>()
+        let rims = rims.map(|rim| rim::energy::stored(&trial.rim(rim), &state.rim));
+        Ok(strips + rims.sum::<f64>())
     }
 
     /// Writes the memories of `state` for a `cloth` that starts at its positions without friction.
@@ -273,7 +330,7 @@ mod tests {
         "#;
         let fabric = Fabric::from_document(&Document::new("plain.toml", text)).expect("right");
         let lattice = Lattice::disc(0.2, 0.01).expect("a disc");
-        let cloth = Cloth::new(&[(&lattice, &fabric)]);
+        let cloth = Cloth::new(&[(&lattice, &fabric)]).expect("a cloth");
         let place = |time: f64| -> Vec<f64> {
             let wave = |&[u, v]: &[f64; 2]| {
                 let height = 0.02 * (30.0 * u + 17.0 * v + time).sin();
@@ -287,10 +344,11 @@ mod tests {
             let zeros = vec![0.0; 3 * cloth.particle_count()];
             let lost = workspace.commit(&cloth, &mut state, &place(0.5), &zeros);
             let (mut forces, trial) = (zeros, place(0.3));
-            workspace.add_forces(cloth.trial(&state, &trial), &mut forces);
+            let trial = cloth.trial(&state, &trial).expect("it fits");
+            workspace.add_forces(trial, &mut forces).expect("it fits");
             let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
-            workspace.add_stiffness(cloth.trial(&state, &trial), false, &mut values);
-            let potential = workspace.potential(cloth.trial(&state, &trial));
+            workspace.add_stiffness(trial, false, &mut values).expect("it fits");
+            let potential = workspace.potential(trial);
             (state, lost, forces, values, potential)
         };
         let (wide, narrow) = (run(Arch::new()), run(Arch::Scalar));

@@ -30,7 +30,6 @@ pub(crate) const NO_BLOCK: u32 = u32::MAX;
 /// ```
 ///
 /// The margin lets a kernel read the neighbours of every point, two rows up and down, without a
-/// branch. A point without a particle has the position of the panel's first particle, and a
 /// branch. A point without a particle has the position of the panel's first particle. A connector
 /// that does not exist, such as a segment from the end of a row to the start of the next, has an
 /// area of zero.

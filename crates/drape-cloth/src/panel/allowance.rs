@@ -76,7 +76,7 @@ mod tests {
 
     fn masses(lattice: &Lattice) -> Vec<f64> {
         let fabric = Fabric { density: 0.2, ..samples::plain_weave() };
-        let cloth = Cloth::new(&[(lattice, &fabric)]);
+        let cloth = Cloth::new(&[(lattice, &fabric)]).expect("a cloth");
         assert!((cloth.areas().iter().sum::<f64>() / lattice.area() - 1.0).abs() < 1e-12);
         let areas = cloth.connector_areas();
         for area in areas.traction.into_iter().chain([areas.shear]).chain(areas.bending) {

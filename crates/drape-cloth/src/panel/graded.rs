@@ -98,7 +98,7 @@ impl Lattice {
     /// let fine = Lattice::rectangle(0.3, 0.3, 0.005)?;
     /// // Fine along a diagonal.
     /// let graded = fine.graded(|[u, v]| 0.005 + 0.5 * (u - v).abs())?.lattice;
-    /// assert!(graded.coordinates.len() < fine.coordinates.len() / 2);
+    /// assert!(graded.particle_count() < fine.particle_count() / 2);
     /// assert!((graded.area() - 0.09).abs() < 1e-12);
     /// # Ok::<(), drape_cloth::Error>(())
     /// ```

@@ -1,10 +1,14 @@
 //! Interpolation from the particles of a panel to the particles of another grid of the panel.
 
+use crate::error::{Error, check_length};
 use crate::panel::lattice::Lattice;
 use crate::panel::triangle::twice_area;
 
 /// Limit of the extrapolation: no barycentric coordinate is farther below 0.
 const OUTSIDE_MAX: f64 = 0.5;
+
+/// Largest number of bins along a side of the panel, for spacings that do not suit their triangles.
+const BINS_MAX: f64 = 2000.0;
 
 /// Interpolation from the particles of a panel to the particles of another grid of the panel. It is
 /// linear on the triangles of the first grid.
@@ -14,9 +18,9 @@ const OUTSIDE_MAX: f64 = 0.5;
 ///
 /// let [coarse, fine] = [Lattice::disc(0.1, 0.02)?, Lattice::disc(0.1, 0.007)?];
 /// let flat = |lattice: &Lattice| -> Vec<f64> {
-///     lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.5 * v, 1.0]).collect()
+///     lattice.coordinates().iter().flat_map(|&[u, v]| [u, 0.5 * v, 1.0]).collect()
 /// };
-/// let values = Interpolation::new(&coarse, &fine).apply(&flat(&coarse));
+/// let values = Interpolation::new(&coarse, &fine).apply(&flat(&coarse))?;
 /// assert!(values.iter().zip(flat(&fine)).all(|(a, b)| (a - b).abs() < 1e-12));
 /// # Ok::<(), drape_cloth::Error>(())
 /// ```
@@ -24,6 +28,8 @@ const OUTSIDE_MAX: f64 = 0.5;
 pub struct Interpolation {
     /// For each particle, the corners of a triangle and their weights.
     rows: Vec<([u32; 3], [f64; 3])>,
+    /// Number of particles of the first grid.
+    particles: usize,
 }
 
 /// Triangles of a panel in square bins, each triangle in all bins that its bounding box meets.
@@ -45,16 +51,17 @@ impl Interpolation {
     #[must_use]
     pub fn new(from: &Lattice, to: &Lattice) -> Self {
         let bins = TriangleBins::new(from);
-        Self { rows: to.coordinates.iter().map(|&point| bins.locate(point)).collect() }
+        let rows = to.coordinates.iter().map(|&point| bins.locate(point)).collect();
+        Self { rows, particles: from.coordinates.len() }
     }
 
     /// Returns the values at the particles of the second grid, three numbers each, from `values` at
     /// the particles of the first.
     ///
-    /// # Panics
-    /// There are fewer `values` than particles of the first grid.
-    #[must_use]
-    pub fn apply(&self, values: &[f64]) -> Vec<f64> {
+    /// # Errors
+    /// There are not three `values` for every particle of the first grid.
+    pub fn apply(&self, values: &[f64]) -> Result<Vec<f64>, Error> {
+        check_length("values", 3 * self.particles, values.len())?;
         let interpolated = self.rows.iter().flat_map(|&(corners, weights)| {
             [0, 1, 2].map(|axis| {
                 corners
@@ -64,7 +71,7 @@ impl Interpolation {
                     .sum::<f64>()
             })
         });
-        interpolated.collect()
+        Ok(interpolated.collect())
     }
 }
 
@@ -79,6 +86,8 @@ impl<'a> TriangleBins<'a> {
             low = [0, 1].map(|axis| low[axis].min(point[axis]));
             high = [0, 1].map(|axis| high[axis].max(point[axis]));
         }
+        let extent = (high[0] - low[0]).max(high[1] - low[1]);
+        let size = size.max(extent / BINS_MAX);
         let counts = [0, 1].map(|axis| ((high[axis] - low[axis]) / size) as usize + 1);
 
         // A triangle belongs to all bins between the ends of its bounding box.
@@ -196,7 +205,7 @@ mod tests {
         fine.coordinates[1] = [-3.0, 0.05];
         let flat: Vec<f64> =
             coarse.coordinates.iter().flat_map(|&[u, v]| [u, v, 2.0 * u - v]).collect();
-        let found = Interpolation::new(&coarse, &fine).apply(&flat);
+        let found = Interpolation::new(&coarse, &fine).apply(&flat).expect("all values");
         let expected = [0.05, -0.002, 0.102];
         assert!(found[..3].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
         let far = &found[3..6];

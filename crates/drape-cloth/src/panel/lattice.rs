@@ -17,7 +17,7 @@ use crate::panel::triangle::twice_area;
 /// use drape_cloth::Lattice;
 ///
 /// let lattice = Lattice::rectangle(0.2, 0.3, 0.01)?;
-/// assert_eq!(lattice.coordinates.len(), 21 * 31);
+/// assert_eq!(lattice.coordinates().len(), 21 * 31);
 /// assert!((lattice.area() - 0.2 * 0.3).abs() < 1e-12);
 /// // A disc is cut from the same grid, with the exact area in every cell.
 /// let disc = Lattice::disc(0.1, 0.01)?;
@@ -28,21 +28,21 @@ use crate::panel::triangle::twice_area;
 pub struct Lattice {
     /// Distance of the particles along the weft and along the warp, in m. In a
     /// [graded](Lattice::graded) panel it belongs to the finest grid.
-    pub spacing: [f64; 2],
+    pub(crate) spacing: [f64; 2],
     /// Material coordinates of the particles, in m.
-    pub coordinates: Vec<[f64; 2]>,
+    pub(crate) coordinates: Vec<[f64; 2]>,
     /// Rotation between the panel's frame and its yarns.
-    pub grain: Grain,
+    pub(crate) grain: Grain,
     /// Middle of the panel in its frame, in m: [0, 0] for a disc, the middle of the bounding box
     /// for a panel that was cut elsewhere.
-    pub middle: [f64; 2],
+    pub(crate) middle: [f64; 2],
     /// Width and height of a rectangle, in m.
     pub(crate) size: Option<[f64; 2]>,
     /// Cells, row by row along the warp.
-    pub cells: Vec<Cell>,
+    pub(crate) cells: Vec<Cell>,
     /// Triangles between the cells and the outline, and between cells of two sizes, anticlockwise.
     /// The list is empty in panels without a rim.
-    pub rim: Vec<[u32; 3]>,
+    pub(crate) rim: Vec<[u32; 3]>,
     /// Lines along which the panel is folded at rest.
     pub(crate) folds: Vec<Fold>,
     /// Area of cloth of allowances at each particle, in m², empty without allowances.
@@ -64,6 +64,57 @@ pub struct Cell {
 }
 
 impl Lattice {
+    /// Returns the distance of the particles along the weft and along the warp, in m. In a
+    /// [graded](Lattice::graded) panel it belongs to the finest grid.
+    #[must_use]
+    pub fn spacing(&self) -> [f64; 2] {
+        self.spacing
+    }
+
+    /// Returns the number of particles.
+    #[must_use]
+    pub fn particle_count(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Returns the material coordinates of the particles, in m.
+    #[must_use]
+    pub fn coordinates(&self) -> &[[f64; 2]] {
+        &self.coordinates
+    }
+
+    /// Returns the rotation between the panel's frame and its yarns.
+    #[must_use]
+    pub fn grain(&self) -> Grain {
+        self.grain
+    }
+
+    /// Returns the middle of the panel in its frame, in m: [0, 0] for a disc, the middle of the
+    /// bounding box for a panel that was cut elsewhere.
+    #[must_use]
+    pub fn middle(&self) -> [f64; 2] {
+        self.middle
+    }
+
+    /// Returns the panel with another `middle` of its frame, in m.
+    #[must_use]
+    pub fn with_middle(self, middle: [f64; 2]) -> Self {
+        Self { middle, ..self }
+    }
+
+    /// Returns the cells, row by row along the warp.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Returns the triangles between the cells and the outline, and between cells of two sizes,
+    /// anticlockwise. Panels without a rim have none.
+    #[must_use]
+    pub fn rim(&self) -> &[[u32; 3]] {
+        &self.rim
+    }
+
     /// Returns the points of the particles in the panel's frame, in m. The frame of a rectangle
     /// starts at its lower left corner, the frame of a disc at its middle. A panel that was cut
     /// elsewhere keeps the frame of its [`Mesh`](crate::Mesh).
@@ -75,10 +126,12 @@ impl Lattice {
     /// Returns the distance of each particle from a side of the panel, in spacings: 0 on the side,
     /// negative beyond it.
     ///
-    /// The side is at the low (`end` −1) or the high end (`end` 1) of `axis` of the panel's frame.
-    /// Panels other than rectangles have their outermost particles there.
+    /// The side is at the low (`end` −1) or the high end (`end` 1) of `axis` of the panel's frame:
+    /// 0 for the first axis, 1 or more for the second. Panels other than rectangles have their
+    /// outermost particles there.
     #[must_use]
     pub fn depths(&self, axis: usize, end: f64) -> Vec<f64> {
+        let axis = axis.min(1);
         let points = self.panel_coordinates();
         let side = match self.size {
             Some(size) => {

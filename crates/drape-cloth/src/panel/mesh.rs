@@ -51,12 +51,12 @@ const ROUNDING_ERROR: f64 = 1e-6;
 ///     ..Mesh::default()
 /// };
 /// let panel = Lattice::from_mesh(mesh, Grain::default())?;
-/// let cloth = Cloth::new(&[(&panel, &samples::plain_weave())]);
+/// let cloth = Cloth::new(&[(&panel, &samples::plain_weave())])?;
 /// let flat: Vec<f64> = cloth.coordinates().iter().flat_map(|&[u, v]| [u, v, 0.0]).collect();
 /// let mut state = cloth.state(flat.clone())?;
 /// let wide: Vec<f64> = flat.iter().map(|x| 1.01 * x).collect();
-/// assert!(cloth.potential(&state, &wide) > cloth.potential(&state, &flat));
-/// cloth.commit(&mut state, &wide, &[0.0; 21]);
+/// assert!(cloth.potential(&state, &wide)? > cloth.potential(&state, &flat)?);
+/// cloth.commit(&mut state, &wide, &[0.0; 21])?;
 /// # Ok::<(), drape_cloth::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -159,9 +159,11 @@ impl Mesh {
             let Some(first) = self.grid.get(cell[0] as usize) else {
                 return Err(("cell", index, "has a corner that is no node of the grid"));
             };
-            let steps = [[0, 0], [1, 0], [1, 1], [0, 1]];
+            let steps = [[0_u32, 0], [1, 0], [1, 1], [0, 1]];
             let is_full = cell.iter().zip(steps).all(|(&node, step)| {
-                self.grid.get(node as usize) == Some(&[first[0] + step[0], first[1] + step[1]])
+                let point = [0, 1].map(|k| first[k].checked_add(step[k]));
+                let found = self.grid.get(node as usize);
+                found.is_some_and(|found| found.map(Some) == point)
             });
             if !is_full {
                 return Err(("cell", index, "is not a full cell of the grid"));
@@ -174,7 +176,8 @@ impl Mesh {
             if triangle.iter().any(|&node| node as usize >= used.len()) {
                 return Err(("triangle", index, "has a corner that does not exist"));
             }
-            if twice_area(triangle.map(|node| self.coordinates[node as usize])) <= 0.0 {
+            let area = twice_area(triangle.map(|node| self.coordinates[node as usize]));
+            if !(area > 0.0 && area.is_finite()) {
                 return Err(("triangle", index, "has no area, or runs clockwise"));
             }
             triangle.iter().for_each(|&node| used[node as usize] = true);

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 
 use drape_fabric::{BendingLaw, Fabric, Law, ShearLaw, TractionLaw};
 
+use crate::cloth::Cloth;
+use crate::error::{Error, check_length};
 use crate::layout::connectors::{BendingConnectors, Segment, Triple, segments};
 use crate::layout::sparsity::Sparsity;
 use crate::measure::block::{Matrix, identity, outer, sum, transposed};
@@ -27,16 +29,16 @@ use crate::state::State;
 /// let fabric = drape_fabric::samples::plain_weave();
 /// let lattice = Lattice::rectangle(0.1, 0.1, 0.01)?;
 /// let panels = [(&lattice, &fabric)];
-/// let cloth = Cloth::new(&panels);
+/// let cloth = Cloth::new(&panels)?;
 /// let place = |s: f64| -> Vec<f64> {
-///     lattice.coordinates.iter().flat_map(|&[u, v]| [u, v, s * u * v]).collect()
+///     lattice.coordinates().iter().flat_map(|&[u, v]| [u, v, s * u * v]).collect()
 /// };
 /// let state = cloth.state(place(0.0))?;
-/// let reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
+/// let reference = ReferenceCloth::new(&panels, &cloth, &state)?;
 /// let mut fast = vec![0.0; 3 * cloth.particle_count()];
 /// let mut exact = fast.clone();
-/// cloth.add_forces(&state, &place(2.0), &mut fast);
-/// reference.add_forces(&place(2.0), &mut exact);
+/// cloth.add_forces(&state, &place(2.0), &mut fast)?;
+/// reference.add_forces(&place(2.0), &mut exact)?;
 /// assert!(fast.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-12));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -53,10 +55,20 @@ pub struct ReferenceCloth {
 }
 
 impl ReferenceCloth {
-    /// Returns the connectors of `panels` at the positions of `state`, without friction. `sparsity`
-    /// and `state` must belong to the cloth of the same panels.
-    #[must_use]
-    pub fn new(panels: &[(&Lattice, &Fabric)], sparsity: &Sparsity, state: &State) -> Self {
+    /// Returns the connectors of `panels` at the positions of `state`, without friction. `cloth` is
+    /// the cloth of the same panels.
+    ///
+    /// # Errors
+    /// The panels make no cloth, or `cloth` or `state` belong to other panels.
+    pub fn new(
+        panels: &[(&Lattice, &Fabric)],
+        cloth: &Cloth,
+        state: &State,
+    ) -> Result<Self, Error> {
+        if Cloth::new(panels)?.fingerprint() != cloth.fingerprint() {
+            return Err(Error::OtherCloth { what: "list of panels" });
+        }
+        cloth.check_state(state)?;
         let (positions, normals) = (state.positions.as_slice(), state.normals());
         let mut all = Self {
             segments: Vec::new(),
@@ -64,7 +76,7 @@ impl ReferenceCloth {
             triples: Vec::new(),
             triangles: Vec::new(),
             stencils: Vec::new(),
-            sparsity: sparsity.clone(),
+            sparsity: cloth.sparsity().clone(),
             normals: normals.to_vec(),
         };
         let mut first = 0;
@@ -88,7 +100,12 @@ impl ReferenceCloth {
         }
         all.triangles.iter_mut().for_each(|triangle| triangle.start(positions));
         all.stencils.iter_mut().for_each(|stencil| stencil.start(positions, normals));
-        all
+        Ok(all)
+    }
+
+    /// Checks that the list called `name` has three numbers for every particle.
+    fn check(&self, name: &'static str, numbers: &[f64]) -> Result<(), Error> {
+        check_length(name, self.normals.len(), numbers.len())
     }
 
     /// Appends the connectors of a panel in `fabric` whose first particle is `first`.
@@ -152,7 +169,12 @@ impl ReferenceCloth {
 
     /// Adds the forces at the positions `trial` to `forces`, in N, like
     /// [`Cloth::add_forces`](crate::Cloth::add_forces).
-    pub fn add_forces(&self, trial: &[f64], forces: &mut [f64]) {
+    ///
+    /// # Errors
+    /// A list has another length than three numbers for every particle.
+    pub fn add_forces(&self, trial: &[f64], forces: &mut [f64]) -> Result<(), Error> {
+        self.check("trial positions", trial)?;
+        self.check("forces", forces)?;
         for segment in &self.segments {
             let [a, b] = segment.particles;
             let Edge { length, unit } = segment.edge(trial);
@@ -185,12 +207,16 @@ impl ReferenceCloth {
         for stencil in &self.stencils {
             stencil.add_forces(trial, &self.normals, forces);
         }
+        Ok(())
     }
 
     /// Returns the potential at the positions `trial`, in J. It differs from
     /// [`Cloth::potential`](crate::Cloth::potential) by a constant.
-    #[must_use]
-    pub fn potential(&self, trial: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// There are not three numbers for every particle.
+    pub fn potential(&self, trial: &[f64]) -> Result<f64, Error> {
+        self.check("trial positions", trial)?;
         let segments = self
             .segments
             .iter()
@@ -205,12 +231,22 @@ impl ReferenceCloth {
             .map(|triple| triple.area * triple.respond(trial, &self.normals, false).energy);
         let triangles = self.triangles.iter().map(|triangle| triangle.potential(trial));
         let stencils = self.stencils.iter().map(|stencil| stencil.potential(trial, &self.normals));
-        segments.chain(corners).chain(triples).chain(triangles).chain(stencils).sum()
+        Ok(segments.chain(corners).chain(triples).chain(triangles).chain(stencils).sum())
     }
 
     /// Adds the stiffness at the positions `trial` to the blocks `values`, in N/m, like
     /// [`Cloth::add_stiffness`](crate::Cloth::add_stiffness).
-    pub fn add_stiffness(&self, trial: &[f64], definite: bool, values: &mut [f64]) {
+    ///
+    /// # Errors
+    /// There are not three numbers for every particle, or not nine `values` for every block.
+    pub fn add_stiffness(
+        &self,
+        trial: &[f64],
+        definite: bool,
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        self.check("trial positions", trial)?;
+        check_length("stiffness values", 9 * self.sparsity.block_count(), values.len())?;
         for segment in &self.segments {
             let Edge { length, unit } = segment.edge(trial);
             let (rest, area) = (segment.measure, segment.area);
@@ -260,11 +296,17 @@ impl ReferenceCloth {
         for stencil in &self.stencils {
             stencil.add_stiffness(trial, &self.normals, definite, &mut put);
         }
+        Ok(())
     }
 
     /// Accepts a step to `positions`, like [`Cloth::commit`](crate::Cloth::commit). `normals`
     /// belong to the state after the step. Returns the energy dissipated, in J.
-    pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// A list has another length than three numbers for every particle.
+    pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> Result<f64, Error> {
+        self.check("positions", positions)?;
+        self.check("normals", normals)?;
         self.normals.copy_from_slice(normals);
         let mut lost = 0.0;
         for segment in &mut self.segments {
@@ -283,6 +325,6 @@ impl ReferenceCloth {
         lost += triangles.map(|triangle| triangle.commit(positions)).sum::<f64>();
         let stencils = self.stencils.iter_mut();
         lost += stencils.map(|stencil| stencil.commit(positions, normals)).sum::<f64>();
-        lost
+        Ok(lost)
     }
 }

@@ -3,7 +3,8 @@
 use drape_fabric::{Fabric, Law, Memory};
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
+use crate::error::{Error, check_length};
+use crate::layout::fingerprint::Fingerprint;
 use crate::measure::bending::BendingResponse;
 use crate::measure::vector::{Vector, WeightedNode, add_at, scale};
 use crate::panel::lattice::Lattice;
@@ -38,16 +39,17 @@ use crate::seam::description::Seam;
 /// let square = Lattice::rectangle(0.02, 0.02, 0.01)?;
 /// let panels = [(&square, &fabric), (&square, &fabric)];
 /// let seams = SeamBending::new(&panels, &[Seam::new(vec![[2, 9], [5, 12], [8, 15]])])?;
-/// let place = |shift: f64| square.coordinates.iter().flat_map(move |c| [c[0] + shift, c[1], 0.0]);
+/// let place = |shift: f64| square.coordinates().iter().flat_map(move |c| [c[0] + shift, c[1], 0.0]);
 /// let flat: Vec<f64> = place(0.0).chain(place(0.02)).collect();
 /// let state = seams.state(&flat)?;
-/// assert!(seams.potential(&state, &flat).abs() < 1e-18);
+/// assert!(seams.potential(&state, &flat)?.abs() < 1e-18);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct SeamBending {
     connectors: Vec<SeamConnector>,
     particles: usize,
+    fingerprint: Fingerprint,
 }
 
 /// Memories of seams, and the normals at the last commit. Only [`SeamBending::commit`] writes them.
@@ -55,6 +57,8 @@ pub struct SeamBending {
 pub struct SeamBendingState {
     memories: Vec<Memory>,
     normals: Vec<Vector>,
+    /// Fingerprint of the seams.
+    fingerprint: u64,
 }
 
 impl SeamBendingState {
@@ -62,7 +66,8 @@ impl SeamBendingState {
     /// memories, and normals that are finite.
     #[must_use]
     pub fn may_follow(&self, earlier: &Self) -> bool {
-        self.memories.len() == earlier.memories.len()
+        self.fingerprint == earlier.fingerprint
+            && self.memories.len() == earlier.memories.len()
             && self.normals.len() == earlier.normals.len()
             && self.normals.iter().flatten().all(|x| x.is_finite())
     }
@@ -107,7 +112,33 @@ impl SeamBending {
                 what: problem.what,
             })?;
         }
-        Ok(Self { connectors, particles: builder.particle_count() })
+
+        let particles = builder.particle_count();
+        let mut fingerprint = Fingerprint::new();
+        fingerprint.add([particles as u64]);
+        for SeamConnector { nodes, area, .. } in &connectors {
+            fingerprint.add(nodes.iter().map(|node| u64::from(node.node)));
+            fingerprint.add([area.to_bits()]);
+        }
+        Ok(Self { connectors, particles, fingerprint })
+    }
+
+    /// Checks that `state` belongs to these seams, and that the list called `name` has three
+    /// numbers for every particle.
+    fn check(
+        &self,
+        state: &SeamBendingState,
+        name: &'static str,
+        numbers: &[f64],
+    ) -> Result<(), Error> {
+        let count = self.connectors.len();
+        let is_own = state.fingerprint == self.fingerprint.number()
+            && state.memories.len() == count
+            && state.normals.len() == count;
+        if !is_own {
+            return Err(Error::OtherCloth { what: "state of the seams" });
+        }
+        check_length(name, 3 * self.particles, numbers.len())
     }
 
     /// Returns the state of seams that start at `positions` without friction.
@@ -115,10 +146,7 @@ impl SeamBending {
     /// # Errors
     /// There are not three numbers for every particle.
     pub fn state(&self, positions: &[f64]) -> Result<SeamBendingState, Error> {
-        if positions.len() != 3 * self.particles {
-            let (found, particles) = (positions.len(), self.particles);
-            return Err(Error::Positions { found, particles });
-        }
+        check_length("positions", 3 * self.particles, positions.len())?;
         let connectors = self.connectors.iter();
         let normals: Vec<Vector> =
             connectors.map(|connector| connector.normal(positions)).collect();
@@ -131,7 +159,7 @@ impl SeamBending {
                 Memory { position, peak: position.abs(), ..Memory::default() }
             })
             .collect();
-        Ok(SeamBendingState { memories, normals })
+        Ok(SeamBendingState { memories, normals, fingerprint: self.fingerprint.number() })
     }
 
     /// Returns the pairs of particles that seams join, the lower number first. Some pairs occur
@@ -159,22 +187,37 @@ impl SeamBending {
     }
 
     /// Adds the forces of all seams at the positions `trial` to `forces`, in N.
-    pub fn add_forces(&self, state: &SeamBendingState, trial: &[f64], forces: &mut [f64]) {
+    ///
+    /// # Errors
+    /// The state belongs to other seams, or a list has another length than three numbers for every
+    /// particle.
+    pub fn add_forces(
+        &self,
+        state: &SeamBendingState,
+        trial: &[f64],
+        forces: &mut [f64],
+    ) -> Result<(), Error> {
+        self.check(state, "trial positions", trial)?;
+        self.check(state, "forces", forces)?;
         for current in self.with_state(state) {
             let moment = current.respond(trial, false).gradient;
             for &WeightedNode { node, weight } in &current.connector.nodes {
                 add_at(forces, node, scale(moment, -current.connector.area * weight));
             }
         }
+        Ok(())
     }
 
     /// Returns the potential of the seams within a step at the positions `trial`, in J. Its
     /// negative derivative is [`SeamBending::add_forces`]. Only differences at one `state` are
     /// meaningful.
-    #[must_use]
-    pub fn potential(&self, state: &SeamBendingState, trial: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// The state belongs to other seams, or there are not three numbers for every particle.
+    pub fn potential(&self, state: &SeamBendingState, trial: &[f64]) -> Result<f64, Error> {
+        self.check(state, "trial positions", trial)?;
         let current = self.with_state(state);
-        current.map(|c| c.connector.area * c.respond(trial, false).energy).sum()
+        Ok(current.map(|c| c.connector.area * c.respond(trial, false).energy).sum())
     }
 
     /// Passes the negative derivative of the forces with respect to `trial`, in N/m, to `put`: the
@@ -184,13 +227,17 @@ impl SeamBending {
     /// Every block is symmetric. A block of two different particles stands for its transpose too.
     /// Where both are sewn into one particle, it counts twice there. With `definite`, parts that
     /// make the matrix indefinite are left out.
+    ///
+    /// # Errors
+    /// The state belongs to other seams, or there are not three numbers for every particle.
     pub fn add_stiffness(
         &self,
         state: &SeamBendingState,
         trial: &[f64],
         definite: bool,
         mut put: impl FnMut(u32, u32, [f64; 9]),
-    ) {
+    ) -> Result<(), Error> {
+        self.check(state, "trial positions", trial)?;
         for current in self.with_state(state) {
             let hessian = current.respond(trial, definite).hessian;
             let hessian = hessian.as_flattened();
@@ -202,11 +249,16 @@ impl SeamBending {
                 }
             }
         }
+        Ok(())
     }
 
     /// Accepts a step to `positions`: advances all memories and normals of `state`, which nothing
     /// else writes. Returns the energy dissipated by friction, in J.
-    pub fn commit(&self, state: &mut SeamBendingState, positions: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// The state belongs to other seams, or there are not three numbers for every particle.
+    pub fn commit(&self, state: &mut SeamBendingState, positions: &[f64]) -> Result<f64, Error> {
+        self.check(state, "positions", positions)?;
         let mut dissipated = 0.0;
         let memories = state.memories.iter_mut().zip(&mut state.normals);
         for (connector, (memory, normal)) in self.connectors.iter().zip(memories) {
@@ -218,19 +270,22 @@ impl SeamBending {
             dissipated += area * (law.work(memory, to) - gained);
             *memory = after;
         }
-        dissipated
+        Ok(dissipated)
     }
 
     /// Returns the energy that the seams can return at `state`, in J. `positions` must belong to
     /// the last accepted step.
-    #[must_use]
-    pub fn stored(&self, state: &SeamBendingState, positions: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// The state belongs to other seams, or there are not three numbers for every particle.
+    pub fn stored(&self, state: &SeamBendingState, positions: &[f64]) -> Result<f64, Error> {
+        self.check(state, "positions", positions)?;
         let energies = self.with_state(state).map(|current| {
             // At the positions of the last commit the friction has done no work since.
             let elastic = current.respond(positions, false).energy;
             let friction = &current.connector.law.friction;
             current.connector.area * (elastic + friction.stored(current.memory.friction))
         });
-        energies.sum()
+        Ok(energies.sum())
     }
 }

@@ -47,12 +47,12 @@ pub fn outline(lattice: &Lattice) -> Vec<[u32; 2]> {
 /// Stiffness of a strip under a uniform stress at its ends, over that of the laws.
 fn stretched(degrees: f64, spacing: f64) -> f64 {
     let lattice = rectangle(STRIP, degrees, spacing);
-    let cloth = Cloth::new(&[(&lattice, &fabric(LINEAR))]);
+    let cloth = Cloth::new(&[(&lattice, &fabric(LINEAR))]).expect("a cloth");
     let points = lattice.panel_coordinates();
     let flat: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
     let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
-    cloth.add_stiffness(&state, &flat, false, &mut values);
+    cloth.add_stiffness(&state, &flat, false, &mut values).expect("the lists fit");
     let mut load = vec![0.0; flat.len()];
     for [a, b] in outline(&lattice) {
         let [one, other] = [a, b].map(|node| points[node as usize]);
@@ -121,14 +121,15 @@ impl Rolled<'_> {
         let cloth = self.cloth;
         let mut points = self.points.concat();
         let state = cloth.state(self.positions(&points)).expect("it fits");
-        let energy =
-            |state: &State, points: &[f64]| cloth.potential(state, &self.positions(points));
+        let energy = |state: &State, points: &[f64]| {
+            cloth.potential(state, &self.positions(points)).expect("the lists fit")
+        };
         for _ in 0..30 {
             let trial = self.positions(&points);
             let mut forces = vec![0.0; trial.len()];
             let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
-            cloth.add_forces(&state, &trial, &mut forces);
-            cloth.add_stiffness(&state, &trial, true, &mut values);
+            cloth.add_forces(&state, &trial, &mut forces).expect("the lists fit");
+            cloth.add_stiffness(&state, &trial, true, &mut values).expect("the lists fit");
             let apply = |direction: &[f64]| {
                 self.gather(&points, &multiply(cloth, &values, &self.spread(&points, direction)))
             };
@@ -148,7 +149,10 @@ impl Rolled<'_> {
             }
         }
         let area: f64 = cloth.areas().iter().sum();
-        cloth.stored(&cloth.state(self.positions(&points)).expect("it fits")) / area
+        cloth
+            .stored(&cloth.state(self.positions(&points)).expect("it fits"))
+            .expect("the lists fit")
+            / area
     }
 }
 
@@ -164,7 +168,7 @@ fn a_specimen_bent_on_the_bias_has_the_moment_of_both_yarns() {
         for (name, lattice) in
             [("grid", grid.expect("a panel")), ("rim", rectangle(size, 45.0, spacing))]
         {
-            let cloth = Cloth::new(&[(&lattice, &fabric)]);
+            let cloth = Cloth::new(&[(&lattice, &fabric)]).expect("a cloth");
             let rolled = Rolled { cloth: &cloth, radius, points: lattice.panel_coordinates() };
             let part = rolled.settle() / exact;
             println!("bent at 45°, {name}, {spacing} m: energy over the closed form {part:.4}");

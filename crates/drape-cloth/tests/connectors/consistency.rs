@@ -38,7 +38,7 @@ pub fn panels() -> Vec<(&'static str, Lattice)> {
 /// A panel of about 100 mm with two folds that cross each other at arbitrary angles.
 fn folded((name, lattice): (&'static str, Lattice)) -> (&'static str, Lattice) {
     let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| {
-        [0, 1].map(|k| lattice.coordinates.iter().map(|c| c[k]).reduce(of).expect("a node"))
+        [0, 1].map(|k| lattice.coordinates().iter().map(|c| c[k]).reduce(of).expect("a node"))
     });
     let at = |u: f64, v: f64| [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
     let folds = [
@@ -64,7 +64,7 @@ fn forces_are_the_derivative_of_the_potential() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, 1e-3, 0.07);
         let mut forces = vec![0.0; trial.len()];
-        cloth.add_forces(&state, &trial, &mut forces);
+        cloth.add_forces(&state, &trial, &mut forces).expect("the lists fit");
         let scale = forces.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
         let d = 2e-7;
         let mut worst = 0.0_f64;
@@ -72,7 +72,7 @@ fn forces_are_the_derivative_of_the_potential() {
             let at = |k: f64| {
                 let mut moved = trial.clone();
                 moved[dof] += k * d;
-                cloth.potential(&state, &moved)
+                cloth.potential(&state, &moved).expect("the lists fit")
             };
             let slope = (at(-2.0) - 8.0 * at(-1.0) + 8.0 * at(1.0) - at(2.0)) / (12.0 * d);
             worst = worst.max((forces[dof] + slope).abs() / scale);
@@ -87,7 +87,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, 1e-3, 0.07);
         let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
-        cloth.add_stiffness(&state, &trial, false, &mut values);
+        cloth.add_stiffness(&state, &trial, false, &mut values).expect("the lists fit");
         let mut random = Random(11);
         let mut worst = 0.0_f64;
         for _ in 0..20 {
@@ -99,7 +99,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
                 let moved: Vec<f64> =
                     trial.iter().zip(&direction).map(|(x, v)| x + k * d * v).collect();
                 let mut forces = vec![0.0; trial.len()];
-                cloth.add_forces(&state, &moved, &mut forces);
+                cloth.add_forces(&state, &moved, &mut forces).expect("the lists fit");
                 forces
             };
             let (m2, m1, p1, p2) = (at(-2.0), at(-1.0), at(1.0), at(2.0));
@@ -119,7 +119,7 @@ fn the_definite_stiffness_has_no_negative_direction() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, 3e-3, 0.07);
         let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
-        cloth.add_stiffness(&state, &trial, true, &mut values);
+        cloth.add_stiffness(&state, &trial, true, &mut values).expect("the lists fit");
         let mut random = Random(5);
         for _ in 0..300 {
             let direction: Vec<f64> = trial.iter().map(|_| random.next()).collect();
@@ -174,9 +174,9 @@ fn wave(cloth: &Cloth, time: f64) -> Vec<f64> {
 fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
     let (lattices, rich) = (mixed(), fabric(RICH));
     let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &rich)).collect();
-    let cloth = Cloth::new(&panels);
+    let cloth = Cloth::new(&panels).expect("a cloth");
     let mut state = cloth.state(wave(&cloth, 0.0)).expect("it fits");
-    let mut reference = ReferenceCloth::new(&panels, cloth.sparsity(), &state);
+    let mut reference = ReferenceCloth::new(&panels, &cloth, &state).expect("a cloth");
     let rest = vec![0.0; 3 * cloth.particle_count()];
     let mut random = Random(3);
     for step in 0..6 {
@@ -185,24 +185,25 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
             wave(&cloth, time).into_iter().map(|x| x + 4e-4 * random.next()).collect()
         };
         let positions = place(time);
-        let before = reference.potential(&state.positions);
-        let work = cloth.potential(&state, &positions) - cloth.potential(&state, &state.positions);
-        let exact = reference.potential(&positions) - before;
+        let before = reference.potential(&state.positions).expect("the lists fit");
+        let work = cloth.potential(&state, &positions).expect("the lists fit")
+            - cloth.potential(&state, &state.positions).expect("the lists fit");
+        let exact = reference.potential(&positions).expect("the lists fit") - before;
         assert!((work - exact).abs() < TOLERANCE * exact.abs(), "{step}: work {work}, {exact}");
-        let lost = cloth.commit(&mut state, &positions, &rest);
-        let exact = reference.commit(&positions, state.normals());
+        let lost = cloth.commit(&mut state, &positions, &rest).expect("the lists fit");
+        let exact = reference.commit(&positions, state.normals()).expect("the lists fit");
         assert!((lost - exact).abs() < TOLERANCE * exact.abs(), "{step}: lost {lost}, {exact}");
         let trial = place(time + 0.1);
         let (mut found, mut exact) = (rest.clone(), rest.clone());
-        cloth.add_forces(&state, &trial, &mut found);
-        reference.add_forces(&trial, &mut exact);
+        cloth.add_forces(&state, &trial, &mut found).expect("the lists fit");
+        reference.add_forces(&trial, &mut exact).expect("the lists fit");
         let error = distance(&found, &exact);
         assert!(error < TOLERANCE, "{step}: forces {error:e}");
         for definite in [false, true] {
             let mut found = vec![0.0; 9 * cloth.sparsity().block_count()];
             let mut exact = found.clone();
-            cloth.add_stiffness(&state, &trial, definite, &mut found);
-            reference.add_stiffness(&trial, definite, &mut exact);
+            cloth.add_stiffness(&state, &trial, definite, &mut found).expect("the lists fit");
+            reference.add_stiffness(&trial, definite, &mut exact).expect("the lists fit");
             let error = distance(&found, &exact);
             assert!(error < TOLERANCE, "{step}, definite {definite}: stiffness {error:e}");
         }
@@ -217,11 +218,13 @@ fn numbers(cloth: &Cloth) -> (State, Vec<f64>, Vec<f64>, Vec<f64>) {
     let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
     for step in 1..5 {
         let trial = wave(cloth, 0.2 * f64::from(step));
-        cloth.add_forces(&state, &trial, &mut forces);
-        cloth.add_stiffness(&state, &trial, step % 2 == 0, &mut values);
-        sums.push(cloth.potential(&state, &trial));
-        sums.push(cloth.commit(&mut state, &trial, &vec![0.0; trial.len()]));
-        sums.push(cloth.stored(&state));
+        cloth.add_forces(&state, &trial, &mut forces).expect("the lists fit");
+        cloth.add_stiffness(&state, &trial, step % 2 == 0, &mut values).expect("the lists fit");
+        sums.push(cloth.potential(&state, &trial).expect("the lists fit"));
+        sums.push(
+            cloth.commit(&mut state, &trial, &vec![0.0; trial.len()]).expect("the lists fit"),
+        );
+        sums.push(cloth.stored(&state).expect("the lists fit"));
     }
     (state, forces, values, sums)
 }
@@ -230,7 +233,7 @@ fn numbers(cloth: &Cloth) -> (State, Vec<f64>, Vec<f64>, Vec<f64>) {
 fn any_number_of_threads_gives_the_same_bits() {
     let (lattices, rich) = (mixed(), fabric(RICH));
     let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &rich)).collect();
-    let cloth = Cloth::new(&panels);
+    let cloth = Cloth::new(&panels).expect("a cloth");
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads start").install(|| numbers(&cloth))
@@ -265,12 +268,13 @@ fn a_panel_that_is_all_grid_is_a_rectangle_to_the_bit() {
     let rich = fabric(RICH);
     let rectangle = Lattice::rectangle(0.25, 0.5, 0.015625).expect("a rectangle");
     let cut = Lattice::from_mesh(grid(16, 32, 0.015625), Grain::default()).expect("a panel");
-    assert_eq!((&cut.cells, &cut.coordinates), (&rectangle.cells, &rectangle.coordinates));
+    assert_eq!((&cut.cells(), &cut.coordinates()), (&rectangle.cells(), &rectangle.coordinates()));
     assert_eq!(
-        (cut.middle, cut.panel_coordinates()),
-        (rectangle.middle, rectangle.panel_coordinates())
+        (cut.middle(), cut.panel_coordinates()),
+        (rectangle.middle(), rectangle.panel_coordinates())
     );
-    let [one, other] = [&rectangle, &cut].map(|lattice| Cloth::new(&[(lattice, &rich)]));
+    let [one, other] =
+        [&rectangle, &cut].map(|lattice| Cloth::new(&[(lattice, &rich)]).expect("a cloth"));
     assert_eq!(one.sparsity(), other.sparsity());
     assert!(numbers(&one) == numbers(&other));
 }

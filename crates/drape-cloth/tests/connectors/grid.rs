@@ -10,7 +10,7 @@ use crate::shaken::{Random, balance, bent, tried};
 #[test]
 fn connector_areas_add_up_to_the_area_of_the_panel() {
     for (name, lattice) in grids() {
-        let areas = Cloth::new(&[(&lattice, &fabric(LINEN))]).connector_areas();
+        let areas = Cloth::new(&[(&lattice, &fabric(LINEN))]).expect("a cloth").connector_areas();
         let all = [areas.traction, areas.bending, [areas.shear; 2]].concat();
         for area in all {
             let error = area / lattice.area() - 1.0;
@@ -52,7 +52,7 @@ fn forces_rotate_with_the_cloth() {
     let (cloth, state, trial) = tried(&lattice, &fabric(LINEN), 1e-3, 0.07);
     let rotate = |x: &[f64]| -> Vec<f64> { x.chunks(3).flat_map(|p| [p[2], p[0], p[1]]).collect() };
     let mut forces = vec![0.0; trial.len()];
-    cloth.add_forces(&state, &trial, &mut forces);
+    cloth.add_forces(&state, &trial, &mut forces).expect("the lists fit");
     let mut rotated_state = cloth.state(rotate(&state.positions)).expect("fits");
     // The same path, rotated.
     let mut random = Random(7);
@@ -60,10 +60,12 @@ fn forces_rotate_with_the_cloth() {
         .clone_from(&cloth.state(rotate(&bent(&lattice, 0.4, 0.0, &mut random))).expect("fits"));
     for radius in [0.1, 0.06] {
         let positions = rotate(&bent(&lattice, radius, 1e-3, &mut random));
-        cloth.commit(&mut rotated_state, &positions, &vec![0.0; trial.len()]);
+        cloth
+            .commit(&mut rotated_state, &positions, &vec![0.0; trial.len()])
+            .expect("the lists fit");
     }
     let mut rotated = vec![0.0; trial.len()];
-    cloth.add_forces(&rotated_state, &rotate(&trial), &mut rotated);
+    cloth.add_forces(&rotated_state, &rotate(&trial), &mut rotated).expect("the lists fit");
     let scale = forces.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
     for (a, b) in rotate(&forces).iter().zip(&rotated) {
         assert!((a - b).abs() < 1e-10 * scale, "{a} against {b}");
@@ -77,25 +79,26 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
     let mut errors = Vec::new();
     for spacing in [0.02, 0.01, 0.005] {
         let lattice = Lattice::rectangle(0.2, 0.2, spacing).expect("a rectangle");
-        let cloth = Cloth::new(&[(&lattice, &fabric)]);
-        let flat: Vec<f64> = lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
+        let cloth = Cloth::new(&[(&lattice, &fabric)]).expect("a cloth");
+        let flat: Vec<f64> = lattice.coordinates().iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
         let mut state = cloth.state(flat.clone()).expect("fits");
         // The sheet turns by its length over the radius, and its chords are kept at their rest
         // length, so that bending alone stores energy.
-        let turn = lattice.spacing[1] / radius;
-        let corner = 0.5 * lattice.spacing[1] / (0.5 * turn).sin();
+        let turn = lattice.spacing()[1] / radius;
+        let corner = 0.5 * lattice.spacing()[1] / (0.5 * turn).sin();
         let rolled: Vec<f64> = lattice
-            .coordinates
+            .coordinates()
             .iter()
             .flat_map(|&[u, v]| {
-                let angle = v / lattice.spacing[1] * turn;
+                let angle = v / lattice.spacing()[1] * turn;
                 [u, corner * (1.0 - angle.cos()), corner * angle.sin()]
             })
             .collect();
         // After the commit the friction has slipped by the true curvature, however far the sheet
         // rotated.
-        let dissipated = cloth.commit(&mut state, &rolled, &vec![0.0; flat.len()]);
-        let work = cloth.stored(&state) + dissipated;
+        let dissipated =
+            cloth.commit(&mut state, &rolled, &vec![0.0; flat.len()]).expect("the lists fit");
+        let work = cloth.stored(&state).expect("the lists fit") + dissipated;
         let bending = fabric.warp.bending;
         let exact = lattice.area() * bending.work(&bending.virgin(), 1.0 / radius);
         errors.push(work / exact - 1.0);
@@ -108,15 +111,15 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
 fn a_stretched_and_sheared_sheet_pulls_as_its_laws_say() {
     let fabric = fabric(&LINEN.replace("rest_curvature = 3.0", ""));
     let lattice = Lattice::rectangle(0.1, 0.1, 0.01).expect("a rectangle");
-    let cloth = Cloth::new(&[(&lattice, &fabric)]);
-    let flat: Vec<f64> = lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
+    let cloth = Cloth::new(&[(&lattice, &fabric)]).expect("a cloth");
+    let flat: Vec<f64> = lattice.coordinates().iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
     let state = cloth.state(flat).expect("fits");
     // Warp stretched by 4 %, then leaned over: the sine of the shear angle is exactly 0.1.
     let (sin, cos) = (0.1, (1.0_f64 - 0.01).sqrt());
     let place = |&[u, v]: &[f64; 2]| [u + 1.04 * v * sin, 0.0, 1.04 * v * cos];
-    let leaned: Vec<f64> = lattice.coordinates.iter().flat_map(place).collect();
+    let leaned: Vec<f64> = lattice.coordinates().iter().flat_map(place).collect();
     let mut forces = vec![0.0; leaned.len()];
-    cloth.add_forces(&state, &leaned, &mut forces);
+    cloth.add_forces(&state, &leaned, &mut forces).expect("the lists fit");
     // The top edge is the last row; the force on it per width, along and across the warp.
     let columns = 11;
     let top = &forces[forces.len() - 3 * columns..];

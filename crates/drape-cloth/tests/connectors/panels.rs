@@ -130,7 +130,7 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
 
 /// A panel whose spacing grows with the distance from a slanting line.
 pub fn graded(lattice: &Lattice) -> Lattice {
-    let [u, v] = lattice.grain.to_material(lattice.middle);
+    let [u, v] = lattice.grain().to_material(lattice.middle());
     let distance = |[x, y]: [f64; 2]| (0.6 * (x - u) + 0.8 * (y - v)).abs();
     let graded = lattice.graded(|point| 0.006 + 0.5 * distance(point));
     graded.expect("it was not graded").lattice
@@ -157,7 +157,7 @@ fn garments() -> Vec<(String, Lattice)> {
                 let name = format!("{file} {} {angle}°", panel.name());
                 let uniform = lattice(cut, panel.grain().to_degrees());
                 let graded = graded(&uniform);
-                if graded.coordinates.len() < uniform.coordinates.len() {
+                if graded.coordinates().len() < uniform.coordinates().len() {
                     all.push((format!("{name} graded"), graded));
                 }
                 all.push((name, uniform));

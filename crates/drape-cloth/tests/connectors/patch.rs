@@ -10,7 +10,7 @@ use crate::panels::{GARMENTS, LINEAR, fabric, rectangle};
 fn connector_areas_add_up_to_the_area_of_the_panel() {
     let mut worst = 0.0_f64;
     for (name, lattice) in GARMENTS.iter().chain(&thin()) {
-        let cloth = Cloth::new(&[(lattice, &fabric(LINEAR))]);
+        let cloth = Cloth::new(&[(lattice, &fabric(LINEAR))]).expect("a cloth");
         let areas = cloth.connector_areas();
         for area in [areas.traction, areas.bending, [areas.shear; 2]].concat() {
             let error = area / lattice.area() - 1.0;
@@ -42,12 +42,12 @@ fn a_uniform_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
     };
     let (mut inside, mut off) = (0.0_f64, 0.0_f64);
     for (name, lattice) in GARMENTS.iter().chain(&thin()) {
-        let cloth = Cloth::new(&[(lattice, &fabric)]);
-        let flat = lattice.coordinates.iter().flat_map(|&[u, v]| [u, v, 0.0]).collect();
+        let cloth = Cloth::new(&[(lattice, &fabric)]).expect("a cloth");
+        let flat = lattice.coordinates().iter().flat_map(|&[u, v]| [u, v, 0.0]).collect();
         let state = cloth.state(flat).expect("it fits");
-        let strained: Vec<f64> = lattice.coordinates.iter().flat_map(place).collect();
+        let strained: Vec<f64> = lattice.coordinates().iter().flat_map(place).collect();
         let mut forces = vec![0.0; strained.len()];
-        cloth.add_forces(&state, &strained, &mut forces);
+        cloth.add_forces(&state, &strained, &mut forces).expect("the lists fit");
         let on_outline = on_outline(lattice);
         // Root mean square.
         let size = |outer: bool| {
@@ -58,17 +58,23 @@ fn a_uniform_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
         };
         inside = inside.max(size(false) / size(true));
         assert!(size(false) < 1e-12 * size(true), "{name}: {:e} of {:e}", size(false), size(true));
-        for strain in cloth.triangle_strains(&strained) {
+        for strain in cloth.triangle_strains(&strained).expect("the lists fit") {
             let off = [strain.warp - 0.03, strain.weft - 0.02, strain.shear.sin() - sine];
             assert!(off.iter().all(|off| off.abs() < 1e-10), "{name}: {strain:?}");
         }
-        let areas = cloth.triangle_strains(&strained).iter().map(|strain| strain.area).sum::<f64>();
+        let areas = cloth
+            .triangle_strains(&strained)
+            .expect("the lists fit")
+            .iter()
+            .map(|strain| strain.area)
+            .sum::<f64>();
         assert!((areas / lattice.area() - 1.0).abs() < 1e-10, "{name}: {areas} m²");
         let work = |law: &dyn Fn() -> f64| law() * lattice.area();
         let exact = work(&|| fabric.warp.traction.work(&fabric.warp.traction.virgin(), 0.03))
             + work(&|| fabric.weft.traction.work(&fabric.weft.traction.virgin(), 0.02))
             + work(&|| fabric.shear.work(&fabric.shear.virgin(), sine));
-        let found = cloth.potential(&state, &strained) - cloth.potential(&state, &state.positions);
+        let found = cloth.potential(&state, &strained).expect("the lists fit")
+            - cloth.potential(&state, &state.positions).expect("the lists fit");
         off = off.max((found / exact - 1.0).abs());
         assert!((found / exact - 1.0).abs() < 1e-10, "{name}: {found} against {exact}");
     }
@@ -79,7 +85,7 @@ fn a_uniform_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
 
 /// Whether each particle is at a side of only one triangle.
 fn on_outline(lattice: &Lattice) -> Vec<bool> {
-    let mut on = vec![false; lattice.coordinates.len()];
+    let mut on = vec![false; lattice.coordinates().len()];
     outline(lattice).into_iter().flatten().for_each(|node| on[node as usize] = true);
     on
 }

@@ -39,7 +39,7 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
         &[(&disc, &rich), (&narrow, &plain), (&wide, &plain)],
     ];
     for (which, panels) in cloths.into_iter().enumerate() {
-        let cloth = Cloth::new(panels);
+        let cloth = Cloth::new(panels).expect("a cloth");
         let mut random = Random(3);
         // Waves that change with time, and noise of a few hundredths of the spacing.
         let mut place = |shake: f64, time: f64| -> Vec<f64> {
@@ -51,29 +51,29 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
             flat.map(|x| x + shake * random.next()).collect()
         };
         let mut state = cloth.state(place(0.0, 0.0)).expect("it fits");
-        let mut reference = ReferenceCloth::new(panels, cloth.sparsity(), &state);
+        let mut reference = ReferenceCloth::new(panels, &cloth, &state).expect("a cloth");
         let rest = vec![0.0; 3 * cloth.particle_count()];
         for step in 0..6 {
             let time = f64::from(step % 4) * 0.3;
             let positions = place(4e-4, time);
-            let before = reference.potential(&state.positions);
-            let work =
-                cloth.potential(&state, &positions) - cloth.potential(&state, &state.positions);
-            let exact = reference.potential(&positions) - before;
+            let before = reference.potential(&state.positions).expect("the lists fit");
+            let work = cloth.potential(&state, &positions).expect("the lists fit")
+                - cloth.potential(&state, &state.positions).expect("the lists fit");
+            let exact = reference.potential(&positions).expect("the lists fit") - before;
             assert!(
                 (work - exact).abs() < TOLERANCE * exact.abs(),
                 "cloth {which}, step {step}: work {work}, one by one {exact}"
             );
-            let lost = cloth.commit(&mut state, &positions, &rest);
-            let exact = reference.commit(&positions, state.normals());
+            let lost = cloth.commit(&mut state, &positions, &rest).expect("the lists fit");
+            let exact = reference.commit(&positions, state.normals()).expect("the lists fit");
             assert!(
                 (lost - exact).abs() < TOLERANCE * exact.abs(),
                 "cloth {which}, step {step}: lost {lost}, one by one {exact}"
             );
             let trial = place(4e-4, time + 0.1);
             let (mut found, mut exact) = (rest.clone(), rest.clone());
-            cloth.add_forces(&state, &trial, &mut found);
-            reference.add_forces(&trial, &mut exact);
+            cloth.add_forces(&state, &trial, &mut found).expect("the lists fit");
+            reference.add_forces(&trial, &mut exact).expect("the lists fit");
             let error = distance(&found, &exact);
             assert!(error < TOLERANCE, "cloth {which}, step {step}: forces {error:e}");
             for definite in [false, true] {
@@ -81,8 +81,8 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
                     vec![0.0; 9 * cloth.sparsity().block_count()],
                     vec![0.0; 9 * cloth.sparsity().block_count()],
                 );
-                cloth.add_stiffness(&state, &trial, definite, &mut found);
-                reference.add_stiffness(&trial, definite, &mut exact);
+                cloth.add_stiffness(&state, &trial, definite, &mut found).expect("the lists fit");
+                reference.add_stiffness(&trial, definite, &mut exact).expect("the lists fit");
                 let error = distance(&found, &exact);
                 assert!(
                     error < TOLERANCE,

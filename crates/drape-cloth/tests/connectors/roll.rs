@@ -13,7 +13,7 @@ fn rolled(lattice: &Lattice, radius: f64, angle: f64) -> Vec<f64> {
         let angle = across / radius;
         [along, radius * angle.sin(), radius * (1.0 - angle.cos())]
     };
-    lattice.coordinates.iter().flat_map(place).collect()
+    lattice.coordinates().iter().flat_map(place).collect()
 }
 
 /// Bending energies of a panel rolled about axes at angles in degrees, over those of the laws.
@@ -21,11 +21,14 @@ fn energies(lattice: &Lattice, radius: f64, angles: &[f64]) -> Vec<f64> {
     // The difference to twice the rigidity: chords shorter than arcs are compressed in both.
     let stiff = LINEAR.replace("1.2e-5", "2.4e-5").replace("0.7e-5", "1.4e-5");
     let fabrics = [LINEAR, &stiff].map(fabric);
-    let cloths = fabrics.each_ref().map(|fabric| Cloth::new(&[(lattice, fabric)]));
+    let cloths =
+        fabrics.each_ref().map(|fabric| Cloth::new(&[(lattice, fabric)]).expect("a cloth"));
     let part = |degrees: &f64| {
         let angle = degrees.to_radians();
         let [soft, stiff] = cloths.each_ref().map(|cloth| {
-            cloth.stored(&cloth.state(rolled(lattice, radius, angle)).expect("it fits"))
+            cloth
+                .stored(&cloth.state(rolled(lattice, radius, angle)).expect("it fits"))
+                .expect("the lists fit")
         });
         let (sin, cos) = angle.sin_cos();
         let [warp, weft] = [cos * cos / radius, sin * sin / radius];
@@ -60,9 +63,9 @@ fn normals_are_exact_on_planes_and_of_second_order_on_cylinders() {
     let fabric = fabric(LINEAR);
     let (sin, cos) = 0.7_f64.sin_cos();
     let error = |lattice: &Lattice, radius: f64| {
-        let cloth = Cloth::new(&[(lattice, &fabric)]);
+        let cloth = Cloth::new(&[(lattice, &fabric)]).expect("a cloth");
         let state = cloth.state(rolled(lattice, radius, 0.7)).expect("it fits");
-        let normals = state.normals().chunks_exact(3).zip(&lattice.coordinates);
+        let normals = state.normals().chunks_exact(3).zip(lattice.coordinates());
         let off = normals.map(|(normal, [u, v])| {
             let angle = (cos * v - sin * u) / radius;
             let exact = [0.0, -angle.sin(), angle.cos()];

@@ -125,7 +125,7 @@ fn worn(sewn: &Sewn, text: &str, rest_angle: f64) -> (SeamBending, SeamBendingSt
     };
     let mut state = bending.state(&bent(0.4)).expect("it fits");
     for radius in [0.05, 0.1] {
-        let lost = bending.commit(&mut state, &bent(radius));
+        let lost = bending.commit(&mut state, &bent(radius)).expect("the lists fit");
         assert!(lost >= 0.0, "{lost}");
     }
     let trial = bent(0.06);
@@ -150,7 +150,7 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
         };
         let forces = |positions: &[f64]| {
             let mut forces = vec![0.0; positions.len()];
-            bending.add_forces(&state, positions, &mut forces);
+            bending.add_forces(&state, positions, &mut forces).expect("the lists fit");
             forces
         };
         let push = forces(&trial);
@@ -159,21 +159,25 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
         for _ in 0..10 {
             let direction: Vec<f64> = trial.iter().map(|_| random.next()).collect();
             let d = 1e-6;
-            let work = |step: f64| bending.potential(&state, &at(&direction, step * d));
+            let work = |step: f64| {
+                bending.potential(&state, &at(&direction, step * d)).expect("the lists fit")
+            };
             let slope = (work(-2.0) - 8.0 * work(-1.0) + 8.0 * work(1.0) - work(2.0)) / (12.0 * d);
             let error =
                 (dot(&push, &direction) + slope) / (size(&push) * (direction.len() as f64).sqrt());
             assert!(error.abs() < 1e-7, "{name}: force {error:e}");
             let mut product = vec![0.0; trial.len()];
-            bending.add_stiffness(&state, &trial, false, |row, column, block| {
-                for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-                    let (row, column) = (3 * row as usize + i, 3 * column as usize + j);
-                    product[row] += block[3 * i + j] * direction[column];
-                    if row / 3 != column / 3 {
-                        product[column] += block[3 * i + j] * direction[row];
+            bending
+                .add_stiffness(&state, &trial, false, |row, column, block| {
+                    for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+                        let (row, column) = (3 * row as usize + i, 3 * column as usize + j);
+                        product[row] += block[3 * i + j] * direction[column];
+                        if row / 3 != column / 3 {
+                            product[column] += block[3 * i + j] * direction[row];
+                        }
                     }
-                }
-            });
+                })
+                .expect("the lists fit");
             let d = 1e-7;
             let [a, b, e, f] = [-2.0, -1.0, 1.0, 2.0].map(|step| forces(&at(&direction, step * d)));
             for k in 0..product.len() {
@@ -182,13 +186,16 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
                 assert!(error.abs() < 1e-6, "{name}: stiffness {error:e}");
             }
             let mut energy = 0.0;
-            bending.add_stiffness(&state, &trial, true, |row, column, block| {
-                let twice = if row == column { 1.0 } else { 2.0 };
-                for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-                    let ends = direction[3 * row as usize + i] * direction[3 * column as usize + j];
-                    energy += twice * block[3 * i + j] * ends;
-                }
-            });
+            bending
+                .add_stiffness(&state, &trial, true, |row, column, block| {
+                    let twice = if row == column { 1.0 } else { 2.0 };
+                    for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+                        let ends =
+                            direction[3 * row as usize + i] * direction[3 * column as usize + j];
+                        energy += twice * block[3 * i + j] * ends;
+                    }
+                })
+                .expect("the lists fit");
             assert!(energy >= 0.0, "{name}: {energy}");
         }
     }
@@ -203,7 +210,7 @@ fn seams_neither_push_nor_turn_the_whole() {
         for (text, rest, limit) in [(elastic.as_str(), 0.0, 1e-12), (RICH, 0.5, 2e-3)] {
             let (bending, state, trial) = worn(&sewn, text, rest);
             let mut forces = vec![0.0; trial.len()];
-            bending.add_forces(&state, &trial, &mut forces);
+            bending.add_forces(&state, &trial, &mut forces).expect("the lists fit");
             let (mut force, mut torque, mut size) = ([0.0; 3], [0.0; 3], 0.0_f64);
             for (x, f) in trial.chunks(3).zip(forces.chunks(3)) {
                 let [p, q, r] = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| x[i] * f[j] - x[j] * f[i]);
@@ -231,10 +238,11 @@ fn a_flat_seam_of_any_shape_is_at_rest() {
         });
         let state = bending.state(&flat).expect("it fits");
         let bent = bending.state(&sewn.positions(cylinder(0.1, 0.4))).expect("it fits");
-        let scale = bending.stored(&bent, &sewn.positions(cylinder(0.1, 0.4)));
+        let scale =
+            bending.stored(&bent, &sewn.positions(cylinder(0.1, 0.4))).expect("the lists fit");
         // Turned out of the plane it is stretched along x by 4 %, evenly.
         for shape in [&flat, &strained] {
-            let stored = bending.stored(&state, shape);
+            let stored = bending.stored(&state, shape).expect("the lists fit");
             println!(
                 "{name}: energy of a flat seam over that of a bent one {:.1e}",
                 stored / scale
@@ -255,7 +263,8 @@ fn a_creased_seam_rests_at_its_angle() {
                 sewn.positions(|[x, y]| [(x - 0.05) * cos, y, (x - 0.05).abs() * sin])
             };
             let state = bending.state(&folded(rest)).expect("it fits");
-            let energy = |angle: f64| bending.stored(&state, &folded(angle));
+            let energy =
+                |angle: f64| bending.stored(&state, &folded(angle)).expect("the lists fit");
             let most = energy(rest + 0.3);
             assert!(energy(rest) < 1e-6 * most, "{degrees}°, {rest}: {:e}", energy(rest) / most);
             assert!(energy(rest - 0.3) > 0.9 * most, "{degrees}°, {rest}");
@@ -268,12 +277,13 @@ fn rolled(sewn: &Sewn, stiffness: f64, radius: f64) -> f64 {
     let hard = LINEAR.replace("1.2e-5", "2.4e-5").replace("0.7e-5", "1.4e-5");
     let [soft, hard] = [LINEAR, &hard].map(|text| {
         let fabric = fabric(text);
-        let cloth = Cloth::new(&[(&sewn.panels[0], &fabric), (&sewn.panels[1], &fabric)]);
+        let cloth =
+            Cloth::new(&[(&sewn.panels[0], &fabric), (&sewn.panels[1], &fabric)]).expect("a cloth");
         let positions = sewn.positions(cylinder(radius, 0.0));
         let bending = sewn.bending(text, |seam| seam.stiffness = stiffness);
         let state = bending.state(&positions).expect("it fits");
-        let seam = bending.stored(&state, &positions);
-        cloth.stored(&cloth.state(positions).expect("it fits")) + seam
+        let seam = bending.stored(&state, &positions).expect("the lists fit");
+        cloth.stored(&cloth.state(positions).expect("it fits")).expect("the lists fit") + seam
     });
     hard - soft
 }
@@ -282,20 +292,22 @@ fn rolled(sewn: &Sewn, stiffness: f64, radius: f64) -> f64 {
 fn drop((panels, points): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>) -> f64 {
     let fabric = fabric(LINEAR);
     let panels: Vec<_> = panels.iter().map(|panel| (panel, &fabric)).collect();
-    let cloth = Cloth::new(&panels);
+    let cloth = Cloth::new(&panels).expect("a cloth");
     let flat: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
     let mut values = vec![0.0; 9 * cloth.sparsity().block_count()];
-    cloth.add_stiffness(&state, &flat, false, &mut values);
+    cloth.add_stiffness(&state, &flat, false, &mut values).expect("the lists fit");
     let mut blocks = Vec::new();
     // Heights alone; the nodes of a pair have one height.
     let mut master: Vec<usize> = (0..cloth.particle_count()).collect();
     if let Some((sewn, stiffness)) = seam {
         let bending = sewn.bending(LINEAR, |seam| seam.stiffness = stiffness);
         let state = bending.state(&flat).expect("it fits");
-        bending.add_stiffness(&state, &flat, false, |row, column, block| {
-            blocks.push((row as usize, column as usize, block[8]));
-        });
+        bending
+            .add_stiffness(&state, &flat, false, |row, column, block| {
+                blocks.push((row as usize, column as usize, block[8]));
+            })
+            .expect("the lists fit");
         sewn.pairs.iter().for_each(|&[a, b]| master[b as usize] = a as usize);
     }
     let held = |node: usize| points[node][0] < 0.015;
@@ -365,7 +377,7 @@ fn the_seams_of_garments_bend_from_end_to_end() {
         let (lattices, seams) = garment(file);
         let fabric = fabric(LINEAR);
         let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &fabric)).collect();
-        let cloth = Cloth::new(&panels);
+        let cloth = Cloth::new(&panels).expect("a cloth");
         let bending = SeamBending::new(&panels, &seams).expect("it can be sewn");
         let mut coupled: Vec<[u32; 2]> = bending.pairs().collect();
         coupled.sort_unstable();
@@ -390,7 +402,7 @@ fn the_seams_of_garments_bend_from_end_to_end() {
         let shape: Vec<f64> = cloth.coordinates().iter().flat_map(wave).collect();
         let state = bending.state(&shape).expect("it fits");
         let mut forces = vec![0.0; shape.len()];
-        bending.add_forces(&state, &shape, &mut forces);
+        bending.add_forces(&state, &shape, &mut forces).expect("the lists fit");
         assert!(forces.iter().all(|force| force.is_finite()));
     }
 }

@@ -21,7 +21,7 @@ pub fn bent(lattice: &Lattice, radius: f64, shake: f64, random: &mut Random) -> 
         [1.02 * along, 1.01 * radius * (1.0 - angle.cos()), 1.01 * radius * angle.sin()]
     };
     let shaken = |x: f64| x + shake * random.next();
-    lattice.coordinates.iter().flat_map(|&c| place(c)).map(shaken).collect()
+    lattice.coordinates().iter().flat_map(|&c| place(c)).map(shaken).collect()
 }
 
 /// A cloth committed twice before a shape with noise, and a trial at the radius.
@@ -32,12 +32,12 @@ pub fn tried(
     radius: f64,
 ) -> (Cloth, State, Vec<f64>) {
     let mut random = Random(7);
-    let cloth = Cloth::new(&[(lattice, fabric)]);
+    let cloth = Cloth::new(&[(lattice, fabric)]).expect("a cloth");
     let mut state = cloth.state(bent(lattice, 0.4, 0.0, &mut random)).expect("fits");
     let rest = vec![0.0; 3 * cloth.particle_count()];
     for radius in [0.1, 0.06] {
         let positions = bent(lattice, radius, shake, &mut random);
-        cloth.commit(&mut state, &positions, &rest);
+        cloth.commit(&mut state, &positions, &rest).expect("the lists fit");
     }
     let trial = bent(lattice, radius, shake, &mut random);
     (cloth, state, trial)
@@ -67,7 +67,7 @@ pub fn multiply(cloth: &Cloth, values: &[f64], vector: &[f64]) -> Vec<f64> {
 /// Sums of the internal forces and torques over the sums of their magnitudes.
 pub fn balance(cloth: &Cloth, state: &State, trial: &[f64]) -> (f64, f64) {
     let mut forces = vec![0.0; trial.len()];
-    cloth.add_forces(state, trial, &mut forces);
+    cloth.add_forces(state, trial, &mut forces).expect("the lists fit");
     let (mut force, mut torque, mut size, mut lever) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
     for (x, f) in trial.chunks(3).zip(forces.chunks(3)) {
         let cross =

@@ -78,7 +78,7 @@ impl GarmentParts {
             name: panel.name.clone(),
             fabric: scene.materials[panel.material].name.clone(),
             colour: scene.materials[panel.material].colour,
-            weft: panel.lattice.grain.weft(),
+            weft: panel.lattice.grain().weft(),
             particles: panel.particles(),
         });
         let garments: Vec<HungGarment> = scene

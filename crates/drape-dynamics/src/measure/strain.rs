@@ -4,7 +4,7 @@ use drape_cloth::TriangleStrain;
 use serde_json::{Map, Value, json};
 
 use crate::measure::garment_parts::GarmentParts;
-use crate::world::World;
+use crate::world::{ALL_PARTICLES, World};
 
 /// Fraction of the area of a cloth that may be deformed beyond the measured range of its fabric
 /// without a warning.
@@ -44,7 +44,7 @@ fn percent(strain: f64) -> String {
 }
 
 fn strains(world: &World) -> Vec<TriangleStrain> {
-    world.cloth.triangle_strains(&world.state.positions)
+    world.cloth.triangle_strains(&world.state.positions).expect(ALL_PARTICLES)
 }
 
 /// Deformation of a triangle.

@@ -4,7 +4,7 @@ use drape_cloth::TriangleStrain;
 use drape_collide::Shape;
 
 use crate::measure::garment_parts::{GarmentParts, PanelSpan};
-use crate::world::World;
+use crate::world::{ALL_PARTICLES, World};
 
 /// Cloth and bodies at one time, for a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +75,7 @@ impl Snapshot {
             triangles: world.cloth.triangles().to_vec(),
             triangle_fabrics: triangle_fabrics.collect(),
             fabrics,
-            strains: world.cloth.triangle_strains(positions),
+            strains: world.cloth.triangle_strains(positions).expect(ALL_PARTICLES),
             bodies: bodies
                 .map(|(_, outline)| Body {
                     positions: outline.vertices.concat(),

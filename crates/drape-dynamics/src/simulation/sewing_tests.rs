@@ -69,13 +69,14 @@ residual = 1e-4
     let elastic = scene.materials[0].fabric.without_friction();
     let cloth =
         Cloth::new(&lattices.iter().map(|(lattice, _)| (*lattice, &elastic)).collect::<Vec<_>>());
+    let cloth = cloth.expect("a cloth");
     let seam = drape_cloth::Seam {
         ties: pairs.ties.clone(),
         ..drape_cloth::Seam::new(pairs.pairs.clone())
     };
     let bending = SeamBending::new(&lattices, &[seam]);
     let bending = bending.expect("a seam of two edges");
-    scene.cloth = scene.cloth.with_ties(&pairs.ties);
+    scene.cloth = scene.cloth.with_ties(&pairs.ties).expect("ties of its particles");
     scene.sewing = Some(Sewing { seams, pairs, cloth, seconds: 0.5, bending });
     scene
 }

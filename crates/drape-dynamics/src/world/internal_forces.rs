@@ -87,7 +87,7 @@ impl InternalForces {
         breen: Option<Breen>,
         springs: &[[u32; 2]],
         positions: &[f64],
-    ) -> Self {
+    ) -> Result<Self, drape_cloth::Error> {
         let sparsity = sparsity(cloth.sparsity(), springs);
         let mut forces = Self {
             workspace: cloth.workspace(),
@@ -98,8 +98,8 @@ impl InternalForces {
             sparsity,
             version: 0,
         };
-        forces.update_sparsity(cloth, positions);
-        forces
+        forces.update_sparsity(cloth, positions)?;
+        Ok(forces)
     }
 
     /// Returns the pairs of particles that act on each other.
@@ -114,21 +114,28 @@ impl InternalForces {
 
     /// Adds bending across the seams of `cloth`, which has been sewn at `positions`, in m. The
     /// closing springs need no blocks from now on.
-    pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
+    pub(crate) fn sew(
+        &mut self,
+        cloth: &Cloth,
+        bending: SeamBending,
+        positions: &[f64],
+    ) -> Result<(), drape_cloth::Error> {
+        let state = bending.state(positions)?;
         self.workspace = cloth.workspace();
         let pairs: Vec<[u32; 2]> = bending.pairs().collect();
         self.sparsity = sparsity(cloth.sparsity(), &pairs);
         self.scatter = Some(Scatter::new(cloth.sparsity(), &self.sparsity));
         self.version += 1;
-        let state = bending.state(positions).expect("a place for every particle");
         self.seams = Some(BentSeams { bending, state });
+        Ok(())
     }
 
     /// Resets the memory of the seams to `positions`, in m.
-    pub(crate) fn forget(&mut self, positions: &[f64]) {
+    pub(crate) fn forget(&mut self, positions: &[f64]) -> Result<(), drape_cloth::Error> {
         if let Some(BentSeams { bending, state }) = &mut self.seams {
-            *state = bending.state(positions).expect("a place for every particle");
+            *state = bending.state(positions)?;
         }
+        Ok(())
     }
 
     /// Returns the memory of the seams.
@@ -172,7 +179,9 @@ impl InternalForces {
                 }
 
                 // The sums of the solver follow the order of the saved pairs.
-                breen.list_pairs(&listed);
+                if breen.list_pairs(&listed).is_err() {
+                    return false;
+                }
                 self.sparsity = sparsity(cloth.sparsity(), &close);
                 self.close = close;
                 self.version += 1;
@@ -184,37 +193,48 @@ impl InternalForces {
 
     /// Adds the pairs of Breen's particles that are near each other at `positions` to the sparsity.
     /// Pairs that have parted stay until pairs are added.
-    fn update_sparsity(&mut self, cloth: &Cloth, positions: &[f64]) {
-        let Some(breen) = &mut self.breen else { return };
-        let near = breen.close_pairs(positions);
+    fn update_sparsity(
+        &mut self,
+        cloth: &Cloth,
+        positions: &[f64],
+    ) -> Result<(), drape_cloth::Error> {
+        let Some(breen) = &mut self.breen else { return Ok(()) };
+        let near = breen.close_pairs(positions)?;
         if near.iter().any(|&[a, b]| self.sparsity.slot(a as usize, b as usize).is_none()) {
             self.close = near.to_vec();
             self.sparsity = sparsity(cloth.sparsity(), near);
             self.version += 1;
         }
+        Ok(())
     }
 
     /// Adds the internal forces at `trial` to `forces`, in N.
-    pub(crate) fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
+    pub(crate) fn add_forces(
+        &mut self,
+        trial: Trial<'_>,
+        forces: &mut [f64],
+    ) -> Result<(), drape_cloth::Error> {
         match &mut self.breen {
-            Some(breen) => breen.add_forces(trial.positions, forces),
-            None => self.workspace.add_forces(trial, forces),
+            Some(breen) => breen.add_forces(trial.positions(), forces)?,
+            None => self.workspace.add_forces(trial, forces)?,
         }
         if let Some(BentSeams { bending, state }) = &self.seams {
-            bending.add_forces(state, trial.positions, forces);
+            bending.add_forces(state, trial.positions(), forces)?;
         }
+        Ok(())
     }
 
     /// Returns the potential of the internal forces at `trial`, in J.
-    pub(crate) fn potential(&mut self, trial: Trial<'_>) -> f64 {
-        let seams = self.seams.as_ref();
-        let seam_energy =
-            seams.map_or(0.0, |seams| seams.bending.potential(&seams.state, trial.positions));
-        seam_energy
-            + match &mut self.breen {
-                Some(breen) => breen.energy(trial.positions),
-                None => self.workspace.potential(trial),
-            }
+    pub(crate) fn potential(&mut self, trial: Trial<'_>) -> Result<f64, drape_cloth::Error> {
+        let seam_energy = match &self.seams {
+            Some(BentSeams { bending, state }) => bending.potential(state, trial.positions())?,
+            None => 0.0,
+        };
+        let panel_energy = match &mut self.breen {
+            Some(breen) => breen.energy(trial.positions())?,
+            None => self.workspace.potential(trial)?,
+        };
+        Ok(seam_energy + panel_energy)
     }
 
     /// Adds the stiffness at `trial` to `matrix`, positive semi-definite if `definite`.
@@ -227,28 +247,32 @@ impl InternalForces {
         trial: Trial<'_>,
         definite: bool,
         matrix: &mut BlockMatrix,
-    ) {
+    ) -> Result<(), drape_cloth::Error> {
         let Some(breen) = &mut self.breen else {
             // Without further pairs the connectors have the layout of `matrix`.
             let Some(Scatter { values, slots }) = &mut self.scatter else {
-                self.workspace.add_stiffness(trial, definite, matrix.values_mut());
-                return;
+                return self.workspace.add_stiffness(trial, definite, matrix.values_mut());
             };
 
             values.fill(0.0);
-            self.workspace.add_stiffness(trial, definite, values);
+            self.workspace.add_stiffness(trial, definite, values)?;
             for (block, &slot) in values.as_chunks::<9>().0.iter().zip(&*slots) {
                 matrix.add_block(slot, block);
             }
             if let Some(BentSeams { bending, state }) = &self.seams {
-                bending.add_stiffness(state, trial.positions, definite, |row, column, block| {
-                    matrix.add(row as usize, column as usize, &block);
-                });
+                bending.add_stiffness(
+                    state,
+                    trial.positions(),
+                    definite,
+                    |row, column, block| {
+                        matrix.add(row as usize, column as usize, &block);
+                    },
+                )?;
             }
-            return;
+            return Ok(());
         };
 
-        breen.add_stiffness(trial.positions, definite, &mut |[a, b], block| {
+        breen.add_stiffness(trial.positions(), definite, &mut |[a, b], block| {
             let (row, column) = (a as usize, b as usize);
             match matrix.sparsity().slot(row, column) {
                 Some(slot) => matrix.add_block(slot, block),
@@ -258,7 +282,7 @@ impl InternalForces {
                     matrix.add(column, column, &against);
                 }
             }
-        });
+        })
     }
 
     /// Accepts a step of `cloth` that ends at `positions`, in m, with `velocities`, in m/s: updates
@@ -269,25 +293,30 @@ impl InternalForces {
         state: &mut State,
         positions: &[f64],
         velocities: &[f64],
-    ) -> f64 {
-        let mut dissipated = self.workspace.commit(cloth, state, positions, velocities);
+    ) -> Result<f64, drape_cloth::Error> {
+        let mut dissipated = self.workspace.commit(cloth, state, positions, velocities)?;
         if let Some(BentSeams { bending, state }) = &mut self.seams {
-            dissipated += bending.commit(state, positions);
+            dissipated += bending.commit(state, positions)?;
         }
-        self.update_sparsity(cloth, positions);
-        if self.breen.is_some() { 0.0 } else { dissipated }
+        self.update_sparsity(cloth, positions)?;
+        Ok(if self.breen.is_some() { 0.0 } else { dissipated })
     }
 
     /// Returns the recoverable energy of `state`, in J.
-    pub(crate) fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
-        let seams = self.seams.as_ref();
-        let seam_energy =
-            seams.map_or(0.0, |seams| seams.bending.stored(&seams.state, &state.positions));
-        seam_energy
-            + match &mut self.breen {
-                Some(breen) => breen.energy(&state.positions),
-                None => self.workspace.stored(cloth, state),
-            }
+    pub(crate) fn stored(
+        &mut self,
+        cloth: &Cloth,
+        state: &State,
+    ) -> Result<f64, drape_cloth::Error> {
+        let seam_energy = match &self.seams {
+            Some(seams) => seams.bending.stored(&seams.state, &state.positions)?,
+            None => 0.0,
+        };
+        let panel_energy = match &mut self.breen {
+            Some(breen) => breen.energy(&state.positions)?,
+            None => self.workspace.stored(cloth, state)?,
+        };
+        Ok(seam_energy + panel_energy)
     }
 }
 
@@ -303,23 +332,26 @@ mod tests {
         let fabric = samples::plain_weave();
         let lattice = Lattice::rectangle(0.04, 0.04, 0.01).expect("a sheet");
         let panels = [(&lattice, &fabric), (&lattice, &fabric)];
-        let cloth = Cloth::new(&panels);
+        let cloth = Cloth::new(&panels).expect("a cloth");
         let place = |gap: f64| -> Vec<f64> {
             let sheet =
-                |height: f64| lattice.coordinates.iter().flat_map(move |&[u, v]| [u, v, height]);
+                |height: f64| lattice.coordinates().iter().flat_map(move |&[u, v]| [u, v, height]);
             sheet(0.0).chain(sheet(gap)).collect()
         };
         let state = cloth.state(place(0.05)).expect("it fits");
         let breen = Breen::new(&panels).expect("no rims");
-        let mut forces = InternalForces::new(&cloth, Some(breen), &[], &state.positions);
+        let forces = InternalForces::new(&cloth, Some(breen), &[], &state.positions);
+        let mut forces = forces.expect("it fits");
         let fill = |forces: &mut InternalForces| {
             let mut matrix = BlockMatrix::zeros(forces.sparsity().clone());
-            forces.add_stiffness(cloth.trial(&state, &place(0.008)), true, &mut matrix);
+            let near = place(0.008);
+            let trial = cloth.trial(&state, &near).expect("it fits");
+            forces.add_stiffness(trial, true, &mut matrix).expect("it fits");
             assert_eq!(matrix.outside_sparsity(), None);
             matrix
         };
         let (before, alone) = (forces.sparsity_version(), fill(&mut forces));
-        forces.update_sparsity(&cloth, &place(0.008));
+        forces.update_sparsity(&cloth, &place(0.008)).expect("it fits");
         assert_eq!(forces.sparsity_version(), before + 1);
         let whole = fill(&mut forces);
         assert!(whole.sparsity().block_count() > alone.sparsity().block_count());
@@ -331,7 +363,7 @@ mod tests {
             let moved: Vec<f64> =
                 (0..3 * count).map(|k| if k % 3 == 2 { height(k) } else { 0.0 }).collect();
             let mut forces = vec![0.0; moved.len()];
-            matrix.multiply(&moved, &mut forces);
+            matrix.multiply(&moved, &mut forces).expect("three entries per particle");
             moved.iter().zip(&forces).map(|(a, b)| a * b).sum::<f64>()
         };
         let (together, against) = (energy(&whole, 1.0), energy(&whole, -1.0));
@@ -343,7 +375,7 @@ mod tests {
         // Where they go against each other the two are the same.
         assert!((energy(&alone, -1.0) / against - 1.0).abs() < 1e-12);
         // Once more changes nothing.
-        forces.update_sparsity(&cloth, &place(0.008));
+        forces.update_sparsity(&cloth, &place(0.008)).expect("it fits");
         assert_eq!(forces.sparsity_version(), before + 1);
     }
 }

@@ -69,7 +69,8 @@ impl System for World {
         self.gravity.write_forces(self.cloth.masses(), forces);
         self.external.add_forces(forces);
         self.momentum.forces.add_forces(forces);
-        self.internal.add_forces(self.cloth.trial(&self.state, positions), forces);
+        let trial = self.cloth.trial(&self.state, positions).expect(ALL_PARTICLES);
+        self.internal.add_forces(trial, forces).expect(ALL_PARTICLES);
         if let Some(springs) = &self.seams.springs {
             springs.add_forces(positions, forces);
         }
@@ -80,7 +81,8 @@ impl System for World {
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let drag = self.air.potential(&self.state, positions);
-        let internal = self.internal.potential(self.cloth.trial(&self.state, positions));
+        let trial = self.cloth.trial(&self.state, positions).expect(ALL_PARTICLES);
+        let internal = self.internal.potential(trial).expect(ALL_PARTICLES);
         let momentum = self.momentum.forces.potential(positions);
         if let Some(balance) = &mut self.balance {
             balance.note_internal_potential(internal);
@@ -96,8 +98,8 @@ impl System for World {
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         let definite = kind == Stiffness::Definite;
-        let trial = self.cloth.trial(&self.state, positions);
-        self.internal.add_stiffness(trial, definite, matrix);
+        let trial = self.cloth.trial(&self.state, positions).expect(ALL_PARTICLES);
+        self.internal.add_stiffness(trial, definite, matrix).expect(ALL_PARTICLES);
         if let Some(springs) = &self.seams.springs {
             springs.add_stiffness(matrix);
         }
@@ -134,10 +136,12 @@ impl System for World {
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
         let energy = self.balance.is_some().then(|| self.step_energy(positions, dt));
         self.contact.commit(positions);
-        let internal_friction =
-            self.internal.commit(&self.cloth, &mut self.state, positions, velocities);
+        let internal_friction = self
+            .internal
+            .commit(&self.cloth, &mut self.state, positions, velocities)
+            .expect(ALL_PARTICLES);
         if let (Some(balance), Some(energy)) = (&mut self.balance, energy) {
-            let stored = self.internal.stored(&self.cloth, &self.state);
+            let stored = self.internal.stored(&self.cloth, &self.state).expect(ALL_PARTICLES);
             balance.add(&StepEnergy { internal_friction, stored, ..energy });
         }
     }

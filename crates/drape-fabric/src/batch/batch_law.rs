@@ -19,7 +19,7 @@ use crate::batch::memories::{Memories, MemoriesMut, MemoryBatch};
 /// let law = BendingLaw {
 ///     backbone: BendingBackbone::Linear { rigidity: 1.2e-5 },
 ///     rest_curvature: 0.0,
-///     friction: BlimanSorine::first_order(6e-4, 4.0),
+///     friction: BlimanSorine::first_order(6e-4, 4.0)?,
 /// };
 /// let batch = BendingBatch::new(law);
 /// let memories = batch.memories(LANES);
@@ -27,6 +27,7 @@ use crate::batch::memories::{Memories, MemoriesMut, MemoryBatch};
 /// batch.respond::<true>(&memories.batch(0), &[100.0; LANES], &mut responses);
 /// let one = law.respond(&law.virgin(), 100.0);
 /// assert!((responses.load[7] / one.load - 1.0).abs() < 1e-12);
+/// # Ok::<(), drape_fabric::FrictionError>(())
 /// ```
 pub trait BatchLaw {
     /// Returns the memories of `count` connectors that were never deformed.

@@ -19,7 +19,7 @@ pub(super) struct ElementFile<L: Dimension, D: Dimension> {
 }
 
 /// Returns the friction of one or two `elements` of the law with the key `key`. More than two
-/// elements are a mistake, which goes to `report`.
+/// elements are a mistake, which goes to `report`. The check of the fabric checks the numbers.
 pub(super) fn friction<L: Dimension, D: Dimension>(
     elements: &[ElementFile<L, D>],
     key: &str,
@@ -34,9 +34,10 @@ pub(super) fn friction<L: Dimension, D: Dimension>(
     }
     let [first, second] = [0, 1].map(|index| {
         let element = elements.get(index);
-        element.map_or(Dahl::NONE, |e| Dahl::new(e.plateau.value(), e.length.value()))
+        element
+            .map_or(Dahl::NONE, |e| Dahl { plateau: e.plateau.value(), length: e.length.value() })
     });
-    BlimanSorine::parallel(first, second)
+    BlimanSorine { elements: [first, second] }
 }
 
 /// Returns the elements of `friction` with a plateau.

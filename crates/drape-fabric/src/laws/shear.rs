@@ -34,12 +34,13 @@ const LINE_FROM: f64 = 0.95;
 ///
 /// let law = ShearLaw {
 ///     backbone: ShearBackbone::Linear { stiffness: 35.0 },
-///     friction: BlimanSorine::first_order(0.5, 0.004),
+///     friction: BlimanSorine::first_order(0.5, 0.004)?,
 ///     growth: 6.0,
 ///     locking: None,
 /// };
 /// let force = law.respond(&law.virgin(), 5_f64.to_radians().sin()).load;
 /// assert!(force > 35.0 * 5_f64.to_radians().sin(), "friction adds to the elastic force");
+/// # Ok::<(), drape_fabric::FrictionError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShearLaw {

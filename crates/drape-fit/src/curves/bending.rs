@@ -32,7 +32,7 @@ use crate::values::of_law::bending_values;
 /// let law = BendingLaw {
 ///     backbone: BendingBackbone::Linear { rigidity: 1.2e-5 },
 ///     rest_curvature: 0.0,
-///     friction: BlimanSorine::first_order(6e-4, 4.0),
+///     friction: BlimanSorine::first_order(6e-4, 4.0)?,
 /// };
 /// // The KES cycle, in 1/m.
 /// let steps = (0..=125).chain((-125..125).rev());
@@ -42,7 +42,7 @@ use crate::values::of_law::bending_values;
 ///
 /// let law = identify_bending(&curve, &FitSettings::default())?.law;
 /// assert!((law.friction.plateau() / 6e-4 - 1.0).abs() < 1e-9);
-/// # Ok::<(), drape_fit::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors

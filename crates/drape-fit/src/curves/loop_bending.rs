@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn one_law_is_recovered_from_two_strips_through_drift_and_unknown_zeros() {
         let (rigidity, plateau, slip) = (1.1e-5, 8e-5, 20.0);
-        let friction = BlimanSorine::first_order(plateau, slip);
+        let friction = BlimanSorine::first_order(plateau, slip).expect("a friction");
         let strip_start = [[0.7, 0.2, -0.4], [-0.3, 0.1, 0.6]];
         let curves = strip_start.map(|strip_start| strip(rigidity, &friction, strip_start));
         let found =

@@ -10,7 +10,7 @@
 //! `forward::friction_path` with the growth `$\gamma$` of the plateau. One element has `$w = 0$`,
 //! `$\eta = 1$`. `loop_start` builds the candidates of `bending` and `shear` from these forms.
 
-use drape_fabric::{BlimanSorine, Varying};
+use drape_fabric::{BlimanSorine, Dahl, Varying};
 use nalgebra::DMatrix;
 
 use crate::forward::friction_path::{FrictionPath, UnitFriction};
@@ -132,9 +132,10 @@ impl LoopBackbone {
 /// plateau over the fast plateau, and the fast length over the slow length.
 pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
     match *p {
-        [plateau, length] => BlimanSorine::first_order(plateau, length),
+        [plateau, length] => Dahl { plateau, length }.into(),
         [plateau, length, slow, ratio] => {
-            BlimanSorine::second_order(plateau, -slow * plateau, ratio, length)
+            let fast = Dahl { plateau, length: ratio * length };
+            BlimanSorine { elements: [fast, Dahl { plateau: slow * plateau, length }] }
         }
         _ => BlimanSorine::none(),
     }

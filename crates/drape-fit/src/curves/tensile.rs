@@ -145,7 +145,7 @@ mod tests {
                     toe_strain: toe,
                     toe_strain_after: growth * toe,
                 }),
-                friction: BlimanSorine::first_order(4.0, 0.002).into(),
+                friction: BlimanSorine::first_order(4.0, 0.002).expect("a friction").into(),
                 buckling: Buckling::default(),
             };
             let taut = clamps(top);

@@ -1,7 +1,7 @@
 //! Parameters of a tensile fit, and the law and forward model that follow from them.
 
 use drape_fabric::{
-    BlimanSorine, Buckling, ExponentialToe, Polynomial, Primed, ProportionalFriction,
+    BlimanSorine, Buckling, Dahl, ExponentialToe, Polynomial, Primed, ProportionalFriction,
     STEEPNESS_MIN, TractionBackbone, TractionFriction, TractionLaw,
 };
 use drape_kes::Curve;
@@ -215,7 +215,7 @@ impl TensileForm {
     /// Returns the law with a `backbone` of the papers and a friction with a plateau.
     fn with_plateau(self, backbone: TractionBackbone, p: &mut Parameters<'_>) -> TractionLaw {
         let friction = if self.strip.recovers {
-            BlimanSorine::first_order(p.next(), p.next())
+            Dahl { plateau: p.next(), length: p.next() }.into()
         } else {
             BlimanSorine::none()
         };

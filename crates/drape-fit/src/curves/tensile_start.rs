@@ -14,7 +14,7 @@ mod exponential;
 use std::ops::Range;
 
 use drape_fabric::{
-    BlimanSorine, Buckling, Polynomial, Primed, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
+    BlimanSorine, Buckling, Dahl, Polynomial, Primed, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
 };
 use drape_kes::Curve;
 use drape_lm::Parameter;
@@ -224,7 +224,10 @@ impl InitialGuess {
     /// recovery.
     fn frictions(&self, form: &TensileForm) -> Vec<BlimanSorine> {
         let lengths = if form.strip.recovers { &LENGTHS[..] } else { &[] };
-        lengths.iter().map(|part| BlimanSorine::first_order(1.0, part * self.top_strain)).collect()
+        lengths
+            .iter()
+            .map(|part| Dahl { plateau: 1.0, length: part * self.top_strain }.into())
+            .collect()
     }
 
     /// Returns the best combination of the backbone columns, which are the first `backbone_columns`
@@ -388,7 +391,9 @@ mod tests {
                     toe_strain: toe * top,
                     toe_strain_after: growth * toe * top,
                 }),
-                friction: BlimanSorine::first_order(12.0, LENGTHS[2] * top).into(),
+                friction: BlimanSorine::first_order(12.0, LENGTHS[2] * top)
+                    .expect("a friction")
+                    .into(),
                 buckling: Buckling::default(),
             };
             let mut load = vec![0.0; strain.len()];

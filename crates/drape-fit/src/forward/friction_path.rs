@@ -122,7 +122,7 @@ mod tests {
         for length in [1e-4, 0.004, 0.03, 0.5] {
             let law = ShearLaw {
                 backbone: ShearBackbone::Linear { stiffness: 0.0 },
-                friction: BlimanSorine::first_order(0.7, length),
+                friction: BlimanSorine::first_order(0.7, length).expect("a friction"),
                 growth: 9.0,
                 locking: None,
             };

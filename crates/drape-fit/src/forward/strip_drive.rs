@@ -120,7 +120,7 @@ mod tests {
                 toe_strain: 0.01,
                 toe_strain_after: 0.014,
             }),
-            friction: BlimanSorine::first_order(4.0, 0.001).into(),
+            friction: BlimanSorine::first_order(4.0, 0.001).expect("a friction").into(),
             buckling: Buckling::default(),
         }
     }

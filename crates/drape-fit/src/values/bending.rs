@@ -1,6 +1,6 @@
 //! Bending law from B and 2HB.
 
-use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine};
+use drape_fabric::{BendingBackbone, BendingLaw, Dahl};
 use drape_kes::BendingValues;
 
 use crate::values::assumed::BENDING_FRICTION_LENGTH;
@@ -23,7 +23,7 @@ pub fn bending_from_values(values: &BendingValues) -> BendingLaw {
     BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: values.rigidity },
         rest_curvature: 0.0,
-        friction: BlimanSorine::first_order(0.5 * values.loop_width, BENDING_FRICTION_LENGTH),
+        friction: Dahl { plateau: 0.5 * values.loop_width, length: BENDING_FRICTION_LENGTH }.into(),
     }
 }
 

@@ -135,7 +135,7 @@ mod tests {
                 toe_strain: 0.02,
                 toe_strain_after: 0.025,
             }),
-            friction: BlimanSorine::first_order(20.0, 0.002).into(),
+            friction: BlimanSorine::first_order(20.0, 0.002).expect("a friction").into(),
             buckling: Buckling::default(),
         };
         let exact = tensile_values(&law, 490.0);

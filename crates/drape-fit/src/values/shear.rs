@@ -3,7 +3,7 @@
 //! For a given friction length the values are linear in the stiffness `$k_s$`, the plateau `$F_c$`
 //! and its growth `$F_c\gamma$`: three values, three equations.
 
-use drape_fabric::{BlimanSorine, Law, Locking, ShearBackbone, ShearLaw, drive};
+use drape_fabric::{BlimanSorine, Dahl, Law, Locking, ShearBackbone, ShearLaw, drive};
 use drape_kes::{Curve, Direction, ShearPoints, ShearValues, Test};
 
 use crate::forward::friction_path::{FrictionPath, UnitFriction};
@@ -136,7 +136,8 @@ impl<'a> UnitValues<'a> {
         let even =
             ShearValues { stiffness: target.stiffness, loop_width: mean, wide_loop_width: mean };
         self.constant(&even, SHEAR_FRICTION_LENGTH).unwrap_or_else(|| {
-            let friction = BlimanSorine::first_order(0.5 * mean, SHEAR_FRICTION_LENGTH);
+            let friction =
+                BlimanSorine::from(Dahl { plateau: 0.5 * mean, length: SHEAR_FRICTION_LENGTH });
             shear_law(target.stiffness, 0.0, friction)
         })
     }
@@ -154,7 +155,7 @@ impl<'a> UnitValues<'a> {
             (target.stiffness - plateau * constant.stiffness - rise * growing.stiffness)
                 / linear.stiffness;
         if narrow == 0.0 && wide == 0.0 {
-            let friction = BlimanSorine::first_order(0.0, length);
+            let friction = BlimanSorine::from(Dahl { plateau: 0.0, length });
             return (stiffness > 0.0).then(|| shear_law(stiffness, 0.0, friction));
         }
 
@@ -162,7 +163,7 @@ impl<'a> UnitValues<'a> {
         let possible = plateau > 0.0 && growth <= LARGEST_GROWTH && stiffness > 0.0;
         // The growth of a loop of even width is rounding.
         let growth = if growth.abs() < f64::EPSILON.sqrt() { 0.0 } else { growth };
-        possible.then(|| shear_law(stiffness, growth, BlimanSorine::first_order(plateau, length)))
+        possible.then(|| shear_law(stiffness, growth, Dahl { plateau, length }.into()))
     }
 
     /// Returns the law with the stiffness and the narrow width of `target`, and a constant plateau;
@@ -171,7 +172,7 @@ impl<'a> UnitValues<'a> {
         let Terms { linear, constant, .. } = self.terms_at(length);
         let plateau = target.loop_width / constant.loop_width;
         let stiffness = (target.stiffness - plateau * constant.stiffness) / linear.stiffness;
-        let friction = BlimanSorine::first_order(plateau, length);
+        let friction = BlimanSorine::from(Dahl { plateau, length });
         (stiffness > 0.0).then(|| shear_law(stiffness, 0.0, friction))
     }
 

@@ -7,8 +7,8 @@
 //! Three residuals, three parameters (elastic load, plateau, shape), solved by drape-lm.
 
 use drape_fabric::{
-    BlimanSorine, Buckling, ExponentialToe, FRICTION_RATIO_MAX, Law, Primed, ProportionalFriction,
-    STEEPNESS_MIN, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
+    BlimanSorine, Buckling, Dahl, ExponentialToe, FRICTION_RATIO_MAX, Law, Primed,
+    ProportionalFriction, STEEPNESS_MIN, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
 };
 use drape_lm::{MinimiserSettings, Parameter, Problem, minimise};
 
@@ -161,7 +161,7 @@ impl TensileProblem<'_> {
                     toe_strain,
                     toe_strain_after: toe_strain,
                 };
-                let friction = BlimanSorine::first_order(p[1] * maximum_tension, length);
+                let friction = BlimanSorine::from(Dahl { plateau: p[1] * maximum_tension, length });
                 (TractionBackbone::Primed(primed), friction.into())
             }
             Shape::Exponential => {

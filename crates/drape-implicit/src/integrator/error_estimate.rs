@@ -1,7 +1,8 @@
 //! Error estimate of a step, for callers that choose the step by its error.
 
 use super::formula::Formula;
-use super::state::IntegratorState;
+use super::state::{IntegratorState, check_step};
+use crate::error::Error;
 use crate::settings::Integrator;
 
 /// Extrapolation of the last steps to the end of the next step, with the ratio of the step's error
@@ -74,9 +75,10 @@ impl Extrapolation {
 /// // A step of 0.1 s of a particle at rest that ends 2 mm from the predicted position.
 /// let mut state = IntegratorState::at_rest(vec![0.0; 3]);
 /// let mut estimate = ErrorEstimate::new(1);
-/// estimate.predict(&state, Integrator::BackwardEuler, 0.1);
+/// estimate.predict(&state, Integrator::BackwardEuler, 0.1)?;
 /// state.positions[0] = 0.002;
 /// assert_eq!(estimate.estimate(&state), 0.001);
+/// # Ok::<(), drape_implicit::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct ErrorEstimate {
@@ -94,7 +96,18 @@ impl ErrorEstimate {
 
     /// Extrapolates `state` to the end of a step of length `dt`, in s, by `integrator`. Call this
     /// method before the step.
-    pub fn predict(&mut self, state: &IntegratorState, integrator: Integrator, dt: f64) {
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] if the state has another number of particles, [`Error::StepLength`] if
+    /// `dt` or the length of the previous step is not positive.
+    pub fn predict(
+        &mut self,
+        state: &IntegratorState,
+        integrator: Integrator,
+        dt: f64,
+    ) -> Result<(), Error> {
+        check_step(dt)?;
+        state.check(self.predicted.len() / 3)?;
         let extrapolation = match &state.previous {
             Some(previous) if integrator == Integrator::Bdf2 => {
                 Extrapolation::second_order(dt, previous.dt)
@@ -103,12 +116,17 @@ impl ErrorEstimate {
         };
         extrapolation.write(state, &mut self.predicted);
         self.fraction = extrapolation.fraction;
+        Ok(())
     }
 
     /// Returns the root-mean-square error of the positions of `state` over all particles, in m.
-    /// Call this method after the step.
+    /// Call this method after the step. The error is not a number (NaN) before the first call of
+    /// [`predict`](Self::predict), and for a state with another number of particles.
     #[must_use]
     pub fn estimate(&self, state: &IntegratorState) -> f64 {
+        if state.positions.len() != self.predicted.len() {
+            return f64::NAN;
+        }
         let differences = self.predicted.iter().zip(&state.positions).map(|(p, x)| p - x);
         let squares: f64 = differences.map(|d| d * d).sum();
         let particles = (self.predicted.len() / 3).max(1) as f64;

@@ -1,7 +1,7 @@
 //! Explicit steps, as a cross-check of the implicit steps. Explicit steps do not use the solver.
 
 use super::path_work::{Path, PathWork};
-use super::state::{IntegratorState, Span};
+use super::state::{IntegratorState, Span, check_length, check_particles, check_step};
 use crate::error::{Error, Quantity};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::vector::first_not_finite;
@@ -66,31 +66,30 @@ impl Explicit {
 
     /// Sets the length of sub-steps to `fraction` of the stability bound. The default is one half.
     /// Shorter sub-steps show the order of the error.
-    #[must_use]
-    pub fn with_fraction(self, fraction: f64) -> Self {
-        Self { fraction, ..self }
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if `fraction` is not positive and finite.
+    pub fn with_fraction(self, fraction: f64) -> Result<Self, Error> {
+        if !(fraction > 0.0 && fraction.is_finite()) {
+            let range = "positive and finite";
+            return Err(Error::Setting { name: "fraction", value: fraction, range });
+        }
+        Ok(Self { fraction, ..self })
     }
 
     /// Advances `state` by exactly `dt`, in s, in equal sub-steps. The numerical dissipation in the
     /// report is the energy that the formula dissipated. It is negative if the energy grew.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if the motion diverges. [`Error::StepLength`], [`Error::Dimension`] and
-    /// [`Error::OutsideSparsity`] for inadmissible input. [`Error::Cancelled`].
+    /// [`Error::NotFinite`] if the motion diverges. [`Error::StepLength`], [`Error::Dimension`],
+    /// [`Error::Mass`] and [`Error::OutsideSparsity`] for inadmissible input.
+    /// [`Error::Cancelled`].
     pub fn advance(
         &mut self,
         system: &mut dyn System,
         state: &mut IntegratorState,
         dt: f64,
     ) -> Result<Report, Error> {
-        if !(dt > 0.0 && dt.is_finite()) {
-            return Err(Error::StepLength { dt });
-        }
-        state.check(self.positions.len() / 3)?;
-        if system.sparsity_version() != self.sparsity_version {
-            *self = Self::new(system).with_fraction(self.fraction);
-        }
-
         let mut report = Report { stiffness_assemblies: 1, ..Report::default() };
         let stable = self.stable_step(system, state, dt)?;
         let required = (dt / (self.fraction * stable)).ceil().max(1.0);
@@ -122,6 +121,7 @@ impl Explicit {
     /// stiffness. The system begins a step of length `dt`, in s.
     ///
     /// # Errors
+    /// [`Error::StepLength`], [`Error::Dimension`], [`Error::Mass`] and
     /// [`Error::OutsideSparsity`].
     pub fn stable_step(
         &mut self,
@@ -129,6 +129,15 @@ impl Explicit {
         state: &IntegratorState,
         dt: f64,
     ) -> Result<f64, Error> {
+        let particles = self.positions.len() / 3;
+        check_step(dt)?;
+        check_particles(system, particles)?;
+        state.check(particles)?;
+        if system.sparsity_version() != self.sparsity_version {
+            *self = Self { fraction: self.fraction, ..Self::new(system) };
+        }
+        check_length("sparsity", particles, self.stiffness.sparsity().particle_count())?;
+
         self.positions.copy_from_slice(&state.positions);
         system.begin(state.time + dt, dt, &state.positions, &mut self.positions);
         self.stiffness.clear();

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::system::System;
 
 /// Positions, velocities and time, with the previous state that a second-order formula needs.
 ///
@@ -74,9 +75,7 @@ impl IntegratorState {
         check_length("positions", 3 * particles, self.positions.len())?;
         check_length("velocities", 3 * particles, self.velocities.len())?;
         if let Some(previous) = &self.previous {
-            if !(previous.dt > 0.0 && previous.dt.is_finite()) {
-                return Err(Error::StepLength { dt: previous.dt });
-            }
+            check_step(previous.dt)?;
             check_length("previous positions", 3 * particles, previous.positions.len())?;
             check_length("previous velocities", 3 * particles, previous.velocities.len())?;
         }
@@ -109,6 +108,23 @@ impl IntegratorState {
 /// Checks that the list called `name` has the `expected` length.
 pub(crate) fn check_length(name: &'static str, expected: usize, found: usize) -> Result<(), Error> {
     if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
+}
+
+/// Checks that the length `dt` of a step, in s, is positive and finite.
+pub(crate) fn check_step(dt: f64) -> Result<(), Error> {
+    if dt > 0.0 && dt.is_finite() { Ok(()) } else { Err(Error::StepLength { dt }) }
+}
+
+/// Checks that `system` has the number of `particles`, with a positive, finite mass each.
+pub(crate) fn check_particles(system: &dyn System, particles: usize) -> Result<(), Error> {
+    check_length("particles", particles, system.particle_count())?;
+    check_length("masses", particles, system.masses().len())?;
+    check_length("held", particles, system.held().len())?;
+    let mut masses = system.masses().iter().enumerate();
+    match masses.find(|(_, mass)| !(**mass > 0.0 && mass.is_finite())) {
+        Some((particle, &mass)) => Err(Error::Mass { particle, mass }),
+        None => Ok(()),
+    }
 }
 
 /// Start, end and length of a sub-step, in s.

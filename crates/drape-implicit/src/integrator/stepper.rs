@@ -1,6 +1,6 @@
 //! Stepper: checks the input, divides a step into sub-steps and attempts each sub-step.
 
-use super::state::{IntegratorState, Span, check_length};
+use super::state::{IntegratorState, Span, check_length, check_particles, check_step};
 use super::step_control::StepControl;
 use super::sub_step::SubStepper;
 use crate::error::{Error, Quantity};
@@ -11,7 +11,7 @@ use crate::nonlinear::solver::NonlinearSolver;
 use crate::report::Report;
 use crate::settings::Settings;
 use crate::step_filter::{StepFilter, SystemRef};
-use crate::system::System;
+use crate::system::{MaterialPoint, System};
 
 /// Integrator that advances the state of a system in time.
 ///
@@ -66,7 +66,7 @@ impl Stepper {
     /// Checks `settings` and allocates a stepper for `system`.
     ///
     /// # Errors
-    /// [`Error::Setting`], [`Error::Dimension`], or, with the Cholesky solver,
+    /// [`Error::Setting`], [`Error::Dimension`], [`Error::MaterialPoint`], or, with the Cholesky solver,
     /// [`Error::TooLarge`] and [`Error::WithoutCholesky`].
     pub fn new(system: &dyn System, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
@@ -171,14 +171,11 @@ impl Stepper {
         dt: f64,
     ) -> Result<(), Error> {
         let particles = self.sub_stepper.masses.len();
-        check_lengths(system, state, particles, dt)?;
+        check_step(dt)?;
+        check_particles(system, particles)?;
+        state.check(particles)?;
 
-        let masses = &mut self.sub_stepper.masses;
-        masses.copy_from_slice(system.masses());
-        let invalid = masses.iter().position(|&mass| !(mass > 0.0 && mass.is_finite()));
-        if let Some(particle) = invalid {
-            return Err(Error::Mass { particle, mass: masses[particle] });
-        }
+        self.sub_stepper.masses.copy_from_slice(system.masses());
 
         let previous = state.previous.as_ref();
         let start = [
@@ -220,23 +217,6 @@ impl Stepper {
     }
 }
 
-/// Checks that `dt` is positive and that all lists have the length that the number of `particles`
-/// requires.
-fn check_lengths(
-    system: &dyn System,
-    state: &IntegratorState,
-    particles: usize,
-    dt: f64,
-) -> Result<(), Error> {
-    if !(dt > 0.0 && dt.is_finite()) {
-        return Err(Error::StepLength { dt });
-    }
-    check_length("particles", particles, system.particle_count())?;
-    check_length("masses", particles, system.masses().len())?;
-    check_length("held", particles, system.held().len())?;
-    state.check(particles)
-}
-
 /// Returns a nonlinear solver for the sparsity and the material points of `system`.
 fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolver, Error> {
     let sparsity = system.sparsity();
@@ -244,6 +224,13 @@ fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolve
     check_length("sparsity", system.particle_count(), sparsity.particle_count())?;
     if !points.is_empty() {
         check_length("material points", system.particle_count(), points.len())?;
+    }
+    let is_point = |point: &MaterialPoint| {
+        let [u, v] = point.coordinates;
+        u.is_finite() && v.is_finite() && point.spacing > 0.0 && point.spacing.is_finite()
+    };
+    if let Some(particle) = points.iter().position(|point| !is_point(point)) {
+        return Err(Error::MaterialPoint { particle });
     }
     Ok(NonlinearSolver::new(SystemMatrix::new(sparsity, points, settings)?, settings))
 }

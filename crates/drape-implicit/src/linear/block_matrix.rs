@@ -2,6 +2,8 @@
 
 use core::ops::Range;
 
+use crate::error::Error;
+use crate::integrator::state::check_length;
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
 use crate::threads;
@@ -28,7 +30,7 @@ const PARALLEL_BLOCKS: usize = 16_384;
 /// stiffness.add(0, 1, &block.map(|entry| -entry));
 ///
 /// let mut product = [0.0; 6];
-/// stiffness.multiply(&[0.0, 0.0, 0.0, 0.01, 0.0, 0.0], &mut product);
+/// stiffness.multiply(&[0.0, 0.0, 0.0, 0.01, 0.0, 0.0], &mut product)?;
 /// assert_eq!(product, [-1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
 /// # Ok::<(), drape_implicit::Error>(())
 /// ```
@@ -107,10 +109,15 @@ impl BlockMatrix {
 
     /// Adds `value` to the block of `slot`.
     ///
-    /// # Panics
-    /// If the sparsity does not have this slot.
+    /// A slot that the sparsity does not have counts as a block outside the sparsity, in the row and
+    /// the column one beyond the last: see [`add`](Self::add).
     pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
-        for (entry, value) in self.blocks[slot].iter_mut().zip(value) {
+        let Some(block) = self.blocks.get_mut(slot) else {
+            let beyond = self.sparsity.particle_count();
+            self.outside = self.outside.or(Some([beyond; 2]));
+            return;
+        };
+        for (entry, value) in block.iter_mut().zip(value) {
             *entry += value;
         }
     }
@@ -155,11 +162,20 @@ impl BlockMatrix {
         self.outside
     }
 
-    /// Writes the product `A x` into `y`.
+    /// Writes the product `A x` into `y`, both with three entries per particle.
     ///
-    /// # Panics
-    /// If `x` or `y` has fewer than three entries per particle.
-    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+    /// # Errors
+    /// [`Error::Dimension`] if `x` or `y` has another length.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) -> Result<(), Error> {
+        let length = 3 * self.sparsity.particle_count();
+        check_length("x", length, x.len())?;
+        check_length("y", length, y.len())?;
+        self.write_product(x, y);
+        Ok(())
+    }
+
+    /// Writes the product `A x` into `y`, both with three entries per particle.
+    pub(crate) fn write_product(&self, x: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         let x = block::triples(x);
         let y = block::triples_mut(y);
@@ -283,7 +299,7 @@ mod tests {
         }
         let x: Vec<f64> = (0..9).map(|k| (k as f64).cos()).collect();
         let mut y = vec![f64::NAN; 9];
-        matrix.multiply(&x, &mut y);
+        matrix.write_product(&x, &mut y);
         for (row, y) in dense.iter().zip(&y) {
             let expected: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
             assert!((y - expected).abs() < 1e-14, "{y} against {expected}");
@@ -318,7 +334,7 @@ mod tests {
         assert_eq!(matrix.blocks()[1], block::transposed(&value), "has room");
         let x = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mut y = [f64::NAN; 9];
-        matrix.multiply(&x, &mut y);
+        matrix.write_product(&x, &mut y);
         assert_eq!(y, [4.0, 5.0, 6.0, 1.0, 4.0, 7.0, 1.0, 4.0, 7.0]);
         matrix.add_coupling(0, 3, &value);
         assert_eq!(matrix.outside_sparsity(), Some([0, 3]));

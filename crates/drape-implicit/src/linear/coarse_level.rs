@@ -255,7 +255,7 @@ mod tests {
         let correction = correct(&mut level, &sheets, &residual);
         assert!(correction[..60].iter().all(|&x| x == 0.0), "held particles are corrected");
         let mut left = vec![0.0; size];
-        matrix.multiply(&correction, &mut left);
+        matrix.write_product(&correction, &mut left);
         for (left, residual) in left.iter_mut().zip(&residual) {
             *left = residual - *left;
         }

@@ -449,7 +449,7 @@ mod tests {
         let target = Target { residual: 1e-10 * norm(&b), energy: 0.0 };
         let (x, Outcome { iterations, ending }) = solve_for(matrix, &b, target, limit);
         let mut back = vec![0.0; size];
-        matrix.multiply(&x, &mut back);
+        matrix.write_product(&x, &mut back);
         add_scaled(&mut back, -1.0, &b);
         assert!(ending == Ending::Indefinite || dot(&x, &b) > 0.0, "not a descent direction");
         (norm(&back) / norm(&b), iterations, ending)
@@ -492,7 +492,7 @@ mod tests {
         let exact = solution(Target { residual: 1e-12, energy: 0.0 });
         let energy = |x: &[f64]| {
             let mut image = vec![0.0; x.len()];
-            matrix.multiply(x, &mut image);
+            matrix.write_product(x, &mut image);
             dot(x, &image)
         };
         for fraction in [0.1, 0.01, 1e-4] {

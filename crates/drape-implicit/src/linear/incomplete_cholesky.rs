@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(factored.failed, Ok(0));
         let b: Vec<f64> = (0..60).map(|k| (k as f64).sin()).collect();
         let mut back = vec![0.0; 60];
-        matrix.multiply(&apply(&mut factored, &b), &mut back);
+        matrix.write_product(&apply(&mut factored, &b), &mut back);
         for (b, back) in b.iter().zip(&back) {
             // Single precision.
             assert!((b - back).abs() < 1e-6, "{back} against {b}");
@@ -270,7 +270,7 @@ mod tests {
             assert_eq!(factored.failed, Ok(0));
             let b: Vec<f64> = (0..3 * (last + 1)).map(|k| (k as f64).sin()).collect();
             let mut back = vec![0.0; b.len()];
-            matrix.multiply(&apply(&mut factored, &b), &mut back);
+            matrix.write_product(&apply(&mut factored, &b), &mut back);
             for (b, back) in b.iter().zip(&back) {
                 assert!((b - back).abs() < 1e-6, "{back} against {b}: {pairs:?}");
             }

@@ -393,7 +393,7 @@ mod tests {
             assert_eq!(matrix.couplings().len(), coupled);
             let x: Vec<f64> = (0..3 * (last + 1)).map(|k| (k as f64).cos()).collect();
             let mut exact = vec![0.0; x.len()];
-            matrix.multiply(&x, &mut exact);
+            matrix.write_product(&x, &mut exact);
             let Product { numbers, curvature } = multiply(&matrix, parts, |k| x[k]);
             for (k, (product, exact)) in numbers.into_iter().zip(&exact).enumerate() {
                 assert!((product - exact).abs() < 1e-6, "entry {k}: {product}, {exact}");

@@ -147,13 +147,14 @@ impl Sparsity {
         &self.columns
     }
 
-    /// Returns the slots of `row`, beginning with the diagonal.
-    ///
-    /// # Panics
-    /// If the matrix does not have this row.
+    /// Returns the slots of `row`, beginning with the diagonal. A row that the matrix does not have
+    /// has no slots.
     #[must_use]
     pub fn row(&self, row: usize) -> core::ops::Range<usize> {
-        self.offsets[row]..self.offsets[row + 1]
+        match self.offsets.get(row..) {
+            Some([first, end, ..]) => *first..*end,
+            _ => 0..0,
+        }
     }
 
     /// Returns the particles coupled to `particle` that have a larger number.

@@ -137,7 +137,7 @@ impl SystemMatrix {
             return false;
         };
         cholesky.solve(x);
-        self.matrix.multiply(x, &mut self.residual);
+        self.matrix.write_product(x, &mut self.residual);
         add_scaled(&mut self.residual, -1.0, b);
         norm(&self.residual) <= CHOLESKY_ACCURACY * norm(b)
     }

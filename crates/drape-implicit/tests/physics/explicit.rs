@@ -51,7 +51,7 @@ fn a_long_step_is_made_in_as_many_parts_as_stability_asks_for() {
     assert!(farthest < 2.0, "it swings within its amplitude: {farthest}");
 
     // The bound is a bound, and not a loose one: at three times its length the sheet flies apart.
-    let mut explicit = Explicit::new(&system).with_fraction(3.0);
+    let mut explicit = Explicit::new(&system).with_fraction(3.0).expect("positive");
     let mut state = IntegratorState::at_rest(Springs::flat(6));
     let blown_up = (0..100).find_map(|_| explicit.advance(&mut system, &mut state, 0.01).err());
     let far = state.positions.iter().any(|x| x.abs() > 1e3);
@@ -77,7 +77,7 @@ fn the_estimate_is_the_error_of_one_step() {
             state.previous =
                 Some(drape_implicit::PreviousState { dt: before, positions, velocities });
             let mut estimate = ErrorEstimate::new(1);
-            estimate.predict(&state, integrator, dt);
+            estimate.predict(&state, integrator, dt).expect("the same particles");
             stepper.advance(&mut system, &mut state, dt).unwrap();
             let error = (state.positions[0] - exact(start + dt).0[0]).abs();
             let found = estimate.estimate(&state);

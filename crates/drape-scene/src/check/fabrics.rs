@@ -121,7 +121,7 @@ pub(crate) fn check_thickness(
     lattice: &Lattice,
     material: &Material,
 ) {
-    let spacing = lattice.spacing[0].min(lattice.spacing[1]);
+    let spacing = lattice.spacing()[0].min(lattice.spacing()[1]);
     let thickness = material.fabric.thickness;
     if spacing < thickness {
         let message = format!(

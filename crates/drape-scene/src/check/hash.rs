@@ -56,7 +56,7 @@ impl Content<'_> {
         let mut hasher = blake3::Hasher::new();
         let mut number = |value: f64| _ = hasher.update(&value.to_le_bytes());
         self.positions.iter().for_each(|&x| number(x));
-        let coordinates = self.panels.iter().flat_map(|panel| &panel.lattice.coordinates);
+        let coordinates = self.panels.iter().flat_map(|panel| panel.lattice.coordinates());
         coordinates.flatten().for_each(|&x| number(x));
         let seams = self.sewing.iter().flat_map(|sewing| &sewing.pairs.pairs);
         seams.flatten().for_each(|&particle| number(f64::from(particle)));

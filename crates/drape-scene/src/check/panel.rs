@@ -73,7 +73,7 @@ pub(crate) fn panels(
         if let Some(Some(material)) = materials.get(material) {
             check_thickness(checker, &key, &lattice, material);
         }
-        let particles = lattice.coordinates.len();
+        let particles = lattice.coordinates().len();
         for copy in 0..copies(checker, &key, entry, particles) {
             let name = match copy {
                 0 => entry.name.clone(),

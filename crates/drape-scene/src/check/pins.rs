@@ -132,7 +132,7 @@ fn named_edge(checker: &mut Checker<'_>, key: &str, edge: &str, panel: &Panel) -
 /// Finds the particles nearest to the points that a pin names, or all within its radius of them.
 fn points(checker: &mut Checker<'_>, key: &str, pin: &PinSpec, panel: &Panel) -> Vec<usize> {
     let coordinates = panel.lattice.panel_coordinates();
-    let [across, along] = panel.lattice.spacing;
+    let [across, along] = panel.lattice.spacing();
     let mut particles = Vec::new();
     for (number, point) in pin.points.iter().enumerate() {
         let [u, v] = *point;

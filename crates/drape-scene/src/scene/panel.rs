@@ -34,6 +34,6 @@ impl Panel {
     /// Returns the numbers of its particles.
     #[must_use]
     pub fn particles(&self) -> Range<usize> {
-        self.first..self.first + self.lattice.coordinates.len()
+        self.first..self.first + self.lattice.coordinates().len()
     }
 }

@@ -146,7 +146,7 @@ fn heights(scene: &Scene, panels: &[usize]) -> impl Iterator<Item = f64> {
     let heights = particles.map(|particle| scene.start.positions[3 * particle + 1]);
     let [low, high] =
         heights.fold([f64::MAX, f64::MIN], |[low, high], y| [low.min(y), high.max(y)]);
-    let spacing = panels.iter().flat_map(|&panel| scene.panels[panel].lattice.spacing);
+    let spacing = panels.iter().flat_map(|&panel| scene.panels[panel].lattice.spacing());
     let step = spacing.fold(STEP_MIN, f64::max);
     let count = ((high - low) / step).max(0.0) as usize;
     (0..count).map(move |k| low + (k as f64 + 0.5) * step)
@@ -162,7 +162,7 @@ fn tight(scene: &Scene, bodies: &[Triangulation], ring: Ring) -> Option<TightRin
         hull = hull.min(moved);
     }
     let with_offset = hull + TAU * scene.contact.particles.activation_distance;
-    let [across, along] = scene.panels[ring.panel].lattice.spacing;
+    let [across, along] = scene.panels[ring.panel].lattice.spacing();
     let arcs = (ring.girth / across.max(along)).round().max(3.0);
     let needed = with_offset * arcs / PI * (PI / arcs).tan();
     (needed > (1.0 + STRETCH_MIN) * ring.girth).then_some(TightRing {

@@ -48,7 +48,7 @@ fn step(friction: Dahl, state: State, drive: f64, dt: f64) -> State {
 fn main() {
     let begin = Instant::now();
     // A plateau of 3 N, and a friction length of 3 cm.
-    let friction = Dahl::new(3.0, 0.03);
+    let friction = Dahl { plateau: 3.0, length: 0.03 };
     // A drive at 0.8 of the natural frequency.
     let rate = 0.8 * (STIFFNESS / MASS).sqrt();
     let dt = std::f64::consts::TAU / rate / f64::from(STEPS);

@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let fabric = Fabric::from_document(&Document::new("weave.toml", FABRIC))?;
     let begin = Instant::now();
     let lattice = Lattice::from_mesh(strip(), Grain::default())?;
-    let cloth = Cloth::new(&[(&lattice, &fabric)]);
+    let cloth = Cloth::new(&[(&lattice, &fabric)]).expect("a cloth");
     let place = |to: fn([f64; 2]) -> [f64; 3]| -> Vec<f64> {
         cloth.coordinates().iter().flat_map(|point| to(*point)).collect()
     };
@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Stretched by 2 % along the warp, the upper half is drawn down by the tension of the law.
     let mut forces = vec![0.0; 3 * cloth.particle_count()];
-    cloth.add_forces(&state, &place(|[u, v]| [u, 1.02 * v, 0.0]), &mut forces);
+    cloth.add_forces(&state, &place(|[u, v]| [u, 1.02 * v, 0.0]), &mut forces).expect("the lists fit");
     let is_upper = |point: &[f64; 2]| point[1] > 0.5 * SIZE[1];
     let particles = cloth.coordinates().iter().zip(forces.chunks_exact(3));
     let upper = particles.filter(|(point, _)| is_upper(point));
@@ -82,14 +82,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ]
     });
     forces.fill(0.0);
-    cloth.add_forces(&state, &crumpled, &mut forces);
+    cloth.add_forces(&state, &crumpled, &mut forces).expect("the lists fit");
     let largest = forces.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
     let mut worst: f64 = 0.0;
     for k in (0..forces.len()).step_by(7) {
         let mut moved = crumpled.clone();
         let mut energy_at = |offset: f64| {
             moved[k] = crumpled[k] + offset;
-            cloth.potential(&state, &moved)
+            cloth.potential(&state, &moved).expect("the lists fit")
         };
         let slope = (energy_at(1e-7) - energy_at(-1e-7)) / 2e-7;
         worst = worst.max((forces[k] + slope).abs() / largest);

@@ -149,9 +149,9 @@ pub(crate) fn scene(scene: &Scene) -> String {
     }
 
     for panel in &scene.panels {
-        let [across, along] = panel.lattice.spacing;
+        let [across, along] = panel.lattice.spacing();
         let largest = panel.lattice.spacing_max();
-        let flat = if largest == panel.lattice.spacing {
+        let flat = if largest == panel.lattice.spacing() {
             String::new()
         } else {
             format!(", where it is flat up to {:.5} × {:.5} m", largest[0], largest[1])
@@ -165,7 +165,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
             text,
             "  panel \"{}\": {layer}{} particles, spacing {across:.5} × {along:.5} m{flat}, of {}",
             panel.name,
-            panel.lattice.coordinates.len(),
+            panel.lattice.coordinates().len(),
             material.file.display()
         );
     }

@@ -53,7 +53,7 @@ impl ProportionalFriction {
     /// Returns the [`Dahl`] element whose load is the state of the friction. Without friction the
     /// state is always zero.
     pub(crate) fn element(&self) -> Dahl {
-        if self.is_none() { Dahl::NONE } else { Dahl::new(1.0, self.length) }
+        if self.is_none() { Dahl::NONE } else { Dahl { plateau: 1.0, length: self.length } }
     }
 
     /// Returns the strain `$\varepsilon_b$` over which a yarn with this `toe` must buckle so that

@@ -109,7 +109,7 @@ pub(crate) fn placed_panel(
     };
     let NumberedLattice { lattice, numbers } = lattice(checker, piece, &name)?;
     let (placement, material) = (worn_at(placement?, layer), material?);
-    let mut positions = vec![0.0; 3 * lattice.coordinates.len()];
+    let mut positions = vec![0.0; 3 * lattice.coordinates().len()];
     for (number, &place) in numbers.iter().zip(&cut.positions) {
         let height = noise.as_mut().map_or(0.0, |noise| noise.height(place));
         let Some(number) = number else { continue };

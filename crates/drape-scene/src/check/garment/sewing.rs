@@ -65,14 +65,22 @@ impl SewingSettings {
         let pairs = seams.iter().flat_map(|seam| &seam.pairs.pairs).filter(|[a, b]| a != b);
         let ties = seams.iter().flat_map(|seam| &seam.pairs.ties);
         let pairs = SeamPairs { pairs: pairs.copied().collect(), ties: ties.copied().collect() };
-        let cloth = frictionless_cloth(panels);
-        Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
+        let cloth = frictionless_cloth(panels).map_err(|error| {
+            let help = "choose another spacing, and report the pattern";
+            checker.fail("garment", error.to_string(), help);
+        });
+        Some(Sewing { seams, pairs, cloth: cloth.ok()?, seconds, bending: bending.ok()? })
     }
 }
 
 /// Makes a cloth whose laws have no friction: it keeps the account of its strains and of nothing
 /// else.
-pub(crate) fn frictionless_cloth(panels: &[(&Lattice, &Fabric)]) -> Cloth {
+///
+/// # Errors
+/// The panels make no cloth.
+pub(crate) fn frictionless_cloth(
+    panels: &[(&Lattice, &Fabric)],
+) -> Result<Cloth, drape_cloth::Error> {
     let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.without_friction()).collect();
     let lattices = panels.iter().map(|(lattice, _)| *lattice);
     Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())

@@ -18,7 +18,6 @@ pub(super) fn disc(radius: f64, spacing: f64) -> Option<Lattice> {
     let panel = Panel::new("disc", vec![half("upper", radius), half("lower", -radius)]).ok()?;
     let pattern = Pattern::new(vec![panel], Vec::new()).ok()?;
     let cut = &Cutter::new(spacing).cut(&pattern).ok()?.panels[0];
-    let mut disc = cut_lattice(cut, &node_numbers(cut), Grain::default()).ok()?;
-    disc.middle = [0.0; 2];
-    Some(disc)
+    let disc = cut_lattice(cut, &node_numbers(cut), Grain::default()).ok()?;
+    Some(disc.with_middle([0.0; 2]))
 }

@@ -13,7 +13,7 @@ pub(crate) fn folded(
     panel: UnfoldedPanel<impl Iterator<Item = FoldLine>>,
 ) -> Option<Lattice> {
     let UnfoldedPanel { lattice, lines } = panel;
-    let grain = lattice.grain;
+    let grain = lattice.grain();
     let fold = |line: FoldLine| Fold {
         ends: line.ends.map(|end| grain.to_material(end)),
         angle: line.angle,

@@ -65,9 +65,9 @@ impl Placement {
     pub(crate) fn positions(&self, lattice: &Lattice) -> Vec<f64> {
         let places = lattice.panel_coordinates();
         let left = places.iter().map(|place| place[0]).fold(f64::INFINITY, f64::min);
-        let middle = lattice.middle;
+        let middle = lattice.middle();
         let mut noise = self.noise.clone();
-        let mut positions = Vec::with_capacity(3 * lattice.coordinates.len());
+        let mut positions = Vec::with_capacity(3 * lattice.coordinates().len());
         for [x, y] in places {
             let mut height = 0.0;
             if let Some(RippleSpec { amplitude, wavelength }) = self.ripple {

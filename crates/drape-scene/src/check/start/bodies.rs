@@ -12,7 +12,7 @@ const LYING: f64 = 1.5;
 
 /// Returns notes on the bodies of a scene that are meshes.
 pub(crate) fn body_notes(scene: &Scene) -> Vec<String> {
-    let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
+    let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing());
     let spacing = spacings.fold(f64::INFINITY, f64::min);
     let meshes = scene.bodies.iter().filter_map(|moving| Some((moving, moving.source.as_ref()?)));
     meshes

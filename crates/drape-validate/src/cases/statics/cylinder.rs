@@ -37,8 +37,8 @@ fn energy(
     let scene = with_panel(spec, panel, &fabric).build()?;
     let places = scene.panels[0].lattice.panel_coordinates();
     let state = scene.cloth.state(places.into_iter().flat_map(shape).collect());
-    let state = state.expect("a scene's panels place every particle");
-    Ok(scene.cloth.stored(&state) / (SIDE * SIDE))
+    let energy = state.and_then(|state| scene.cloth.stored(&state));
+    Ok(energy.expect("a scene's panels place every particle") / (SIDE * SIDE))
 }
 
 /// Sheets wrapped on a cylinder, and one that is twisted.
