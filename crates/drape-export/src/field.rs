@@ -204,7 +204,9 @@ impl<'a> Fields<'a> {
     /// Returns the largest size of a principal curvature at each vertex, in 1/m.
     fn curvature(&self, frame: &Frame) -> Vec<f64> {
         let topology = self.recording.topology();
-        self.at_vertices(&curvatures(&frame.cloth, &topology.cloth))
+        // The corners of a recording are vertices of its frames.
+        let curvatures = curvatures(&frame.cloth, &topology.cloth).unwrap_or_default();
+        self.at_vertices(&curvatures)
     }
 
     /// Returns the distances of the vertices from the nearest body, in mm.

@@ -75,7 +75,7 @@ impl Creased {
         let normals: Vec<[f64; 3]> = triangles
             .iter()
             .map(|corners| {
-                let area = area_vector(positions, corners);
+                let area = area_vector(corners.map(|corner| positions[corner as usize]));
                 let size = length(area);
                 if size > 0.0 { area.map(|part| part / size) } else { area }
             })
@@ -158,7 +158,7 @@ fn area_vectors(
 ) -> Vec<[f64; 3]> {
     let mut sums = vec![[0.0; 3]; count];
     for (corners, targets) in triangles.iter().zip(targets) {
-        let area = area_vector(positions, corners);
+        let area = area_vector(corners.map(|corner| positions[corner as usize]));
         for &target in targets {
             sums[target as usize] = sum(sums[target as usize], area);
         }
@@ -211,7 +211,7 @@ mod tests {
         assert_eq!(cube.vertices.len(), 24);
         let normals = cube.normals(&positions, &triangles);
         for (corners, triangle) in cube.corners.iter().zip(&triangles) {
-            let expected = unit(area_vector(&positions, triangle));
+            let expected = unit(area_vector(triangle.map(|corner| positions[corner as usize])));
             let vertices = corners.map(|corner| cube.vertices[corner as usize]);
             assert_eq!(vertices, *triangle);
             assert_eq!(corners.map(|corner| normals[corner as usize]), [expected; 3]);

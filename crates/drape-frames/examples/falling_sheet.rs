@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The middle of the sheet has the curvature of the cylinder, 2 1/m, to its discretisation.
     let last = recording.frame(recording.frame_count() - 1)?;
-    let middle = curvatures(&last.cloth, &recording.topology().cloth)[2 * (5 * 20 + 10)];
+    let middle = curvatures(&last.cloth, &recording.topology().cloth)?[2 * (5 * 20 + 10)];
     println!("curvature in the middle: {middle:.3} 1/m");
     assert!((middle / 2.0 - 1.0).abs() < 0.01, "{middle} 1/m");
     Ok(())

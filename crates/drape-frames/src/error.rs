@@ -70,6 +70,14 @@ pub enum Error {
         /// Format that is read here.
         known: u64,
     },
+    /// A triangle has a corner that is no vertex.
+    #[error("triangle {triangle} has a corner that is not among the {vertices} vertices")]
+    Corner {
+        /// Index of the first such triangle, counted from 0.
+        triangle: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
     /// Frames are missing.
     #[error("{} has {found} of {needed} frames, and {missing} is the first that is missing; run the scene again", folder.display())]
     MissingFrame {

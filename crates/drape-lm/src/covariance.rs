@@ -43,6 +43,9 @@ pub enum Undetermined {
     /// No more residuals than free parameters, or a level that is not between 0 and 1.
     #[error("there are too few residuals, or the level is not between 0 and 1")]
     NoDegreesOfFreedom,
+    /// Report of a fit with this other number of parameters.
+    #[error("the report is of a fit with {0} parameters")]
+    OtherFit(usize),
     /// Model without a derivative at the minimum.
     #[error("the model has no derivative at the minimum")]
     NotFinite,
@@ -103,7 +106,8 @@ pub struct Covariance {
 
 impl Covariance {
     /// Computes the covariance of `parameters` at the minimum in `report`, which [`minimise`] found
-    /// with `loss`.
+    /// with `loss`. With the report of a fit that has another number of parameters, every parameter
+    /// is [`Undetermined::OtherFit`].
     ///
     /// [`minimise`]: crate::minimise()
     #[must_use]
@@ -113,7 +117,7 @@ impl Covariance {
         report: &Report,
         loss: Loss,
     ) -> Self {
-        let n = parameters.len().min(report.parameters.len());
+        let n = parameters.len();
         let mut covariance = Self {
             residual_deviation: f64::NAN,
             degrees_of_freedom: 0,
@@ -123,10 +127,13 @@ impl Covariance {
             matrix: DMatrix::zeros(n, n),
             undetermined: vec![Some(Undetermined::NotFinite); n],
         };
+        let values = &report.parameters;
+        if values.len() != n {
+            covariance.undetermined.fill(Some(Undetermined::OtherFit(values.len())));
+            return covariance;
+        }
 
         // A parameter that is fixed or at a bound is taken as known.
-        let parameters = &parameters[..n];
-        let values = &report.parameters[..n];
         for (j, parameter) in parameters.iter().enumerate() {
             if parameter.is_fixed() {
                 covariance.undetermined[j] = Some(Undetermined::Fixed);

@@ -123,10 +123,13 @@ pub fn profile(
 ) -> Vec<Result<Interval, Undetermined>> {
     let ProfileSettings { level, minimiser } = *settings;
     let covariance = Covariance::new(problem, parameters, report, minimiser.loss);
-    let count = parameters.len().min(report.parameters.len());
+    let count = parameters.len();
+    if report.parameters.len() != count {
+        return vec![Err(Undetermined::OtherFit(report.parameters.len())); count];
+    }
     let profile = Profile {
         problem,
-        parameters: &parameters[..count],
+        parameters,
         report,
         settings: MinimiserSettings {
             reduction: FIT_TOLERANCE,

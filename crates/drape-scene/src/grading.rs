@@ -33,7 +33,7 @@ impl Grading {
         let triangles = &run.topology().cloth;
         let mut largest = vec![0.0; triangles.len()];
         for number in 0..run.frame_count() {
-            let curvatures = curvatures(&run.frame(number)?.cloth, triangles);
+            let curvatures = curvatures(&run.frame(number)?.cloth, triangles)?;
             for (most, curvature) in largest.iter_mut().zip(curvatures) {
                 *most = f64::max(*most, curvature);
             }

@@ -18,7 +18,7 @@ fn a_specimen_of_another_fabric_is_told_apart() {
     let measured =
         measure(&other, Test::Shear, Direction::Warp, Resolution { spacing: 0.01, points: 20 })
             .expect("a curve");
-    let ideal = ideal(&fabric, Test::Shear, Direction::Warp, 20);
+    let ideal = ideal(&fabric, Test::Shear, Direction::Warp, 20).expect("a curve");
     assert!(Comparison { measured, ideal }.distance() > 0.04);
 }
 

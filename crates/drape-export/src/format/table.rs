@@ -83,7 +83,8 @@ fn cell(value: f64) -> String {
 fn extent(recording: &Recording, frame: &Frame) -> [f64; 3] {
     let heights = frame.cloth.iter().map(|position| position[1]);
     let triangles = recording.topology().cloth.iter();
-    let twice: f64 = triangles.map(|corners| length(area_vector(&frame.cloth, corners))).sum();
+    let at = |corner: u32| frame.cloth[corner as usize];
+    let twice: f64 = triangles.map(|corners| length(area_vector(corners.map(at)))).sum();
     let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
     [heights.clone().fold(low, f64::min), heights.fold(high, f64::max), 0.5 * twice]
 }

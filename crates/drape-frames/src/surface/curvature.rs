@@ -1,5 +1,6 @@
 //! Curvature of a surface of triangles, from the normals at its vertices \[Rus04\].
 
+use crate::error::Error;
 use crate::surface::vector::{Vector, area_vector, cross, difference, dot, length, sum};
 
 /// Returns the largest magnitude of a principal curvature of each of `triangles`, in 1/m, from the
@@ -9,12 +10,16 @@ use crate::surface::vector::{Vector, area_vector, cross, difference, dot, length
 /// normals at its ends. The three edges give six equations for the three coefficients of the form.
 /// The equations are solved by least squares \[Rus04\].
 ///
-/// # Panics
-/// If a corner is not an index of `positions`.
-#[must_use]
-pub fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<f64> {
+/// # Errors
+/// [`Error::Corner`] if a corner is not an index of `positions`.
+pub fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Result<Vec<f64>, Error> {
+    let exists = |corners: &[u32; 3]| corners.iter().all(|&c| (c as usize) < positions.len());
+    if let Some(triangle) = triangles.iter().position(|corners| !exists(corners)) {
+        return Err(Error::Corner { triangle, vertices: positions.len() });
+    }
+
     let normals = normals(positions, triangles);
-    triangles
+    let curvatures = triangles
         .iter()
         .map(|corners| {
             let corner_positions = corners.map(|corner| positions[corner as usize]);
@@ -22,7 +27,8 @@ pub fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<f64> {
             let curvature = triangle_curvature(corner_positions, corner_normals);
             if curvature.is_finite() { curvature } else { 0.0 }
         })
-        .collect()
+        .collect();
+    Ok(curvatures)
 }
 
 /// Returns the largest magnitude of a principal curvature of the triangle with corners at
@@ -65,7 +71,7 @@ fn triangle_curvature(positions: [Vector; 3], normals: [Vector; 3]) -> f64 {
 fn normals(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<Vector> {
     let mut normals = vec![[0.0; 3]; positions.len()];
     for corners in triangles {
-        let area = area_vector(positions, corners);
+        let area = area_vector(corners.map(|corner| positions[corner as usize]));
         for &corner in corners {
             let normal = &mut normals[corner as usize];
             *normal = sum(*normal, area);
@@ -113,7 +119,7 @@ mod tests {
                 place
             };
             let positions: Vec<Vector> = (0..440).map(place).collect();
-            let found = curvatures(&positions, &triangles);
+            let found = curvatures(&positions, &triangles).expect("all vertices exist");
             // At the border a vertex has triangles on one side only, and its normal is less exact.
             let inner = (0..10).flat_map(|row| (2..37).map(move |column| 2 * (39 * row + column)));
             for triangle in inner.filter(|t| (2 * 39 * 2..2 * 39 * 8).contains(t)) {
@@ -128,15 +134,23 @@ mod tests {
         let triangles = grid([21, 21]);
         let flat = |k: usize| [0.01 * (k % 21) as f64, 0.01 * (k / 21) as f64, 0.0];
         let positions: Vec<Vector> = (0..441).map(flat).collect();
-        assert!(curvatures(&positions, &triangles).iter().all(|value| value.abs() < 1e-12));
+        let found = curvatures(&positions, &triangles).expect("all vertices exist");
+        assert!(found.iter().all(|value| value.abs() < 1e-12));
         let ball = |k: usize| unit([flat(k)[0] - 0.1, flat(k)[1] - 0.1, 0.5]).map(|c| 0.3 * c);
         let positions: Vec<Vector> = (0..441).map(ball).collect();
-        let middle = curvatures(&positions, &triangles)[2 * (20 * 10 + 10)];
+        let found = curvatures(&positions, &triangles).expect("all vertices exist");
+        let middle = found[2 * (20 * 10 + 10)];
         assert!((middle * 0.3 - 1.0).abs() < 0.01, "{middle}");
     }
 
     #[test]
+    fn a_corner_that_does_not_exist_is_named() {
+        let error = Error::Corner { triangle: 1, vertices: 3 };
+        assert_eq!(curvatures(&[[0.0; 3]; 3], &[[0, 1, 2], [0, 1, 3]]), Err(error));
+    }
+
+    #[test]
     fn a_triangle_without_area_has_none() {
-        assert_eq!(curvatures(&[[0.0; 3]; 3], &[[0, 1, 2]]), [0.0]);
+        assert_eq!(curvatures(&[[0.0; 3]; 3], &[[0, 1, 2]]), Ok(vec![0.0]));
     }
 }

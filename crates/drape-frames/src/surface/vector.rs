@@ -35,11 +35,7 @@ pub fn length(a: Vector) -> f64 {
 
 /// Returns the normal vector of the triangle with the given `corners`. The length of this vector is
 /// twice the area of the triangle.
-///
-/// # Panics
-/// If a corner is not an index of `positions`.
 #[must_use]
-pub fn area_vector(positions: &[Vector], corners: &[u32; 3]) -> Vector {
-    let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+pub fn area_vector([a, b, c]: [Vector; 3]) -> Vector {
     cross(difference(b, a), difference(c, a))
 }

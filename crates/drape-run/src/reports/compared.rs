@@ -202,10 +202,11 @@ fn measured_overlay(fabrics: &[ComparedFabric<'_>], test: Test) -> Option<Overla
 fn law_overlay(fabrics: &[ComparedFabric<'_>], test: Test) -> OverlayPlot {
     let trace_of = |fabric: &Fabric, direction: Direction| {
         let label = if test == Test::Shear { "shear" } else { direction.name() };
-        trace(label, &loop_of(fabric, test, direction))
+        Some(trace(label, &loop_of(fabric, test, direction)?))
     };
     let traces = fabrics.iter().map(|compared| {
-        directions(test).iter().map(|&direction| trace_of(compared.fabric, direction)).collect()
+        let directions = directions(test).iter();
+        directions.filter_map(|&direction| trace_of(compared.fabric, direction)).collect()
     });
     overlay(fabrics, test, format!("{}, laws", test.name()), traces.collect())
 }

@@ -76,9 +76,10 @@ pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     }
 }
 
-/// Returns the loop that an ideal instrument draws of a `fabric` in a `test`.
-pub fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Curve {
-    instrument::ideal(fabric, test, direction, POINTS)
+/// Returns the loop that an ideal instrument draws of a `fabric` in a `test`. A fabric out of range,
+/// whose loads are not finite, has no loop.
+pub fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Option<Curve> {
+    instrument::ideal(fabric, test, direction, POINTS).ok()
 }
 
 /// Returns the law of a `fabric` for a `test`, with its loop and its parameters.
@@ -103,11 +104,14 @@ pub fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
         }
     };
 
-    LawReport {
-        plots: vec![loop_plot(title.clone(), &curve, |i| Loads {
+    let plot = curve.map(|curve| {
+        loop_plot(title.clone(), &curve, |i| Loads {
             fitted: Some(curve.load()[i]),
             ..Loads::default()
-        })],
+        })
+    });
+    LawReport {
+        plots: plot.into_iter().collect(),
         parameters: parameters(fabric, test, direction).into_iter().map(parameter).collect(),
         title,
         ..LawReport::default()

@@ -99,8 +99,9 @@ impl ValueLaw<'_> {
         // The marks show where the loop should pass.
         for plot in &mut law.plots {
             plot.law = if assumed { "assumed law" } else { "law of the values" }.to_owned();
-            let measured = fabric::loop_of(&fit.fabric, self.test, self.direction);
-            plot.marks = self.marks(&measured);
+            if let Some(ideal) = fabric::loop_of(&fit.fabric, self.test, self.direction) {
+                plot.marks = self.marks(&ideal);
+            }
         }
 
         // Only a value with a standard deviation gives its parameter an interval.

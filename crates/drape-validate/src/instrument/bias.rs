@@ -30,15 +30,18 @@ use super::ideal::curve;
 /// `$B_1 c^4 + B_2 s^4 + 2Hc^2s^2$`, is stiffer by `$\tfrac12 H$`. Here yarns twist freely, and
 /// `$H = 0$`.
 ///
-/// # Panics
+/// # Errors
 /// As [`ideal`](super::ideal()).
-#[must_use]
-pub fn on_the_bias(fabric: &Fabric, largest: f64, points: usize) -> Curve {
+pub fn on_the_bias(
+    fabric: &Fabric,
+    largest: f64,
+    points: usize,
+) -> Result<Curve, drape_kes::Error> {
     let path = path(&there_and_back(largest), points);
     let halves: Vec<f64> = path.iter().map(|curvature| 0.5 * curvature).collect();
     let [warp, weft] = yarn_moments(fabric, &halves);
     let load = warp.into_iter().zip(weft).map(|(warp, weft)| 0.5 * (warp + weft)).collect();
-    curve(Test::Bending, Direction::Warp, path, load).expect("a checked fabric has finite loads")
+    curve(Test::Bending, Direction::Warp, path, load)
 }
 
 /// Returns the curve of [`on_the_bias`] for a sheet of square cells with sides of `spacing`, in m,
@@ -56,10 +59,14 @@ pub fn on_the_bias(fabric: &Fabric, largest: f64, points: usize) -> Curve {
 ///
 /// which is a fifth at 2.5 cm⁻¹ and 2.4 mm, and of the fourth order in the spacing.
 ///
-/// # Panics
+/// # Errors
 /// As [`ideal`](super::ideal()).
-#[must_use]
-pub fn on_the_bias_in_cells(fabric: &Fabric, spacing: f64, largest: f64, points: usize) -> Curve {
+pub fn on_the_bias_in_cells(
+    fabric: &Fabric,
+    spacing: f64,
+    largest: f64,
+    points: usize,
+) -> Result<Curve, drape_kes::Error> {
     let path = path(&there_and_back(largest), points);
 
     // Sines of half the turn from row to row, turns of the yarns, and sines of the shear angles.
@@ -83,7 +90,7 @@ pub fn on_the_bias_in_cells(fabric: &Fabric, spacing: f64, largest: f64, points:
             (warp + weft) * turning + 0.5 * shear * leaning
         })
         .collect();
-    curve(Test::Bending, Direction::Warp, path, load).expect("a checked fabric has finite loads")
+    curve(Test::Bending, Direction::Warp, path, load)
 }
 
 /// Returns the moments per width, in N, that [`on_the_bias`] gives at `curvatures`, in 1/m. The

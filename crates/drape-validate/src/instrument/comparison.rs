@@ -33,7 +33,7 @@ impl Comparison {
         resolution: Resolution,
     ) -> Result<Self, ValidationError> {
         let measured = measure(fabric, test, direction, resolution)?;
-        Ok(Self { measured, ideal: ideal(fabric, test, direction, resolution.points) })
+        Ok(Self { measured, ideal: ideal(fabric, test, direction, resolution.points)? })
     }
 
     /// Returns the root mean square of the differences of the loads, over the range of the ideal

@@ -12,10 +12,14 @@ use super::yarn::laws;
 /// Returns the curve of `test` along `direction` by the laws of `fabric` alone, as if the
 /// instrument deformed the fabric evenly. Each branch has `points` points.
 ///
-/// # Panics
-/// If a load is not finite. Loads of a checked fabric are finite.
-#[must_use]
-pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Curve {
+/// # Errors
+/// There are too few points, or a load is not finite. Loads of a checked fabric are finite.
+pub fn ideal(
+    fabric: &Fabric,
+    test: Test,
+    direction: Direction,
+    points: usize,
+) -> Result<Curve, drape_kes::Error> {
     let path = cycle(fabric, test, direction, points);
     let laws = laws(fabric, direction);
     let load = match test {
@@ -26,7 +30,7 @@ pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -
             drive(&fabric.shear, fabric.shear.virgin(), &sines)
         }
     };
-    curve(test, direction, path, load).expect("a checked fabric has finite loads")
+    curve(test, direction, path, load)
 }
 
 /// Returns the curve of `test` with the deformations `path` and the loads `load`. A tensile test

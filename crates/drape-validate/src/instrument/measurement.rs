@@ -115,7 +115,7 @@ pub fn bend_on_the_bias(
     resolution: Resolution,
 ) -> Result<Curve, ValidationError> {
     let Resolution { spacing, points } = resolution;
-    let path = on_the_bias(fabric, largest, points).deformation().to_vec();
+    let path = on_the_bias(fabric, largest, points)?.deformation().to_vec();
     let load = bend(fabric, Direction::Weft, &Specimen::on_the_bias(spacing), &path)?;
     Ok(curve(Test::Bending, Direction::Warp, path, load)?)
 }

@@ -38,14 +38,14 @@ pub(crate) fn bias_bending() -> Result<Findings, ValidationError> {
 
             // The whole loop, with the shear of the cells.
             let measured = bend_on_the_bias(&fabric, LARGEST_CURVATURE, resolution)?;
-            let ideal = on_the_bias_in_cells(&fabric, spacing, LARGEST_CURVATURE, POINTS);
+            let ideal = on_the_bias_in_cells(&fabric, spacing, LARGEST_CURVATURE, POINTS)?;
             let distance = Comparison { measured, ideal }.distance();
             checks.push(Check::at_most(format!("{what} from the laws in cells"), distance, 0.01));
 
             // A small loop, in which the shear of the cells adds little.
             let largest = BIAS_RANGE / (spacing * spacing);
             let measured = bend_on_the_bias(&fabric, largest, resolution)?;
-            let ideal = on_the_bias(&fabric, largest, POINTS);
+            let ideal = on_the_bias(&fabric, largest, POINTS)?;
             let distance = Comparison { measured, ideal }.distance();
             let what = format!("{what} of the loops up to {:.2} cm⁻¹", 0.01 * largest);
             checks.push(Check::at_most(what, distance, 0.02));
@@ -57,7 +57,7 @@ pub(crate) fn bias_bending() -> Result<Findings, ValidationError> {
     let resolution = Resolution { spacing: bias_spacing(0.00125), points: POINTS };
     let comparison = Comparison {
         measured: bend_on_the_bias(&fabric, LARGEST_CURVATURE, resolution)?,
-        ideal: on_the_bias(&fabric, LARGEST_CURVATURE, POINTS),
+        ideal: on_the_bias(&fabric, LARGEST_CURVATURE, POINTS)?,
     };
     let what = format!("{}, 1.25 mm", fabric.name);
     let distance = comparison.distance();
