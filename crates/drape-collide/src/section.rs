@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::error::{Error, check_index};
 use crate::mesh_io::Triangulation;
 use crate::surface::classes;
 use crate::vector::{Vector, cross, dot, norm, subtract};
@@ -93,31 +94,38 @@ impl SectionPlane {
 
     /// Returns the points in which the plane cuts the edges of `mesh`, in m along the plane's axes,
     /// grouped by line. A closed `mesh` gives a closed line for each limb that the plane cuts.
-    #[must_use]
-    pub fn lines(&self, mesh: &Triangulation) -> Vec<Vec<[f64; 2]>> {
-        let MeshCut { points, class, .. } = self.cut(mesh);
+    ///
+    /// # Errors
+    /// A triangle names a vertex that does not exist.
+    pub fn lines(&self, mesh: &Triangulation) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+        let MeshCut { points, class, .. } = self.cut(mesh)?;
         let mut lines: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
         for (point, class) in points.into_iter().zip(class) {
             lines.entry(class).or_default().push(point);
         }
-        lines.into_values().collect()
+        Ok(lines.into_values().collect())
     }
 
     /// Returns the straight pieces of the lines in which the plane cuts a mesh, line by line. The
     /// pieces of a line are in the order of the triangles, not along the line.
-    #[must_use]
-    pub fn pieces(&self, mesh: &Triangulation) -> Vec<Vec<[[f64; 2]; 2]>> {
-        let MeshCut { points, pieces, class } = self.cut(mesh);
+    ///
+    /// # Errors
+    /// A triangle names a vertex that does not exist.
+    pub fn pieces(&self, mesh: &Triangulation) -> Result<Vec<Vec<[[f64; 2]; 2]>>, Error> {
+        let MeshCut { points, pieces, class } = self.cut(mesh)?;
         let mut lines: BTreeMap<u32, Vec<[[f64; 2]; 2]>> = BTreeMap::new();
         for ends in pieces {
             let line = lines.entry(class[ends[0] as usize]).or_default();
             line.push(ends.map(|end| points[end as usize]));
         }
-        lines.into_values().collect()
+        Ok(lines.into_values().collect())
     }
 
     /// Returns the cut through a mesh.
-    fn cut(&self, mesh: &Triangulation) -> MeshCut {
+    fn cut(&self, mesh: &Triangulation) -> Result<MeshCut, Error> {
+        for &corner in mesh.triangles.as_flattened() {
+            check_index("vertex", corner as usize, mesh.vertices.len())?;
+        }
         let is_below: Vec<bool> = mesh.vertices.iter().map(|v| self.height_of(*v) < 0.0).collect();
         // Number each side of a triangle that is cut, and join the two sides of each triangle.
         let mut edges: BTreeMap<[u32; 2], u32> = BTreeMap::new();
@@ -148,7 +156,7 @@ impl SectionPlane {
             classes.push(class[number as usize]);
         }
         let pieces = pieces.into_iter().map(|ends| ends.map(|end| place[end as usize])).collect();
-        MeshCut { points, pieces, class: classes }
+        Ok(MeshCut { points, pieces, class: classes })
     }
 }
 
@@ -277,7 +285,7 @@ mod tests {
             vertices: [tetrahedron, beside].concat(),
             triangles: [faces, faces.map(|face| face.map(|corner| corner + 4))].concat(),
         };
-        let mut lines = SectionPlane::horizontal(0.5).lines(&mesh);
+        let mut lines = SectionPlane::horizontal(0.5).lines(&mesh).expect("all vertices exist");
         lines.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
         assert_eq!(lines.len(), 2);
         for (line, left) in lines.into_iter().zip([0.0, 2.0]) {
@@ -285,7 +293,7 @@ mod tests {
             assert_eq!(corners, [[left, 0.0], [left + 0.5, 0.0], [left, 0.5]]);
         }
         // The three pieces of each line go once round its corners.
-        let mut pieces = SectionPlane::horizontal(0.5).pieces(&mesh);
+        let mut pieces = SectionPlane::horizontal(0.5).pieces(&mesh).expect("all vertices exist");
         pieces.sort_by(|a, b| a[0][0][0].total_cmp(&b[0][0][0]));
         for line in &pieces {
             let length = |[[a, b], [c, d]]: &[[f64; 2]; 2]| (c - a).hypot(d - b);
@@ -293,7 +301,7 @@ mod tests {
             assert!(line.len() == 3 && (round - 1.0 - 0.5_f64.sqrt()).abs() < 1e-12, "{line:?}");
         }
         assert_eq!(pieces.len(), 2);
-        assert!(SectionPlane::horizontal(1.5).lines(&mesh).is_empty());
+        assert!(SectionPlane::horizontal(1.5).lines(&mesh).is_ok_and(|lines| lines.is_empty()));
     }
 
     #[test]

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use drape::fit::identify;
-use drape::kes::Sheet;
+use drape::kes::{Sheet, SheetDraft};
 use tempfile::TempDir;
 
+use crate::mutation::{Random, mutated};
 use crate::readers;
 
 /// Writes bytes to a file in a folder of its own.
@@ -36,6 +37,52 @@ pub fn table(bytes: &[u8]) {
         let text = fitted.fabric.to_toml();
         assert!(readers::fabric(&text), "a fitted fabric cannot be read:\n{text}");
     }
+}
+
+/// A sheet of values and one curve, which is fitted if it is accepted.
+pub fn sheet(bytes: &[u8]) {
+    let (folder, path) = written("sheet.toml", bytes);
+    fs::write(folder.path().join("bending.csv"), readers::CURVE).expect("written");
+    if let Ok(sheet) = Sheet::read(&path) {
+        let _ = identify(&sheet);
+    }
+}
+
+/// A table or a workbook, which is drafted as sheets; sheets that are accepted are fitted.
+pub fn draft(name: &str, bytes: &[u8]) {
+    let Ok(drafts) = SheetDraft::from_bytes(name, bytes) else { return };
+    for draft in drafts.iter().take(3) {
+        if let Ok(sheet) = draft.read(Path::new("")) {
+            let _ = identify(&sheet);
+        }
+    }
+}
+
+/// Names of the files of a run.
+const RUN_FILES: [&str; 9] = [
+    "bodies-00000.npy",
+    "body-triangles.npy",
+    "energy.csv",
+    "frame-00000.npy",
+    "frame-00001.npy",
+    "frames.csv",
+    "material.npy",
+    "surfaces.json",
+    "triangles.npy",
+];
+
+/// Returns the number of a file of a run, and its mutated bytes.
+pub fn damaged_run(seed: u64) -> Vec<u8> {
+    let number = Random(seed).below(RUN_FILES.len());
+    let run = Path::new(env!("CARGO_MANIFEST_DIR")).join("run");
+    let bytes = fs::read(run.join(RUN_FILES[number])).expect("a file of the run");
+    [vec![number as u8], mutated(&bytes, seed)].concat()
+}
+
+/// Frames of a run, the file of which that the first byte names has the other bytes.
+pub fn run(bytes: &[u8]) {
+    let Some((number, bytes)) = bytes.split_first() else { return };
+    frames(RUN_FILES[usize::from(*number) % RUN_FILES.len()], bytes);
 }
 
 pub fn pattern(name: &str, bytes: &[u8]) {

@@ -55,13 +55,13 @@ pub fn distance(bytes: &[u8]) {
             parallel: 0.0,
             distance: 0.0,
         };
-        let own = pair.distance_at(points.as_flattened());
+        let own = pair.distance_at(points.as_flattened()).expect("four points");
         let square = rational::square_distance(&places, pair.first_vertex_count());
         let right = square.to_f64().expect("a number").sqrt();
         let miss = (own - right).abs();
         assert!(miss <= ROUNDING * scale, "{kind:?} of {points:?}: {own}, not {right}");
         if right > 1e-6 * scale {
-            let gap = Gap::new(&pair, points.as_flattened());
+            let gap = Gap::new(&pair, points.as_flattened()).expect("four points");
             assert!((gap.distance() - right).abs() <= ROUNDING * scale, "{kind:?} of {points:?}");
         }
     }

@@ -40,7 +40,7 @@ impl Trunk {
     /// Returns the section of `bodies` at `height`, in m, or `None` if there is no body.
     pub(crate) fn at(bodies: &[Triangulation], height: f64) -> Option<Self> {
         let plane = SectionPlane::horizontal(height);
-        let lines = bodies.iter().flat_map(|body| plane.pieces(body));
+        let lines = bodies.iter().flat_map(|body| plane.pieces(body).unwrap_or_default());
         let mut lines: Vec<(f64, Vec<Piece>)> =
             lines.map(|line| (area(&hull_of(&line)), line)).collect();
         lines.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -184,7 +184,8 @@ fn hull_inside(
         let inside = limb.iter().filter(|&&point| encloses(outline, point)).count();
         inside as f64 >= LIMB_MIN * limb.len() as f64
     };
-    let limbs = bodies.iter().flat_map(|body| plane.lines(body)).filter(is_inside);
+    let cuts = bodies.iter().flat_map(|body| plane.lines(body).unwrap_or_default());
+    let limbs = cuts.filter(is_inside);
     let points: Vec<[f64; 2]> = limbs.flatten().collect();
     (points.len() > 2).then(|| perimeter(&convex_hull(points)))
 }
