@@ -110,6 +110,18 @@ fn a_file_cut_at_any_byte_is_an_error_that_names_it() {
 }
 
 #[test]
+fn a_manifest_is_whole_without_a_line_break_at_its_end_and_with_several() {
+    let folder = folder(&files());
+    let expected = read(folder.path()).unwrap();
+    let whole = manifest(2);
+    for ending in ["", "\n", "\r\n", "\n\n  \n"] {
+        let text = format!("{}{ending}", whole.trim_end());
+        write(folder.path(), "surfaces.json", text.as_bytes());
+        assert_eq!(read(folder.path()).as_ref(), Ok(&expected), "{ending:?}");
+    }
+}
+
+#[test]
 fn a_changed_byte_is_an_error_or_another_state_and_never_a_panic() {
     let files = files();
     let folder = folder(&files);

@@ -194,6 +194,21 @@ fn triangles_on_each_other_in_one_plane_are_found() {
 }
 
 #[test]
+fn a_frame_is_verified_without_a_line_break_at_the_end_of_the_manifest() {
+    let panels =
+        [0.0, 0.05].map(|x| Shape::triangle([[x, 0.1, 0.0], [x, 0.1, 0.1], [x + 0.1, 0.1, 0.0]]));
+    let planted = Planted { panels: panels.into(), ..Planted::default() };
+    let folder = tempfile::tempdir().unwrap();
+    planted.write(folder.path());
+    let path = folder.path().join("surfaces.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.trim_end()).unwrap();
+    let verdict = Verifier::open(folder.path()).unwrap().verify(0).unwrap();
+    let expected = planted.verify();
+    assert_eq!((verdict.intersections, verdict.worst), (1, expected.worst));
+}
+
+#[test]
 fn a_flat_fold_is_found() {
     let folded = |apex: Point| {
         let vertices = vec![[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, 0.0, 0.1], apex];
