@@ -1,9 +1,11 @@
 //! Rules of the architecture: the map in `crates/README.md` is true, the modules of a crate do not
-//! use each other in a circle, folders and files stay small, every module has a description, and
-//! the glossary and the bibliography are true.
+//! use each other in a circle, folders and files stay small, every module has a description, no
+//! library speaks the words of the command, and the glossary and the bibliography are true.
 
 #[path = "architecture/arguments.rs"]
 mod arguments;
+#[path = "architecture/command_words.rs"]
+mod command_words;
 #[path = "architecture/modules.rs"]
 mod modules;
 #[path = "architecture/pages.rs"]
@@ -49,6 +51,12 @@ const LONG_FILES: &[(&str, &str)] = &[
     ("crates/drape-kes/tests/exports.rs", "a table of exports"),
     ("crates/drape-pattern/tests/reading.rs", "a table of patterns"),
     ("tests/sweep/main.rs", "a table of studies"),
+];
+
+/// Sources of libraries that write or read calls of the program, and why.
+const CALLERS: &[(&str, &str)] = &[
+    ("crates/drape-sweep/src/base.rs", "a study file lists options of the runs"),
+    ("crates/drape-sweep/src/engine.rs", "it writes job files that call the program"),
 ];
 
 /// Largest number of arguments of a function, `self` not counted.
@@ -285,6 +293,29 @@ fn sources_are_written_in_plain_words() {
         })
         .collect();
     assert!(wrong.is_empty(), "{} faults: {wrong:#?}", wrong.len());
+}
+
+/// The command puts remedies in its own words, and so does the Python package.
+#[test]
+fn libraries_do_not_speak_the_words_of_the_command() {
+    let mut spoken = BTreeMap::new();
+    for file in sources() {
+        let name = short(&file);
+        let is_library = name.starts_with("crates/") && name.contains("/src/");
+        let doors = ["crates/drape-cli/", "crates/drape-py/"];
+        if !is_library || doors.iter().any(|door| name.starts_with(door)) {
+            continue;
+        }
+        let text = std::fs::read_to_string(&file).expect("a file can be read");
+        let words = command_words::command_words(&text);
+        if !words.is_empty() {
+            spoken.insert(name, words);
+        }
+    }
+    for (file, reason) in CALLERS {
+        assert!(spoken.remove(*file).is_some(), "{file} needs no reason ({reason})");
+    }
+    assert!(spoken.is_empty(), "a `Remedy` is put in words by the command: {spoken:#?}");
 }
 
 #[test]

@@ -1,19 +1,38 @@
 //! Words and signs of Rust source: no comments, no literals, nothing that is compiled for tests
-//! only.
+//! only; and its strings.
 
 /// Splits source into words, `::` and single signs; comments, strings, characters and lifetimes are
 /// left out.
 pub fn tokens(text: &str) -> Vec<String> {
+    split(text).0
+}
+
+/// Returns the strings of source between their quotes, each with the line on which it begins. What
+/// a backslash escapes is left as it is written.
+pub fn strings(text: &str) -> Vec<(usize, String)> {
+    split(text).1
+}
+
+/// Splits source into [`tokens`] and [`strings`].
+fn split(text: &str) -> (Vec<String>, Vec<(usize, String)>) {
     let chars: Vec<char> = text.chars().collect();
     let at = |i: usize| chars.get(i).copied().unwrap_or('\0');
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut tokens = Vec::new();
+    let string = |from: usize, to: usize| {
+        let line = 1 + chars[..from].iter().filter(|c| **c == '\n').count();
+        (line, chars[from..to.min(chars.len())].iter().collect())
+    };
+    let (mut tokens, mut strings) = (Vec::new(), Vec::new());
     let mut i = 0;
     while i < chars.len() {
         match (at(i), at(i + 1)) {
             ('/', '/') => i = skip_to(&chars, i, |c| c == '\n'),
             ('/', '*') => i = skip_comment(&chars, i),
-            ('"', _) => i = skip_string(&chars, i),
+            ('"', _) => {
+                let end = skip_string(&chars, i);
+                strings.push(string(i + 1, end - 1));
+                i = end;
+            }
             ('\'', '\\') => i = skip_to(&chars, i + 3, |c| c == '\'') + 1,
             ('\'', _) if at(i + 2) == '\'' => i += 3,
             ('\'', _) => i = skip_to(&chars, i + 1, |c| !is_word(c)),
@@ -27,7 +46,11 @@ pub fn tokens(text: &str) -> Vec<String> {
                 let hashes = chars[end..].iter().take_while(|c| **c == '#').count();
                 let is_prefix = ["r", "b", "br", "c", "cr"].contains(&word.as_str());
                 i = match at(end + hashes) {
-                    '"' if is_prefix && word.contains('r') => skip_raw(&chars, end, hashes),
+                    '"' if is_prefix && word.contains('r') => {
+                        let behind = skip_raw(&chars, end, hashes);
+                        strings.push(string(end + hashes + 1, behind - hashes - 1));
+                        behind
+                    }
                     // The string or the character after the prefix is skipped in turn.
                     '"' | '\'' if is_prefix && hashes == 0 => end,
                     // A raw identifier.
@@ -46,7 +69,7 @@ pub fn tokens(text: &str) -> Vec<String> {
             }
         }
     }
-    tokens
+    (tokens, strings)
 }
 
 /// Returns the index of the first character from `from` on that ends something.

@@ -9,6 +9,7 @@ use drape::input::{Diagnostic, Diagnostics};
 
 use crate::console::{is_coloured, print_coloured, print_message, printable};
 use crate::input;
+use crate::remedy;
 use drape::run::file;
 
 /// Failure that ends a command, with its exit code.
@@ -65,6 +66,7 @@ impl Failure {
     pub(crate) fn print(&self) {
         match self {
             Self::Input(mistakes) => {
+                let mistakes = mistakes.clone().in_words(remedy::in_words);
                 mistakes.shown().iter().for_each(|mistake| print_coloured(render(mistake)));
                 mistakes
                     .hidden_count_text()
@@ -115,7 +117,7 @@ impl fmt::Display for Failure {
             | Self::Stopped(message)
             | Self::Interrupted { message, .. } => f.write_str(message),
             Self::Several { .. } => f.write_str("not all scenes could be run"),
-            Self::Input(mistakes) => mistakes.fmt(f),
+            Self::Input(mistakes) => mistakes.clone().in_words(remedy::in_words).fmt(f),
             Self::Fit(error) => error.fmt(f),
             Self::Frames(error) => error.fmt(f),
             Self::Batch => f.write_str("not all sheets could be fitted"),
@@ -210,6 +212,35 @@ impl From<drape::run::Error> for Failure {
             Error::Dynamics(error) => error.into(),
             Error::Frames(error) => error.into(),
             Error::Folder { .. } | Error::LastFrame { .. } => Self::Output(error.to_string()),
+            Error::Locked { folder } => Self::Usage(format!(
+                "another run is writing to {}; wait for its end, or give another folder with -o",
+                folder.display()
+            )),
+            Error::Interrupted { folder } => Self::Usage(format!(
+                "{place} holds a run that was interrupted; go on with `drape resume {place}`, or begin anew \
+                 with --force",
+                place = folder.display()
+            )),
+            Error::GradedBy { folder } => Self::Usage(format!(
+                "{} holds the run that grading.run names; give another folder with -o",
+                folder.display()
+            )),
+            Error::End { end, step } => {
+                Self::Usage(format!("--until {end}: a step takes {step} s already"))
+            }
+            Error::NotBegun { path, reason } => Self::Usage(format!(
+                "{}: {reason}; a folder that `drape run` has begun has it",
+                path.display()
+            )),
+            Error::Ended { folder, status } => Self::Usage(format!(
+                "{}: the run has ended ({status}); go on beyond its end with --extend SECONDS",
+                folder.display()
+            )),
+            Error::Failed { folder, status } => Self::Usage(format!(
+                "{}: the run has ended ({status}); it would end so again: change its scene, and run it anew \
+                 with drape run --force",
+                folder.display()
+            )),
             error => Self::Usage(error.to_string()),
         }
     }

@@ -22,6 +22,7 @@ mod pages;
 mod console;
 mod failure;
 mod input;
+mod remedy;
 mod say;
 
 /// Message after a panic.

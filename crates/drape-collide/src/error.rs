@@ -93,7 +93,7 @@ pub enum Error {
     },
 
     /// A file is longer than the limit.
-    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion, or read it with --raise-limits {times}", path.display())]
+    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion, or read it with {times} times the usual limit", path.display())]
     FileTooLong {
         /// Path of the file.
         path: PathBuf,

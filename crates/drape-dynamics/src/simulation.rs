@@ -451,6 +451,7 @@ impl Simulation {
         let World { cloth, state, .. } = &self.world;
         let strains = cloth.strains(state).expect(ALL_PARTICLES);
 
+        let limits = self.source.contact_limits.iter();
         Summary {
             status: self.outcome.status.clone(),
             reason: self.outcome.reason.clone(),
@@ -481,7 +482,7 @@ impl Simulation {
             state_hash: self.state_hash(),
             step_hashes: self.statistics.hashes.clone(),
             warnings: self.outcome.warnings.clone(),
-            contact_limits: self.source.contact_limits.clone(),
+            contact_limits: limits.map(|limit| limit.text.clone()).collect(),
             measures: self.outcome.measures.clone(),
             place: self.outcome.place,
         }

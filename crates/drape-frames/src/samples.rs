@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::write::npy;
 
-/// Run that is written to a folder as `drape run` writes frames.
+/// Run that is written to a folder in the format of frames.
 ///
 /// ```
 /// use drape_frames::{Recording, samples::SampleRun};

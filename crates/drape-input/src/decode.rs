@@ -88,6 +88,7 @@ impl Faults {
             if mistake.key.as_ref() == Some(&path) {
                 mistake.message.clone_from(&answer.message);
                 mistake.help.clone_from(&answer.help);
+                mistake.remedy.clone_from(&answer.remedy);
                 mistake.edits.clone_from(&answer.edits);
             }
         }

@@ -1,9 +1,11 @@
 //! Mistakes of an input, each with its place and its remedy.
 //!
 //! `document` reports mistakes of TOML. The crates that define a structure report mistakes of its
-//! values, and the command line prints all mistakes.
+//! values. A program prints all mistakes, and puts their remedies in its own words.
 
+pub(crate) mod advice;
 pub(crate) mod edit;
+pub(crate) mod remedy;
 pub(crate) mod subject;
 pub(crate) mod value_error;
 
@@ -11,7 +13,9 @@ use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use self::advice::{Advice, joined};
 use self::edit::Edit;
+use self::remedy::Remedy;
 use self::subject::Subject;
 use crate::figure::cut;
 use crate::node::key_path::KeyPath;
@@ -38,8 +42,10 @@ pub struct Diagnostic {
     pub span: Option<Range<usize>>,
     /// Description of the mistake, with the wrong value.
     pub message: String,
-    /// Remedy, if one is known.
+    /// Remedy as a text, if one is known.
     pub help: Option<String>,
+    /// Remedy that a program puts in its own words, if one is known. It stands behind the text.
+    pub remedy: Option<Remedy>,
     /// Part of the input that the mistake concerns, if it has a name.
     pub subject: Option<Subject>,
     /// Changes of files that together are the remedy. Empty if a program cannot make the remedy
@@ -59,15 +65,29 @@ impl Diagnostic {
             span: None,
             message: shorten(message.into()),
             help: None,
+            remedy: None,
             subject: None,
             edits: Vec::new(),
         }
     }
 
-    /// Adds the remedy `help`.
+    /// Adds the remedy `help`: a text, a [`Remedy`], or both.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(shorten(help.into()));
+    pub fn help(mut self, help: impl Into<Advice>) -> Self {
+        let Advice { text, remedy } = help.into();
+        self.help = (!text.is_empty() || remedy.is_none()).then(|| shorten(text));
+        self.remedy = remedy;
+        self
+    }
+
+    /// Returns the mistake with its [`Remedy`] as a text. `words` are the words of a program for
+    /// it.
+    #[must_use]
+    pub fn in_words(mut self, words: impl FnOnce(&Remedy) -> String) -> Self {
+        if let Some(remedy) = self.remedy.take() {
+            let text = self.help.unwrap_or_default();
+            self.help = Some(joined(&text, &words(&remedy)));
+        }
         self
     }
 
@@ -106,9 +126,13 @@ impl fmt::Display for Diagnostic {
             f.write_str(": ")?;
         }
         f.write_str(&self.message)?;
-        match &self.help {
-            Some(help) => write!(f, "\n  help: {help}"),
-            None => Ok(()),
+        let help = self.help.as_deref();
+        match (&self.remedy, help) {
+            (Some(remedy), help) => {
+                write!(f, "\n  help: {}", joined(help.unwrap_or_default(), &remedy.to_string()))
+            }
+            (None, Some(help)) => write!(f, "\n  help: {help}"),
+            (None, None) => Ok(()),
         }
     }
 }
@@ -150,6 +174,13 @@ impl Diagnostics {
         mistakes.sort_by(|a, b| (&a.file, a.line, a.column).cmp(&(&b.file, b.line, b.column)));
         mistakes.dedup();
         Err(Self(mistakes))
+    }
+
+    /// Returns the mistakes with their [`Remedy`] as a text. `words` are the words of a program for
+    /// a remedy.
+    #[must_use]
+    pub fn in_words(self, words: impl Fn(&Remedy) -> String) -> Self {
+        Self(self.0.into_iter().map(|mistake| mistake.in_words(&words)).collect())
     }
 
     /// Returns the mistakes that are shown: the first 20.

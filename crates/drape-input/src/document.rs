@@ -296,6 +296,7 @@ impl Document {
         let message = mistake.message.strip_prefix(&format!("{key}: ")).unwrap_or(&mistake.message);
         let mut located = self.at(&key, message);
         located.help.clone_from(&mistake.help);
+        located.remedy.clone_from(&mistake.remedy);
         located.subject = mistake.subject.clone().or(located.subject);
         located.edits = mistake
             .edits

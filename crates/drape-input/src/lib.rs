@@ -11,8 +11,9 @@
 //! * `given`: [`Given`], a number with or without a unit. `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input. [`Subject`] is the part of an input that a
-//!   mistake concerns. An [`Edit`] is a change of a file that corrects a mistake. [`apply_edits`]
-//!   makes such changes.
+//!   mistake concerns. A [`Remedy`] is an action that corrects a mistake, which a program puts in
+//!   its own words, and [`Advice`] is a text with a remedy. An [`Edit`] is a change of a file that
+//!   corrects a mistake. [`apply_edits`] makes such changes.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt word.
 //! * `setting`: [`Setting`], a value that replaces a value of a text, such as on a command line.
 //! * `file_access`: [`FileAccess`], what a reader of a document allows its files,
@@ -41,7 +42,9 @@ mod unit;
 
 pub use decode::Faults;
 pub use decode::form::{FromLiteral, Literal, Refusal, deserialize_literal};
+pub use diagnostic::advice::Advice;
 pub use diagnostic::edit::{Edit, EditError, apply_edits};
+pub use diagnostic::remedy::{FilePurpose, Remedy};
 pub use diagnostic::subject::Subject;
 pub use diagnostic::value_error::ValueError;
 pub use diagnostic::{Diagnostic, Diagnostics};

@@ -46,7 +46,7 @@ pub fn unknown_word(word: &str, known: &[&str]) -> ValueError {
         None => one_of_words(known),
     };
     let message = format!("there is no \"{}\"", excerpt(word));
-    ValueError { message, help, meant: near.map(str::to_owned) }
+    ValueError { message, help, intended_value: near.map(str::to_owned) }
 }
 
 /// Returns the words `known` as a phrase, such as `one of "a", "b"`.

@@ -312,7 +312,7 @@ pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, ValueError>
     Err(ValueError {
         message: format!("\"{}\" is not a unit of {}", excerpt(text), names.join(" or ")),
         help: format!("{hint}units accepted here: {}", lists.join("; ")),
-        meant: close.map(str::to_owned),
+        intended_value: close.map(str::to_owned),
     })
 }
 
@@ -371,14 +371,16 @@ pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<NumberWithUnit, 
         return Err(ValueError {
             message: format!("\"{}\" does not begin with a number", excerpt(text)),
             help: format!("write the number and its unit, such as \"1.5 {unit}\""),
-            meant: None,
+            intended_value: None,
         });
     };
 
     let unit = match text[end..].trim() {
         "" => quantity.laboratory(),
         spelling => parse_unit(spelling, &[quantity]).map_err(|error| ValueError {
-            meant: error.meant.map(|unit| format!("{} {unit}", text[..end].trim_end())),
+            intended_value: error
+                .intended_value
+                .map(|unit| format!("{} {unit}", text[..end].trim_end())),
             ..error
         })?,
     };

@@ -46,7 +46,7 @@ impl TestRecord {
     /// of specimens is less than one.
     pub fn set(&mut self, key: &str, text: &str) -> Result<(), Diagnostics> {
         self.set_line(key, text).map_err(|Fault { message, help }| {
-            Diagnostic::new(format!("--{key}"), format!("{text}: {message}")).help(help).into()
+            Diagnostic::new("", format!("{key}: {text}: {message}")).help(help).into()
         })
     }
 

@@ -6,6 +6,8 @@ use std::ffi::CString;
 use drape::input::{Diagnostic, Diagnostics, Edit, Subject};
 use pyo3::prelude::*;
 
+use crate::remedy;
+
 /// Kind of a failure: the name of its exception.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
@@ -27,6 +29,7 @@ pub(crate) fn failure(kind: Kind, message: impl ToString) -> PyErr {
 
 /// Returns the exception of mistakes of an input, which lists them.
 pub(crate) fn input(mistakes: &Diagnostics) -> PyErr {
+    let mistakes = mistakes.clone().in_words(remedy::in_words);
     raised(|module| {
         let edit = |one: &Edit| {
             let file = one.file.display().to_string();

@@ -4,7 +4,7 @@
 //!
 //! The extension module `drape._drape`, which the Python sources in `python/drape` wrap:
 //!
-//! * `error`: mistakes and failures as exceptions;
+//! * `error`: mistakes and failures as exceptions; `remedy`: remedies in the words of Python;
 //! * `detached`: work on other threads, without the lock of the interpreter, which Ctrl-C ends;
 //! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of other programs;
 //! * `spec`: specs of scenes made of Python objects; `scene`: scenes and their runs; `stepping`: a
@@ -18,6 +18,7 @@ mod error;
 mod fit;
 mod instruments;
 mod recording;
+mod remedy;
 mod scene;
 mod spec;
 mod stepping;

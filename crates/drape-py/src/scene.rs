@@ -18,6 +18,7 @@ use pyo3::types::PyDict;
 use crate::array::rows;
 use crate::detached::{Detached, Outbox};
 use crate::error::{Kind, failure, input, of_dynamics, of_run, of_scene, warn};
+use crate::remedy;
 use crate::spec::{self, Held};
 
 /// Scene that was read and checked.
@@ -204,7 +205,7 @@ impl Scene {
             name: scene.name.clone(),
             particles: scene.cloth.particle_count(),
             panels: panels.collect(),
-            notes: notes.cloned().collect(),
+            notes: notes.map(|note| note.in_words(remedy::in_words)).collect(),
             checked: Mutex::new(Some(scene)),
             origin,
             file,

@@ -21,7 +21,7 @@ mod stored_spec;
 pub use error::Error;
 pub use folder_run::{EndedRun, FolderRun, end_at};
 pub use goal::Goal;
-pub use limits::Limits;
+pub use limits::{Limits, ReachedLimit};
 pub use options::{RunOptions, Watcher};
 pub use request::RunRequest;
 pub use resumable_run::ResumableRun;

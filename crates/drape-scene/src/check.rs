@@ -26,7 +26,7 @@ use std::collections::BTreeSet;
 
 use drape_cloth::{Breen, Cloth};
 use drape_collide::MeshInspection;
-use drape_input::{Diagnostics, Faults, excerpt};
+use drape_input::{Advice, Diagnostics, Faults, excerpt};
 
 use crate::contact_stiffness::max_impact_speed;
 use crate::error::Refused;
@@ -75,7 +75,7 @@ pub(crate) fn check(
         }));
         placed.extend(garment.panels);
         seams.extend(garment.seams);
-        notes.extend(garment.notes);
+        notes.extend(garment.notes.into_iter().map(Advice::from));
     }
     check_names(checker, &placed);
     let clock = time::clock(checker);
@@ -182,9 +182,10 @@ pub(crate) fn check(
     }
     let mut scene = start::check_start(checker, scene)?;
     let note = scene.stiffness_note();
-    scene.source.notes.extend(note);
+    scene.source.notes.extend(note.map(Advice::from));
     if !scene.garments.is_empty() && relaxation.is_some() && spec.refine.is_none() {
-        scene.source.notes.extend(cost(scene.cloth.particle_count(), spacing));
+        let note = cost(scene.cloth.particle_count(), spacing);
+        scene.source.notes.extend(note.map(Advice::from));
     }
     Ok(scene)
 }

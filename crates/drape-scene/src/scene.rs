@@ -18,6 +18,8 @@ pub(crate) mod solver;
 
 use std::path::PathBuf;
 
+use drape_input::Advice;
+
 use drape_cloth::{Breen, Cloth};
 use drape_collide::{Body, MeshInspection, ParticleContact};
 
@@ -124,12 +126,20 @@ pub struct Source {
     /// start, each body.
     pub parts: Vec<SourcePart>,
     /// Notes for the user: on patterns, bodies, layers, and the cost of the simulation.
-    pub notes: Vec<String>,
+    pub notes: Vec<Advice>,
     /// What contact cannot promise on the bodies, a sentence each: where a body passes through its
     /// own surface.
-    pub contact_limits: Vec<String>,
+    pub contact_limits: Vec<Advice>,
     /// Folder of the run that panels are graded by, if they are.
     pub graded_by: Option<PathBuf>,
+}
+
+impl Source {
+    /// Returns the notes in a line each, with remedies in words of the libraries.
+    #[must_use]
+    pub fn note_lines(&self) -> Vec<String> {
+        self.notes.iter().map(Advice::to_string).collect()
+    }
 }
 
 /// Part of what a scene was read from.

@@ -57,7 +57,7 @@ const SEWN: &str = "[seam.middle]\nsides = [[\"left.side\"], [\"right.side\"]]\n
 fn panels_that_overlap_at_their_seam_are_moved_apart_and_that_is_told() {
     let pattern = |right: &str| SIDE_BY_SIDE.replace("RIGHT", right);
     let unsewn = pattern("origin = [-3, 0, 0]");
-    assert!(read(&unsewn, "").unwrap().source.notes.join("\n").contains("away from"));
+    assert!(read(&unsewn, "").unwrap().source.note_lines().join("\n").contains("away from"));
     for (right, apart) in [
         // In one plane, over each other by 0.4, 3 and 8 mm; and askew.
         ("origin = [-0.4, 0, 0]", "origin = [40, 0, 0]"),
@@ -68,10 +68,10 @@ fn panels_that_overlap_at_their_seam_are_moved_apart_and_that_is_told() {
         ("origin = [-5, 0, 3]\nturn = [0, 90, 0]", "origin = [40, 0, 3]\nturn = [0, 90, 0]"),
     ] {
         let scene = read(&[&pattern(right), SEWN].concat(), "").unwrap();
-        let notes = scene.source.notes.join("\n");
+        let notes = scene.source.note_lines().join("\n");
         assert!(notes.contains("\"own.left\" starts ") && notes.contains("away from"), "{notes}");
         let elsewhere = read(&[&pattern(apart), SEWN].concat(), "").unwrap();
-        assert!(!elsewhere.source.notes.join("\n").contains("away from"));
+        assert!(!elsewhere.source.note_lines().join("\n").contains("away from"));
         let [left, _] = ways(&scene, &elsewhere)[..] else { panic!("two panels") };
         let way = left.iter().map(|x| x * x).sum::<f64>().sqrt();
         assert!((1e-4..0.008).contains(&way), "{right}: {way} m");
@@ -117,9 +117,9 @@ reversed = true
 fn a_panel_that_is_a_little_inside_a_body_is_moved_out_of_it() {
     let at = |front: &str| read(&TUNNEL.replace("FRONT", front), &column(0.1));
     let free = at("150").unwrap();
-    assert!(!free.source.notes.join("\n").contains("out of a body"));
+    assert!(!free.source.note_lines().join("\n").contains("out of a body"));
     let scene = at("97").unwrap();
-    let notes = scene.source.notes.join("\n");
+    let notes = scene.source.note_lines().join("\n");
     assert!(
         notes.contains("panel \"own.front\" starts ") && notes.contains("out of a body"),
         "{notes}"
@@ -187,11 +187,11 @@ sides = [["back.waist"], ["band_back.bottom"]]
 #[test]
 fn tips_beside_a_waist_are_no_girth() {
     let scene = read(TIPS, &column(0.06)).unwrap();
-    let notes = scene.source.notes.join("\n");
+    let notes = scene.source.note_lines().join("\n");
     assert!(!notes.contains("too narrow"), "{notes}");
     // Where the band itself is too narrow, it is told with its seams, and the scene holds.
     let scene = read(TIPS, &column(0.078)).unwrap();
-    let notes = scene.source.notes.join("\n");
+    let notes = scene.source.note_lines().join("\n");
     assert!(notes.contains("\"own\" is too narrow at a height of 0.8"), "{notes}");
     assert!(notes.contains("with seams \"band_left\", \"band_right\" measure 438 mm"), "{notes}");
 }
@@ -201,7 +201,7 @@ fn a_waist_of_660_mm_on_a_body_of_669_mm_is_told() {
     let pattern = TUNNEL.replace("200", "165").replace("FRONT", "150");
     let notes = |girth: f64| {
         let column = column(1e-3 * girth / std::f64::consts::TAU);
-        read(&pattern, &column).unwrap().source.notes.join("\n")
+        read(&pattern, &column).unwrap().source.note_lines().join("\n")
     };
     let told = notes(669.0);
     assert!(told.contains("with seams \"left\", \"right\" measure 660 mm round"), "{told}");

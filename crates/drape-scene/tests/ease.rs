@@ -174,8 +174,8 @@ fn a_column_has_no_waist_of_its_own() {
 fn cloth_that_is_smaller_than_a_named_girth_is_told_with_both_figures() {
     // 800 mm round a column of 628 mm is enough, and 600 mm is not.
     let told = |scene: &Scene| {
-        let mut notes = scene.source.notes.iter();
-        notes.find(|note| note.contains("ease is")).cloned()
+        let mut notes = scene.source.note_lines().into_iter();
+        notes.find(|note| note.contains("ease is"))
     };
     let scene = tube(LEFT, "m", "measure.waist = 0.75");
     assert_eq!(told(&scene), None);

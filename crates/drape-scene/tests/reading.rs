@@ -352,7 +352,11 @@ fn contact_stops_the_top_speed_that_a_scene_declares() {
     assert_eq!(scene.contact.top_speed, Some(2.0));
     let stopped = scene.stopped_speed();
     assert!((stopped / 2.0 - 1.0).abs() < 1e-9, "{stopped} m/s");
-    assert!(scene.source.notes.iter().any(|note| note.contains("2 m/s")), "{:?}", scene.source);
+    assert!(
+        scene.source.note_lines().iter().any(|note| note.contains("2 m/s")),
+        "{:?}",
+        scene.source
+    );
     let usual = read(LEAST).unwrap();
     assert_eq!(usual.contact.top_speed, None);
     assert!(usual.stopped_speed() < 2.0 && usual.contact_stiffness() < scene.contact_stiffness());

@@ -2,7 +2,7 @@
 //!
 //! `protocol` describes how a specimen is lowered. `meter` simulates the test and reads the shadow.
 //! `study` has the results over several starts. `prediction` varies the parameters that a KES sheet
-//! leaves open. `sensitivity` varies one parameter after another. `drape test --drape` and the
+//! leaves open. `sensitivity` varies one parameter after another. Tests of fabrics and the
 //! cases of drapes call this chapter.
 //!
 //! The drape coefficient is the area of the shadow beyond the disc over the area of the flat

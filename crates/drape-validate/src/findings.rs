@@ -1,8 +1,8 @@
 //! Findings: what a case returns, as plain data.
 //!
 //! A case compares figures of a simulation with a reference ([`Check`]), and adds plots ([`Graph`])
-//! and pictures ([`Still`]) for people. `drape validate` prints the checks and draws plots and
-//! pictures. This crate draws nothing.
+//! and pictures ([`Still`]) for people. A program prints the checks and draws plots and pictures.
+//! This crate draws nothing.
 
 mod check;
 mod graph;

@@ -3,8 +3,8 @@
 //! `cycle` has the deformations of each test. `ideal` and `bias` answer with the laws of the
 //! fabric, as if the fabric deformed evenly. `specimen` is a panel in two clamps at its true size.
 //! `measurement` drives the specimen and reads the load of the moving clamp, as the instrument
-//! does. `comparison` compares the two curves. `drape test` and the cases of loops call this
-//! chapter.
+//! does. `comparison` compares the two curves. Tests of fabrics and the cases of loops
+//! call this chapter.
 
 mod bias;
 mod comparison;

@@ -1,6 +1,6 @@
-//! Suite: the cases of `drape validate` with their names and titles.
+//! Suite: the cases of the validation with their names and titles.
 //!
-//! The command line runs a case by its name and shows its [`Outcome`]. A long case takes many
+//! A program runs a case by its name and shows its [`Outcome`]. A long case takes many
 //! minutes and runs only if a person asks for it.
 
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use crate::progress::Progress;
 /// Case of the suite.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// Name on the command line.
+    /// Name, by which a program runs the case.
     pub name: &'static str,
     /// Title, with the source of the reference.
     pub title: &'static str,

@@ -27,6 +27,7 @@ use self::pattern::{CheckedPattern, RefusedPattern};
 use self::start::Drawn;
 use crate::failure::Failure;
 use crate::input;
+use crate::remedy;
 use crate::say::{say, say_json};
 use drape::run::file::{self, FileKind};
 
@@ -222,7 +223,8 @@ impl CheckReport {
 
 /// Returns `mistake` as JSON, for editors.
 fn as_json(mistake: &Diagnostic) -> Value {
-    let Diagnostic { file, key, line, column, message, help, subject, edits, .. } = mistake;
+    let mistake = mistake.clone().in_words(remedy::in_words);
+    let Diagnostic { file, key, line, column, message, help, subject, edits, .. } = &mistake;
     let key = key.as_ref().map(ToString::to_string);
     let subject = subject.iter().flat_map(Subject::names);
     let subject: Map<String, Value> =

@@ -24,6 +24,7 @@ use crate::commands::check::proposal;
 use crate::console::signal;
 use crate::failure::Failure;
 use crate::input;
+use crate::remedy;
 use crate::say::{say, say_json};
 use drape::run::file::{self, FileKind};
 
@@ -156,7 +157,7 @@ fn check_location(path: &Path, scene: &Path, arguments: &RunArguments) -> Result
     let folders =
         AllowedFolders::new(scene.parent().unwrap_or(Path::new("")), &input::access().allowed);
     folders.check(path).map_err(|misplaced| {
-        let (path, help) = (path.display(), misplaced.help());
+        let (path, help) = (path.display(), misplaced.help().in_words(remedy::in_words));
         Failure::Usage(format!("{path}: {misplaced}; {help}, or name a folder with -o"))
     })
 }

@@ -55,7 +55,7 @@ fn a_layer_starts_two_centimetres_outside_of_the_one_below() {
         assert!(radii(&scene, "inner.front").iter().all(|r| (r - 0.08).abs() < 1e-12));
         assert!(radii(&scene, "outer.front").iter().all(|r| (r - radius).abs() < 1e-12));
         assert!(radii(&scene, "outer.back").iter().all(|r| (r - 0.1).abs() < 1e-12));
-        assert_eq!(scene.source.notes, [""; 0]);
+        assert_eq!(scene.source.note_lines(), [""; 0]);
     }
 }
 

@@ -118,9 +118,11 @@ const BETWEEN: char = '\0';
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::Reason(ValueError { message, help, meant }) = self else { return Ok(()) };
+        let Self::Reason(ValueError { message, help, intended_value }) = self else {
+            return Ok(());
+        };
         write!(f, "{message}{BETWEEN}{help}")?;
-        meant.as_ref().map_or(Ok(()), |meant| write!(f, "{BETWEEN}{meant}"))
+        intended_value.as_ref().map_or(Ok(()), |text| write!(f, "{BETWEEN}{text}"))
     }
 }
 
@@ -132,7 +134,7 @@ impl Refusal {
         }
         let mut parts = text.splitn(3, BETWEEN).map(str::to_owned);
         let (message, help) = (parts.next()?, parts.next()?);
-        Some(Self::Reason(ValueError { message, help, meant: parts.next() }))
+        Some(Self::Reason(ValueError { message, help, intended_value: parts.next() }))
     }
 }
 

@@ -110,13 +110,13 @@ impl<'a> Reader<'a> {
             }
             _ => format!("write {wanted}"),
         };
-        let meant = match &self.node.value {
+        let intended_value = match &self.node.value {
             Value::Text(text) if kind == ExpectedKind::Flag => {
                 switch(text).map(|on| on.to_string())
             }
             _ => None,
         };
-        self.correctable_fault(message, help, meant);
+        self.correctable_fault(message, help, intended_value);
     }
 
     /// Records a mistake in the value, with its `message` and the remedy `help`.
@@ -124,9 +124,9 @@ impl<'a> Reader<'a> {
         self.correctable_fault(message, help, None);
     }
 
-    /// Records a mistake in the value, with its `message` and the remedy `help`. `meant` is the
-    /// TOML text of the right value, if it is known.
-    fn correctable_fault(&self, message: String, help: String, meant: Option<String>) {
+    /// Records a mistake in the value, with its `message` and the remedy `help`. `intended_value`
+    /// is the TOML text of the right value, if it is known.
+    fn correctable_fault(&self, message: String, help: String, intended_value: Option<String>) {
         let mut state = self.state.borrow_mut();
         if let Some((path, address)) = self.path.keyed() {
             state.wrong.insert(address);
@@ -138,14 +138,14 @@ impl<'a> Reader<'a> {
 
         let key = self.path.text();
         let span = Some(self.node.span.clone());
-        let change = meant.map(Change::Value);
+        let change = intended_value.map(Change::Value);
         state.faults.push(Fault { span, key, message, help, change });
     }
 
     /// Records the mistake that `word` is none of `choices`.
     fn fault_of_choice(&self, word: &str, choices: &[&str]) {
-        let ValueError { message, help, meant } = unknown_word(word, choices);
-        self.correctable_fault(message, help, meant.as_deref().map(toml_string));
+        let ValueError { message, help, intended_value } = unknown_word(word, choices);
+        self.correctable_fault(message, help, intended_value.as_deref().map(toml_string));
     }
 
     /// Records that the value does not have the expected `kind`, and calls `visit` with a stand-in.
@@ -265,8 +265,8 @@ impl<'a> Reader<'a> {
                 } else {
                     format!("write {} or \"{}\"", examples[0], examples[1])
                 };
-                let meant = error.meant.map(|text| toml_string(&text));
-                self.correctable_fault(error.message, help, meant);
+                let intended_value = error.intended_value.map(|text| toml_string(&text));
+                self.correctable_fault(error.message, help, intended_value);
                 visitor.visit_f64(1.0)
             }
         }
@@ -546,9 +546,9 @@ impl<'de> SeqAccess<'de> for Answer<'_> {
         let nothing: UnitDeserializer<Stop> = ().into_deserializer();
         let reason = seed.deserialize(nothing).err().map(|stop| stop.to_string());
         match reason.as_deref().and_then(Refusal::from_text) {
-            Some(Refusal::Reason(ValueError { message, help, meant })) => {
-                let meant = meant.map(|text| toml_string(&text));
-                self.reader.correctable_fault(message, help, meant);
+            Some(Refusal::Reason(ValueError { message, help, intended_value })) => {
+                let intended_value = intended_value.map(|text| toml_string(&text));
+                self.reader.correctable_fault(message, help, intended_value);
             }
             _ => self.reader.fault_of_kind(ExpectedKind::Forms(self.forms)),
         }

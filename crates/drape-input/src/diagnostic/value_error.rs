@@ -10,5 +10,5 @@ pub struct ValueError {
     /// Remedy for the user.
     pub help: String,
     /// Text that was probably meant, if it is known.
-    pub meant: Option<String>,
+    pub intended_value: Option<String>,
 }

@@ -14,8 +14,8 @@ use crate::quoting::toml_key;
 pub struct Alias {
     /// Key path that the document has.
     pub written: String,
-    /// Key path that is meant.
-    pub meant: String,
+    /// Key path that the spelling stands for.
+    pub intended_key: String,
 }
 
 impl Document {
@@ -38,7 +38,7 @@ impl Document {
     /// that it means, one after the other, and the mistakes: values that are there twice. The value
     /// of the second alias of a key path is left out.
     ///
-    /// Key paths of the returned document are those that are meant. Its mistakes and edits have the
+    /// Key paths of the returned document are the intended ones. Its mistakes and edits have the
     /// key paths of the text.
     ///
     /// ```
@@ -49,7 +49,7 @@ impl Document {
     /// #[derive(serde::Deserialize)]
     /// struct Values { stiffness: f64 }
     ///
-    /// let alias = Alias { written: "stiffness_warp".into(), meant: "warp.stiffness".into() };
+    /// let alias = Alias { written: "stiffness_warp".into(), intended_key: "warp.stiffness".into() };
     /// let document = Document::new("sheet.toml", "stiffness_warp = 2");
     /// let (document, mistakes) = document.with_aliases(&[alias]);
     /// assert!(mistakes.is_empty());
@@ -62,18 +62,19 @@ impl Document {
     pub fn with_aliases(mut self, aliases: &[Alias]) -> (Self, Vec<Diagnostic>) {
         let mut content = self.content().clone();
         let mut mistakes = Vec::new();
-        for Alias { written, meant } in aliases {
+        for Alias { written, intended_key } in aliases {
             let text = written_path(&content.root, written);
             let Some(mut entry) = content.root.remove(written) else { continue };
             entry.written = Some(text.clone());
 
             // Of two values with one meaning the first one stays.
-            let (first, is_there) = (written_path(&content.root, meant), content.root.has(meant));
+            let (first, is_there) =
+                (written_path(&content.root, intended_key), content.root.has(intended_key));
             if is_there {
-                let reason = if first == *meant {
-                    format!("means {meant}, which is there too")
+                let reason = if first == *intended_key {
+                    format!("means {intended_key}, which is there too")
                 } else {
-                    format!("means {meant}, as {first} does")
+                    format!("means {intended_key}, as {first} does")
                 };
                 let help = match entry.node.value {
                     Value::Table(_) => "put the values into one table",
@@ -82,7 +83,7 @@ impl Document {
                 let mistake = self.placed(Some(entry.node.span), format!("{text}: {reason}"));
                 mistakes.push(Diagnostic { key: Some(text.as_str().into()), ..mistake.help(help) });
             } else {
-                content.root.insert(meant, entry);
+                content.root.insert(intended_key, entry);
             }
         }
         self.content = content.into();
@@ -180,7 +181,10 @@ mod tests {
     fn with_aliases(text: &str, aliases: &[(&str, &str)]) -> (Document, Vec<String>) {
         let aliases: Vec<Alias> = aliases
             .iter()
-            .map(|(written, meant)| Alias { written: (*written).into(), meant: (*meant).into() })
+            .map(|(written, intended_key)| Alias {
+                written: (*written).into(),
+                intended_key: (*intended_key).into(),
+            })
             .collect();
         let (document, mistakes) = Document::new("a.toml", text).with_aliases(&aliases);
         (document, mistakes.iter().map(ToString::to_string).collect())

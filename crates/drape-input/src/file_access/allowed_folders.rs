@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use crate::diagnostic::advice::Advice;
+use crate::diagnostic::remedy::Remedy;
 use crate::figure::excerpt;
 
 /// Longest name of a file or folder in common file systems, in bytes.
@@ -20,12 +22,12 @@ const PATH_MAX: usize = 4095;
 ///
 /// ```
 /// use std::path::Path;
-/// use drape_input::AllowedFolders;
+/// use drape_input::{AllowedFolders, Remedy};
 ///
 /// let folders = AllowedFolders::new(Path::new("src"), &[]);
 /// assert!(folders.check(Path::new("src/../Cargo.toml")).is_ok());
 /// let forbidden = folders.check(Path::new("../../../etc/passwd")).unwrap_err();
-/// assert!(forbidden.help().contains("--allow-path"));
+/// assert!(matches!(forbidden.help().remedy, Some(Remedy::AllowPath { .. })));
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct AllowedFolders {
@@ -88,18 +90,15 @@ impl AllowedFolders {
 }
 
 impl ForbiddenPath {
-    /// Returns the remedy for the user, which names `--allow-path` if that helps.
+    /// Returns the remedy for the user.
     #[must_use]
-    pub fn help(&self) -> String {
+    pub fn help(&self) -> Advice {
         match self {
-            Self::Outside { place, .. } => {
-                let place = shell(place);
-                format!("move it there, or allow it with --allow-path {place} (in Python allow=)")
-            }
+            Self::Outside { place, .. } => Remedy::AllowPath { place: place.clone() }.into(),
             Self::TooLong { .. } => {
-                format!("a name has up to {NAME_MAX} bytes, a path up to {PATH_MAX}")
+                format!("a name has up to {NAME_MAX} bytes, a path up to {PATH_MAX}").into()
             }
-            Self::Unresolved { .. } => "name a file itself in place of a link".to_owned(),
+            Self::Unresolved { .. } => "name a file itself in place of a link".into(),
         }
     }
 }
@@ -124,13 +123,6 @@ impl fmt::Display for ForbiddenPath {
 }
 
 impl std::error::Error for ForbiddenPath {}
-
-/// Returns `path` as a word of a shell, in quotes if the shell needs them.
-fn shell(path: &Path) -> String {
-    let text = path.display().to_string();
-    let is_plain = text.chars().all(|letter| letter.is_alphanumeric() || "/._-+,".contains(letter));
-    if is_plain { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
-}
 
 /// Checks that `path` and its longest name are not longer than common file systems allow.
 fn check_length(path: &Path) -> Result<(), ForbiddenPath> {
@@ -213,11 +205,5 @@ mod tests {
         let long = folders.check(&inner.join("x".repeat(5000))).expect_err("it is too long");
         assert!(long.to_string().len() < 300, "{long}");
         std::fs::remove_dir_all(&folder).expect("removed");
-    }
-
-    #[test]
-    fn paths_are_quoted_for_a_shell_where_they_need_that() {
-        let quoted = ["/a/b-1.toml", "my files/a", "it's"].map(|path| shell(Path::new(path)));
-        assert_eq!(quoted, ["/a/b-1.toml", "'my files/a'", r"'it'\''s'"]);
     }
 }

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 
+use crate::diagnostic::advice::Advice;
+use crate::diagnostic::remedy::Remedy;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::file_access::FileAccess;
 use crate::file_access::similar_file::missing_file_help;
@@ -11,13 +13,13 @@ use crate::file_access::similar_file::missing_file_help;
 /// Largest size of a kind of input file. The limit keeps a wrong path from filling the memory.
 ///
 /// ```
-/// use drape_input::{FileAccess, SizeLimit};
+/// use drape_input::{FileAccess, Remedy, SizeLimit};
 ///
 /// let (limit, usual) = (SizeLimit::new("tables", 1 << 20), FileAccess::default());
 /// assert!(limit.check(1 << 20, &usual).is_ok());
 /// let refused = limit.check(1 + (1 << 20), &usual).unwrap_err();
 /// assert_eq!(refused.to_string(), "the file has 1048577 bytes, more than 1048576");
-/// assert!(refused.help().ends_with("--raise-limits 2 reads it"));
+/// assert_eq!(refused.help().remedy, Some(Remedy::RaiseLimits { factor: 2 }));
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct SizeLimit {
@@ -101,14 +103,13 @@ impl SizeLimit {
 }
 
 impl TooLarge {
-    /// Returns the remedy for the user, which names `--raise-limits`.
+    /// Returns the remedy for the user.
     #[must_use]
-    pub fn help(&self) -> String {
+    pub fn help(&self) -> Advice {
         let Self { kind, bytes, usual, .. } = self;
         let factor = bytes.div_ceil(*usual.max(&1));
-        format!(
-            "{kind} are seldom so large: is this the right file? --raise-limits {factor} reads it"
-        )
+        let question = format!("{kind} are seldom so large: is this the right file?");
+        Advice::from(question).with(Remedy::RaiseLimits { factor })
     }
 }
 
@@ -123,7 +124,7 @@ impl std::error::Error for TooLarge {}
 
 #[cfg(test)]
 mod tests {
-    use crate::{Document, FileAccess};
+    use crate::{Document, FileAccess, Remedy};
 
     #[test]
     fn a_file_larger_than_its_kind_is_answered_with_its_size_and_the_limit() {
@@ -135,7 +136,7 @@ mod tests {
         std::fs::remove_file(&path).expect("it was just written");
         let mistake = read.expect_err("it is too large").0.remove(0);
         assert_eq!(mistake.message, "the file has 1048577 bytes, more than 1048576");
-        assert!(mistake.help.is_some_and(|help| help.ends_with("--raise-limits 2 reads it")));
+        assert_eq!(mistake.remedy, Some(Remedy::RaiseLimits { factor: 2 }));
         assert_eq!(raised.map(|document| document.text().len()), Ok((1 << 20) + 1));
     }
 }

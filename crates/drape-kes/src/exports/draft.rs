@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostic, Document, FileAccess, toml_string};
+use drape_input::{Diagnostic, Document, FileAccess, Remedy, toml_string};
 
 use crate::error::Error;
 use crate::exports::contents::FileContents;
@@ -163,9 +163,8 @@ impl SheetDraft {
                 Some(fabric) => format!("there is no fabric \"{fabric}\" in it"),
                 None => "it holds several fabrics".to_owned(),
             };
-            let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-            let help = format!("name one of {} by --fabric (in Python fabric=)", names.join(", "));
-            Error::Input(Diagnostic::new(path, message).help(help).into())
+            let remedy = Remedy::ChooseFabric { names };
+            Error::Input(Diagnostic::new(path, message).help(remedy).into())
         })
     }
 
@@ -215,7 +214,7 @@ impl SheetDraft {
         let value_lines = value_lines(&convert(values), files);
         let head = format!(
             "# Sheet of {}, drafted by drape. Everything detected is a key\n\
-             # with its reason: correct what is wrong. `drape check` reads it, `drape fit` fits it.\n\
+             # with its reason: correct what is wrong, then fit a fabric to it.\n\
              name = {}\n# source = \"who measured it, when, under which licence\"\n",
             single_line(&files.title),
             toml_string(&name)

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Quantity, parse_unit, toml_string};
+use drape_input::{Diagnostic, Quantity, Remedy, parse_unit, toml_string};
 
 use crate::curves::curve::Curve;
 use crate::exports::curve_draft::{CurveDraft, Key};
@@ -585,6 +585,7 @@ impl Series {
 pub(crate) fn describe_mistake(mistake: &Diagnostic) -> String {
     let line = mistake.line.filter(|_| !mistake.file.ends_with("sheet.toml"));
     let line = line.map_or(String::new(), |line| format!("line {line}: "));
-    let help = mistake.help.as_deref().map_or(String::new(), |help| format!(" ({help})"));
+    let mistake = mistake.clone().in_words(Remedy::to_string);
+    let help = mistake.help.map_or(String::new(), |help| format!(" ({help})"));
     format!("{line}{}{help}", mistake.message)
 }

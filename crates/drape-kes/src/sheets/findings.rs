@@ -1,7 +1,7 @@
 //! Errors and warnings about one sheet, collected while it is read.
 
 use crate::scatter::OtherScatter;
-use drape_input::{Diagnostic, Diagnostics, Document, Faults, ValueError, toml_string};
+use drape_input::{Advice, Diagnostic, Diagnostics, Document, Faults, ValueError, toml_string};
 
 /// File being read, with the errors and warnings so far.
 pub(crate) struct Findings<'t> {
@@ -48,7 +48,7 @@ impl<'t> Findings<'t> {
 
     /// Adds an error about the value at the key path `key`, with its remedy `help`. Nothing is
     /// added about a value that was left out.
-    pub(crate) fn error(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+    pub(crate) fn error(&mut self, key: &str, message: impl Into<String>, help: impl Into<Advice>) {
         if !self.faults.cover(key) {
             self.errors.push(self.document.at(key, message).help(help));
         }
@@ -56,13 +56,14 @@ impl<'t> Findings<'t> {
 
     /// Adds the error that the text at the key path `key` is wrong for the reason `error`.
     pub(crate) fn refuse(&mut self, key: &str, error: ValueError) {
-        let ValueError { message, help, meant } = error;
-        let edit = meant.and_then(|meant| self.document.edit(key, Some(&toml_string(&meant))));
+        let ValueError { message, help, intended_value } = error;
+        let edit =
+            intended_value.and_then(|text| self.document.edit(key, Some(&toml_string(&text))));
         self.errors.push(self.document.at(key, message).help(help).with_edits(edit));
     }
 
     /// Adds a warning about the value at the key path `key`, with its remedy `help`.
-    pub(crate) fn warn(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+    pub(crate) fn warn(&mut self, key: &str, message: impl Into<String>, help: impl Into<Advice>) {
         self.warnings.push(self.document.at(key, message).help(help));
     }
 

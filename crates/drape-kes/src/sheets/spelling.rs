@@ -53,10 +53,10 @@ pub(crate) fn with_known_keys(mut document: Document) -> (Document, Vec<Diagnost
     (document, mistakes)
 }
 
-/// Returns the alias of the key path `meant`, which `document` writes as `written`; `None` if both
-/// are equal.
-fn alias(written: String, meant: String) -> Option<Alias> {
-    (written != meant).then_some(Alias { written, meant })
+/// Returns the alias of the key path `intended_key`, which `document` writes as `written`; `None`
+/// if both are equal.
+fn alias(written: String, intended_key: String) -> Option<Alias> {
+    (written != intended_key).then_some(Alias { written, intended_key })
 }
 
 /// Returns the aliases of the tables of both directions in `document`.

@@ -14,7 +14,7 @@ mod slit;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use drape_input::{Diagnostic, Diagnostics, Document, closest};
+use drape_input::{Diagnostic, Diagnostics, Document, Remedy, closest};
 
 use self::entities::{Block, Contents, Form, contents, field, layer};
 use self::pairs::pairs;
@@ -22,7 +22,7 @@ use self::piece::Reader;
 use super::fit::CHORDS;
 use super::request::Request;
 use super::size::Doubt;
-use super::unit::Unit;
+use super::unit::{DXF_UNITS, Unit};
 use crate::edge::control_extent;
 use crate::note::PatternNote;
 use crate::pattern::Pattern;
@@ -176,11 +176,8 @@ fn unknown_unit(document: &Document, pieces: &[&Block]) -> Diagnostics {
         10.0 * size,
         25.4 * size
     );
-    let help = format!(
-        "say it: drape convert {} --unit mm (or cm, in), or unit = \"mm\" in the [from] of a pattern",
-        document.path().display()
-    );
-    Diagnostic::new(document.path(), message).help(help).into()
+    let remedy = Remedy::StateUnit { file: document.path().to_owned(), units: DXF_UNITS };
+    Diagnostic::new(document.path(), message).help(remedy).into()
 }
 
 /// Larger side of the bounding box of `block`, in the unit of the file.
@@ -231,12 +228,9 @@ fn pieces_of_size<'a>(
         }
         (None, _) => {
             let message = format!("the pieces are in several sizes: {list}");
-            let help = format!(
-                "choose one: drape convert {} --size {}",
-                document.path().display(),
-                sizes.first().map_or("", String::as_str)
-            );
-            return Err(Diagnostic::new(document.path(), message).help(help).into());
+            let size = sizes.first().cloned().unwrap_or_default();
+            let remedy = Remedy::ChooseSize { file: document.path().to_owned(), size };
+            return Err(Diagnostic::new(document.path(), message).help(remedy).into());
         }
     };
 

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use drape_input::{Diagnostic, Diagnostics, Document, closest};
+use drape_input::{Advice, Diagnostic, Diagnostics, Document, closest};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -118,7 +118,7 @@ pub(crate) fn read(document: &Document, sketch: &mut Sketch) -> Result<Pattern, 
 
 impl Reader<'_> {
     /// Adds the mistake `message` with the remedy `help`.
-    fn fail(&mut self, message: impl Into<String>, help: impl Into<String>) {
+    fn fail(&mut self, message: impl Into<String>, help: impl Into<Advice>) {
         self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
     }
 

@@ -1,6 +1,6 @@
 //! Sizes of panels that no garment has. They come from lengths that were read in a wrong unit.
 
-use drape_input::{Diagnostic, Document, Subject, toml_string};
+use drape_input::{Diagnostic, Document, Remedy, Subject, toml_string};
 
 use super::request::Request;
 use super::unit::Unit;
@@ -121,15 +121,11 @@ impl Doubt {
         &self,
         document: &Document,
         request: &Request,
-        taken: &str,
+        taken: &'static str,
     ) -> Diagnostic {
         let word = self.likely.word();
-        let path = document.path().display();
-        let help = format!(
-            "say the unit: drape convert {path} --unit {word}, or --unit {taken} if the size is meant; or unit = \
-             \"{word}\" in the [from] of a pattern"
-        );
-        let mistake = Diagnostic::new(document.path(), self.note().to_string()).help(help);
+        let remedy = Remedy::ConfirmUnit { file: document.path().to_owned(), likely: word, taken };
+        let mistake = Diagnostic::new(document.path(), self.note().to_string()).help(remedy);
         let mistake = mistake.about(Subject::Panel(self.panel.clone()));
         mistake.with_edits(request.edit("unit", &toml_string(word)))
     }

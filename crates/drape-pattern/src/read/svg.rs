@@ -15,7 +15,7 @@ mod scale;
 mod shapes;
 mod style;
 
-use drape_input::{Diagnostic, Diagnostics, Document, Subject};
+use drape_input::{Advice, Diagnostic, Diagnostics, Document, Remedy, Subject};
 
 use self::folds::{FoldMark, fold_marks};
 use self::scale::scale;
@@ -27,7 +27,7 @@ use super::marks::{Outline, add_notch, grain_angle, outlines, unfold_beside};
 use super::request::Request;
 use super::size::{Doubt, wrong_size};
 use super::toml_file;
-use super::unit::Unit;
+use super::unit::{SVG_UNITS, Unit};
 use crate::edge::{Edge, control_box, distance_from_segment};
 use crate::note::PatternNote;
 use crate::panel::Panel;
@@ -96,9 +96,10 @@ pub(crate) fn read(
             "the drawing has no closed shape of 20 mm or more; its largest shape is {:.1} mm: {scale_reason}",
             1e3 * largest
         );
-        let help = "close the outlines of the panels, and convert clones to paths; if the unit is \
-                    wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
-        return Err(fail(&message, help));
+        let file = document.path().to_owned();
+        let help = Advice::from("close the outlines of the panels, and convert clones to paths")
+            .with(Remedy::CorrectUnit { file, units: SVG_UNITS });
+        return Err(Diagnostic::new(document.path(), message).help(help).into());
     }
     reader.pattern(panels, &tree, request)
 }
@@ -299,9 +300,9 @@ impl Reader<'_> {
             }
         };
         if let Some(mistake) = wrong_size(&panel) {
-            let help =
-                "if the unit is wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
-            let answer = diagnostic(self.document, &mistake).help(help);
+            let file = self.document.path().to_owned();
+            let remedy = Remedy::CorrectUnit { file, units: SVG_UNITS };
+            let answer = diagnostic(self.document, &mistake).help(remedy);
             self.mistakes.push(Diagnostic { line, ..answer });
         }
         match grain {

@@ -17,6 +17,12 @@ const UNITS: [Unit; 6] = [
     Unit { word: "px", metres: 0.0254 / 96.0 },
 ];
 
+/// Units that a remedy offers for a DXF file, of which the first is the most usual.
+pub(crate) const DXF_UNITS: &[&str] = &["mm", "cm", "in"];
+
+/// Units that a remedy offers for an SVG drawing, of which the first is the most usual.
+pub(crate) const SVG_UNITS: &[&str] = &["mm", "cm", "m", "in", "pt", "px"];
+
 impl Unit {
     /// Remedy for a word that is no unit.
     pub(crate) const HELP: &'static str =

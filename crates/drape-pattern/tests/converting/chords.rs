@@ -147,7 +147,7 @@ fn a_file_in_centimetres_that_says_metric_is_questioned() {
         &[
             "panel FRONT is 52 × 73 mm",
             "1 cm, the panel is 520 × 730 mm",
-            "--unit cm, or --unit mm",
+            "unit = \"cm\" in the [from]",
         ],
     );
     let right = read("shirt.dxf", &shirt("UNITS: CM"));

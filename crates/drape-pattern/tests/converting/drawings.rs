@@ -110,7 +110,7 @@ fn the_unit_of_a_drawing_is_detected_or_asked_for() {
                 "400 mm",
                 "141 mm",
                 "106 mm",
-                "--unit mm",
+                "unit = \"mm\" (or cm, m, in, pt, px)",
             ],
         );
         // The remedy.
@@ -134,7 +134,12 @@ fn the_unit_of_a_drawing_is_detected_or_asked_for() {
     refused(
         "d.svg",
         &drawing("width=\"6mm\" viewBox=\"0 0 600 500\""),
-        &["no closed shape of 20 mm", "largest shape is 4.0 mm", "6mm for 600 units", "--unit"],
+        &[
+            "no closed shape of 20 mm",
+            "largest shape is 4.0 mm",
+            "6mm for 600 units",
+            "if the unit is wrong",
+        ],
     );
     refused("d.svg", &drawing("viewBox=\"0 0 b\""), &["viewBox is", "0 0 210 297"]);
 }

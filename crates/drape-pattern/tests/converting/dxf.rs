@@ -101,7 +101,14 @@ fn what_a_dxf_does_not_say_is_asked_for() {
     refused(
         "a.dxf",
         &unknown,
-        &["does not say its unit", "\"A\"", "12 mm", "120 mm", "305 mm", "--unit mm"],
+        &[
+            "does not say its unit",
+            "\"A\"",
+            "12 mm",
+            "120 mm",
+            "305 mm",
+            "unit = \"mm\" (or cm, in)",
+        ],
     );
     let sizes: String = ["S", "M", "L"]
         .iter()
@@ -113,7 +120,7 @@ fn what_a_dxf_does_not_say_is_asked_for() {
         })
         .collect();
     let metric = text(1, "Units: METRIC");
-    refused("a.dxf", &file("", &sizes, &metric), &["several sizes: L, M, S", "--size L"]);
+    refused("a.dxf", &file("", &sizes, &metric), &["several sizes: L, M, S", "size = \"L\""]);
     let sample = read("a.dxf", &file("", &sizes, &(metric.clone() + &text(1, "Sample Size: M"))));
     assert!(sample.panels().len() == 1 && noted(&sample, "it is the sample size"));
     let folder = std::env::temp_dir().join(format!("drape-size-{}", std::process::id()));
@@ -145,7 +152,7 @@ fn what_a_dxf_does_not_say_is_asked_for() {
     refused(
         "a.dxf",
         &metric(&square(5.0)),
-        &["panel A is 5.0 × 5.0 mm", "--unit m, or --unit mm if the size is meant"],
+        &["panel A is 5.0 × 5.0 mm", "unit = \"m\" in the [from]", "\"mm\" if the size is meant"],
     );
     refused(
         "a.dxf",

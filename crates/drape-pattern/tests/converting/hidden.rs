@@ -187,7 +187,7 @@ fn sizes_that_no_garment_has_are_questioned_and_long_panels_are_not() {
         &[
             "panel front is 55 × 73 mm",
             "1 cm, the panel is 550 × 730 mm",
-            "--unit cm, or --unit mm",
+            "unit = \"cm\" in the [from]",
         ],
     );
     let folder = std::env::temp_dir().join(format!("drape-sizes-{}", std::process::id()));

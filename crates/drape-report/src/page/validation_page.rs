@@ -23,7 +23,7 @@ pub struct ValidationPage {
 /// Case of a validation.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ValidationCase {
-    /// Name on the command line.
+    /// Name, by which a program runs the case.
     pub name: String,
     /// Title.
     pub title: String,

@@ -1,15 +1,15 @@
-//! Kinds of files: the kind of a file by its ending, its first bytes or its keys, and the commands
-//! that take the file.
+//! Kinds of files: the kind of a file by its ending, its first bytes or its keys, and what can be
+//! done with a file of the kind.
 
 use std::fmt;
 use std::path::Path;
 
 use drape_frames::Recording;
-use drape_input::{Diagnostic, Diagnostics, Document, FileAccess};
+use drape_input::{Advice, Diagnostic, Diagnostics, Document, FileAccess, FilePurpose, Remedy};
 use drape_pattern::Pattern;
 use toml::{Table, Value};
 
-/// Kind of a file or folder that can be given to a command or a function.
+/// Kind of a file or folder that can be given to a program or a function.
 ///
 /// ```
 /// use drape_run::file::FileKind;
@@ -23,7 +23,7 @@ use toml::{Table, Value};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FileKind {
-    /// Scene, for `drape run`.
+    /// Scene, which is simulated.
     Scene,
     /// Fabric: laws in SI.
     Fabric,
@@ -136,8 +136,8 @@ impl FileKind {
         SHEET_KEYS.iter().any(has).then_some(Self::Sheet)
     }
 
-    /// Refuses a file or folder at `path` whose kind is not `wanted`. The message names its kind
-    /// and the command that takes it. A file without a known kind is not refused.
+    /// Refuses a file or folder at `path` whose kind is not `wanted`. The message names its kind,
+    /// and the remedy says what can be done with it. A file without a known kind is not refused.
     ///
     /// # Errors
     /// The file has another kind.
@@ -169,54 +169,37 @@ impl FileKind {
         match path.parent() {
             Some(folder) if self == Self::Run && path.is_file() => {
                 let message = format!("this is a file in the folder of a run, not {wanted}");
-                Diagnostic::new(path, message).help(self.remedy(folder))
+                Diagnostic::new(path, message).help(self.advice(folder))
             }
             _ => Diagnostic::new(path, format!("this is {self}, not {wanted}"))
-                .help(self.remedy(path)),
+                .help(self.advice(path)),
         }
     }
 
-    /// Returns the commands that take the file at `path` of this kind, as a sentence.
+    /// Returns what can be done with the file or folder at `path` of this kind.
     #[must_use]
-    pub fn remedy(self, path: &Path) -> String {
-        // A scene names the file of a sheet, not its folder.
-        let file = if path.is_dir() { path.join("sheet.toml") } else { path.to_owned() };
-        let (path, file) = (path.display().to_string(), file.display());
-        // Standard input is typed as a dash.
-        let path = if path.starts_with('<') { "-".into() } else { path };
+    pub fn advice(self, path: &Path) -> Advice {
+        let purpose = match self {
+            Self::Scene => FilePurpose::Scene,
+            Self::Fabric => FilePurpose::Fabric,
+            Self::Sheet => FilePurpose::Sheet,
+            Self::Pattern => FilePurpose::Pattern,
+            Self::Study => FilePurpose::Study,
+            Self::Drawing => FilePurpose::Drawing,
+            Self::Body => FilePurpose::Body,
+            Self::Table | Self::Workbook | Self::Archive => FilePurpose::Table,
+            Self::Run => FilePurpose::Run,
+            Self::Material => return "name the fabric.toml that it was written from".into(),
+            Self::Picture | Self::Page => return "name the file that it shows".into(),
+        };
 
-        match self {
-            Self::Scene => {
-                format!("`drape run {path}` simulates it, `drape check {path}` describes it")
-            }
-            Self::Fabric => format!(
-                "`drape fabric show {path}` shows it, `drape test {path}` tests specimens of it; a scene \
-                 names it: fabric.NAME.file = \"{path}\""
-            ),
-            Self::Sheet => format!(
-                "`drape fit {path}` fits a fabric to it, `drape check {path}` describes it; a scene names \
-                 it: fabric.NAME.file = \"{file}\""
-            ),
-            Self::Pattern => format!(
-                "`drape check {path}` says how it is cut; a scene sews it: [[garment]] pattern = \"{path}\""
-            ),
-            Self::Study => {
-                format!("`drape sweep run {path}` runs it, `drape check {path}` describes it")
-            }
-            Self::Drawing => {
-                format!("`drape convert {path} -o pattern.toml` makes a pattern of it")
-            }
-            Self::Body => format!(
-                "`drape check {path}` describes it; a scene names it: [[collider.mesh]] file = \"{path}\""
-            ),
-            Self::Table | Self::Workbook | Self::Archive => format!(
-                "`drape fit {path}` fits a fabric to it, `drape convert {path} -o sheet.toml` makes a sheet \
-                 of it"
-            ),
-            Self::Material => "name the fabric.toml that it was written from".into(),
-            Self::Run => format!("`drape view {path}` shows it, `drape check {path}` verifies it"),
-            Self::Picture | Self::Page => "name the file that it shows".into(),
-        }
+        // A scene names the file of a sheet, not its folder.
+        let named = if self == Self::Sheet && path.is_dir() {
+            path.join("sheet.toml")
+        } else {
+            path.to_owned()
+        };
+        Remedy::UseFile { path: path.to_owned(), named, purpose }.into()
     }
 }
 

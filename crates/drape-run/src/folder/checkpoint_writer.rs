@@ -8,7 +8,7 @@ use drape_dynamics::{Error, SavedSimulation};
 use drape_frames::SavedWriter;
 use drape_scene::Scene;
 
-use super::limits::Limits;
+use super::limits::{Limits, ReachedLimit};
 use super::options::RunOptions;
 use super::status::{Advance, StatusFile};
 
@@ -23,7 +23,7 @@ pub(super) struct CheckpointWriter {
     /// Time of the last checkpoint, or of the start.
     last: Instant,
     limits: Limits,
-    reached: Option<String>,
+    reached: Option<ReachedLimit>,
     status: StatusFile,
 }
 
@@ -56,9 +56,9 @@ impl CheckpointWriter {
         }
     }
 
-    /// Returns the limit that the run has `reached`, in words.
-    pub(super) fn reached(&self) -> Option<&str> {
-        self.reached.as_deref()
+    /// Returns the limit that the run has reached.
+    pub(super) fn reached(&self) -> Option<ReachedLimit> {
+        self.reached
     }
 
     /// Returns whether a checkpoint is due, which is every `every` seconds.

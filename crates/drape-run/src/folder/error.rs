@@ -9,16 +9,16 @@ use drape_input::Diagnostics;
 #[non_exhaustive]
 pub enum Error {
     /// Another run writes to the folder: wait, or give another folder.
-    #[error("another run is writing to {}; wait for its end, or give another folder with -o", folder.display())]
+    #[error("another run is writing to {}; wait for its end, or give another folder", folder.display())]
     Locked {
         /// The folder.
         folder: PathBuf,
     },
     /// The folder holds an interrupted run: continue the run, or allow it to be replaced.
     #[error(
-        "{place} holds a run that was interrupted; go on with `drape resume {place}`, or begin anew \
-         with --force",
-        place = folder.display()
+        "{} holds a run that was interrupted; go on with it as a `ResumableRun`, or begin anew with \
+         `RunOptions` that replace it",
+        folder.display()
     )]
     Interrupted {
         /// The folder.
@@ -26,7 +26,7 @@ pub enum Error {
     },
     /// The folder holds the run that the panels are graded by: give another folder.
     #[error(
-        "{} holds the run that grading.run names; give another folder with -o",
+        "{} holds the run that grading.run names; give another folder",
         folder.display()
     )]
     GradedBy {
@@ -34,7 +34,7 @@ pub enum Error {
         folder: PathBuf,
     },
     /// The run ends before its first step: give a later end.
-    #[error("--until {end}: a step takes {step} s already")]
+    #[error("the end of the run is at {end} s: a step takes {step} s already")]
     End {
         /// End of the run, in s.
         end: f64,
@@ -42,7 +42,7 @@ pub enum Error {
         step: f64,
     },
     /// No run was begun in the folder: name another folder.
-    #[error("{}: {reason}; a folder that `drape run` has begun has it", path.display())]
+    #[error("{}: {reason}; a folder in which a run was begun has it", path.display())]
     NotBegun {
         /// File of the request.
         path: PathBuf,
@@ -51,7 +51,7 @@ pub enum Error {
     },
     /// The run has reached its end: extend it.
     #[error(
-        "{}: the run has ended ({status}); go on beyond its end with --extend SECONDS",
+        "{}: the run has ended ({status}); extend it to go on beyond its end",
         folder.display()
     )]
     Ended {
@@ -63,7 +63,7 @@ pub enum Error {
     /// The run has failed: change its scene.
     #[error(
         "{}: the run has ended ({status}); it would end so again: change its scene, and run it anew \
-         with drape run --force",
+         with `RunOptions` that replace it",
         folder.display()
     )]
     Failed {

@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::Error;
 use super::checkpoint_writer::{CheckpointWriter, SavedRun};
 use super::goal::Goal;
+use super::limits::ReachedLimit;
 use super::lock::Lock;
 use super::options::{RunOptions, Watcher};
 use super::request::RunRequest;
@@ -46,6 +47,8 @@ pub struct EndedRun {
     pub summary: Summary,
     /// Cloth and bodies at the end.
     pub last: Snapshot,
+    /// Limit that ended the run, if one did.
+    pub limit: Option<ReachedLimit>,
     writer: CheckpointWriter,
     _lock: Lock,
 }
@@ -136,8 +139,9 @@ impl FolderRun {
         let FolderProgress { mut writer, last, frames, .. } = progress;
         let saved_frames = frames.save()?;
 
-        if let (Status::Interrupted, Some(limit)) = (&summary.status, writer.reached()) {
-            summary.reason = Some(limit.to_owned());
+        let limit = writer.reached().filter(|_| summary.status == Status::Interrupted);
+        if let Some(limit) = limit {
+            summary.reason = Some(limit.to_string());
         }
         // The summary says that the run has ended, so the summary is written after the last frame.
         // A run that is interrupted before repeats its last steps and reaches the same summary.
@@ -150,7 +154,7 @@ impl FolderRun {
         if let Some(frame) = last {
             at_end.positions = frame.cloth.into_flattened();
         }
-        Ok(EndedRun { summary, last: at_end, writer, _lock: lock })
+        Ok(EndedRun { summary, last: at_end, limit, writer, _lock: lock })
     }
 }
 

@@ -1,4 +1,4 @@
-//! Request of a run: its scene and options. `drape resume` creates the simulation from it again.
+//! Request of a run: its scene and options, from which a run that goes on creates its simulation.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub struct RunRequest {
     /// Whether the state is hashed after each step.
     #[serde(default)]
     pub state_hash: bool,
-    /// Keys of the scene that were set on the command line, each as KEY=VALUE.
+    /// Keys of the scene that were set beside its file, each as KEY=VALUE.
     #[serde(default)]
     pub set: Vec<String>,
 }

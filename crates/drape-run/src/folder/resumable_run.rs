@@ -10,7 +10,7 @@ use super::lock::Lock;
 use super::options::RunOptions;
 use super::request::{RunRequest, status_of};
 use drape_checkpoint::{Checkpoint, Store};
-use drape_input::Diagnostic;
+use drape_input::{Advice, Diagnostic, Remedy};
 use drape_scene::Scene;
 
 /// Run in a folder that is to continue.
@@ -101,8 +101,7 @@ fn check_identity(
         return Ok(());
     }
     let message = format!("since the run was begun this has changed: {}", changes.join(", "));
-    let help = "undo the change to go on, or run the scene anew with drape run --force, in Python with \
-                replace=True";
+    let help = Advice::from("undo the change to go on").with(Remedy::RunAnew);
     let mistake = Diagnostic::new(&scene.source.file, message).help(help);
     Err(Error::Input(mistake.into()))
 }

@@ -30,7 +30,8 @@ pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostic
         size_in_words(free),
         folder.display()
     );
-    let help = "name another folder with -o, or write fewer frames: a larger output.every or a larger spacing";
+    let help =
+        "name another folder, or write fewer frames: a larger output.every or a larger spacing";
     Err(Diagnostic::new(&scene.source.file, message).help(help).into())
 }
 

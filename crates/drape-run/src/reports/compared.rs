@@ -1,4 +1,4 @@
-//! Page of `drape fabric compare`: measured values of fabrics, with the values of their laws.
+//! Page of compared fabrics: measured values of fabrics, with the values of their laws.
 
 use drape_fabric::Fabric;
 use drape_fit::{FitSettings, fabric_values};

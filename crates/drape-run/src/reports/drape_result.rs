@@ -1,5 +1,4 @@
-//! Results of specimens on a drapemeter. `drape test --drape` stores the results, and a report
-//! shows them.
+//! Results of specimens on a drapemeter, which are stored as a file and shown by a report.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Page of `drape fabric show`: a fabric with the loops that an ideal instrument would draw.
+//! Page of a fabric: its laws with the loops that an ideal instrument would draw.
 
 use drape_fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,

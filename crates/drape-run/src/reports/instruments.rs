@@ -1,5 +1,5 @@
-//! Page of `drape test`: the loops of simulated specimens and of their laws overlaid, and their KES
-//! values.
+//! Page of tested specimens: the loops of simulated specimens and of their laws overlaid, and their
+//! KES values.
 
 use drape_fabric::Fabric;
 use drape_kes::{Curve, Direction, Test};

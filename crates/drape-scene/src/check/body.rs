@@ -5,7 +5,7 @@ mod shape_files;
 use std::path::{Path, PathBuf};
 
 use drape_collide::{Body, Mesh, Pose, Shape};
-use drape_input::figure;
+use drape_input::{Remedy, figure};
 
 use crate::check::checker::Checker;
 use crate::check::motion::rigid_motion;
@@ -172,20 +172,14 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Optio
         Err(error) => {
             let key = format!("collider.mesh[{index}].file");
             if !error.is_fault_of_surface() {
-                checker.fail_with(&key, &error);
+                checker.fail_mesh(&key, &error);
             } else if let Some(path) = path.filter(|path| checker.given(path).is_none()) {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
                 let named = file.file.file().unwrap_or_default();
                 let named = Path::new(named).with_file_name(format!("{stem}-repaired.obj"));
-                let help = format!(
-                    "`drape check {0}` shows all faults; `drape check {0} --repair {1}` mends \
-                         what is safe; then give file = {2:?}",
-                    path.display(),
-                    repaired.display(),
-                    named.display().to_string()
-                );
-                checker.fail(&key, error.to_string(), &help);
+                let remedy = Remedy::RepairMesh { mesh: path, repaired, named };
+                checker.fail(&key, error.to_string(), remedy);
             } else {
                 checker.fail(&key, error.to_string(), MEND_GIVEN);
             }
@@ -310,11 +304,11 @@ fn changing_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Op
             Some(CheckedBody { body, friction: common.friction, motion, motion_key: key, file })
         }
         Err(ShapeError::File(error)) => {
-            checker.fail_with(&key, &error);
+            checker.fail_mesh(&key, &error);
             None
         }
         Err(ShapeError::Misplaced(misplaced)) => {
-            checker.fail(&key, misplaced.to_string(), &misplaced.help());
+            checker.fail(&key, misplaced.to_string(), misplaced.help());
             None
         }
         Err(ShapeError::Mismatch(message)) => {

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use drape_collide::{MESH_BYTES_MAX, Triangulation, parse_mesh, read_mesh_within};
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Faults, SizeLimit, Subject, closest, excerpt, figure,
-    missing_file_help, similar_file, tidy, toml_key, toml_string,
+    Advice, Diagnostic, Diagnostics, Document, Faults, Remedy, SizeLimit, Subject, closest,
+    excerpt, figure, missing_file_help, similar_file, tidy, toml_key, toml_string,
 };
 
 use crate::check::documents::Documents;
@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
             return Some(path);
         }
         let located = self.document.beside(name);
-        located.map_err(|misplaced| self.fail(key, misplaced.to_string(), &misplaced.help())).ok()
+        located.map_err(|misplaced| self.fail(key, misplaced.to_string(), misplaced.help())).ok()
     }
 
     /// Document given along with the scene for a path.
@@ -101,7 +101,12 @@ impl<'a> Checker<'a> {
 
     /// Adds a mistake at a key, with a remedy, and returns its index. Of a value that could not be
     /// read nothing more is said.
-    pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: &str) -> usize {
+    pub(crate) fn fail(
+        &mut self,
+        key: &str,
+        message: impl Into<String>,
+        help: impl Into<Advice>,
+    ) -> usize {
         let index = self.mistakes.len();
         self.add(key, message.into(), |mistake| mistake.help(help));
         index
@@ -126,16 +131,21 @@ impl<'a> Checker<'a> {
     /// Adds the mistake that there is no file of a path, which the value of a key names.
     pub(crate) fn no_file(&mut self, key: &str, name: &str, path: &Path) {
         let message = format!("there is no file {}", path.display());
-        let index = self.fail(key, message, &missing_file_help(path));
+        let index = self.fail(key, message, missing_file_help(path));
         if let Some(near) = similar_file(path) {
             let near = Path::new(name).with_file_name(near);
             self.remedy(index, key, Some(&toml_string(&near.to_string_lossy())));
         }
     }
 
-    /// Adds a mistake at a key whose message says the remedy.
-    pub(crate) fn fail_with(&mut self, key: &str, error: &impl ToString) {
-        self.add(key, tidy(&error.to_string()), |mistake| mistake);
+    /// Adds a mistake at a key whose mesh cannot be read.
+    pub(crate) fn fail_mesh(&mut self, key: &str, error: &drape_collide::Error) {
+        self.add(key, tidy(&error.to_string()), |mistake| match error {
+            drape_collide::Error::FileTooLong { times, .. } => {
+                mistake.help(Remedy::RaiseLimits { factor: *times })
+            }
+            _ => mistake,
+        });
     }
 
     fn add(&mut self, key: &str, message: String, finish: impl FnOnce(Diagnostic) -> Diagnostic) {

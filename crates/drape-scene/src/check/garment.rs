@@ -293,7 +293,7 @@ fn pieces(
         Ok(cut) => return Some(cut),
         Err(Error::Pattern(mistakes)) => {
             for mistake in mistakes {
-                let index = checker.fail(&key, mistake.to_string(), &mistake.help());
+                let index = checker.fail(&key, mistake.to_string(), mistake.help());
                 mistake.subject().into_iter().for_each(|subject| checker.about(index, subject));
                 if let Some(spacing) = mistake.most_spacing() {
                     let spacing = format!("\"{} mm\"", figure_below(1e3 * spacing));

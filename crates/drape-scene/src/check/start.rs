@@ -11,7 +11,7 @@ mod stitches;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
-use drape_input::{Diagnostics, Subject, counted, tidy};
+use drape_input::{Advice, Diagnostics, Subject, counted, tidy};
 
 use crate::check::checker::Checker;
 use crate::error::{Error, Refused};
@@ -41,7 +41,7 @@ pub(crate) fn check_start(
     mut scene: Scene,
 ) -> Result<Scene, Box<Refused>> {
     let moved = leave_bodies(&mut scene);
-    scene.source.notes.extend(moved);
+    add_notes(&mut scene, moved);
     let PlaceReport { notes, advised } = check_places(checker, &scene);
     if advised {
         // A garment crosses bodies because its place is wrong. At the advised place it is clear of
@@ -52,14 +52,16 @@ pub(crate) fn check_start(
     }
 
     scene.source.contact_limits = contact_limits(&scene);
-    scene.source.notes.extend([body_notes(&scene), notes].concat());
+    let of_bodies = body_notes(&scene);
+    scene.source.notes.extend(of_bodies);
+    add_notes(&mut scene, notes);
 
     // Panels of a pattern that overlap by millimetres are moved apart, and the surfaces are then
     // made again from the new positions.
     let mut surfaces = surfaces(checker, &scene)?;
     let parted = surfaces.as_mut().map(|surfaces| part_panels(&mut scene, surfaces));
     if let Some(moved) = parted.filter(|moved| !moved.is_empty()) {
-        scene.source.notes.extend(moved);
+        add_notes(&mut scene, moved);
         surfaces = self::surfaces(checker, &scene)?;
     }
 
@@ -74,15 +76,14 @@ pub(crate) fn check_start(
 
     // Notes on a tangled start would repeat its mistake in other words.
     if tangle.is_none() {
-        let notes = [
-            stitches_through_bodies(&scene),
-            stitches_through_panels(&scene),
-            girth_and_ease_notes(&scene),
-        ]
-        .concat();
-        scene.source.notes.extend(notes);
-        let notes = check_layers(checker, &scene);
-        scene.source.notes.extend(notes);
+        let through_bodies = stitches_through_bodies(&scene);
+        add_notes(&mut scene, through_bodies);
+        let through_panels = stitches_through_panels(&scene);
+        scene.source.notes.extend(through_panels);
+        let girths = girth_and_ease_notes(&scene);
+        add_notes(&mut scene, girths);
+        let layers = check_layers(checker, &scene);
+        add_notes(&mut scene, layers);
     }
 
     let Err(mistakes) = checker.finish() else { return Ok(scene) };
@@ -97,6 +98,11 @@ pub(crate) fn check_start(
         None => Error::Input(mistakes),
     };
     Err(Refused::with(error, scene))
+}
+
+/// Adds `notes` without a remedy to the notes on `scene`.
+fn add_notes(scene: &mut Scene, notes: Vec<String>) {
+    scene.source.notes.extend(notes.into_iter().map(Advice::from));
 }
 
 /// Returns notes on garments of `scene` that are narrower than the body that they go round. Only

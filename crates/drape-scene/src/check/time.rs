@@ -111,7 +111,7 @@ pub(crate) fn refinement(checker: &mut Checker<'_>) {
     }
     if refine.spacings.len() > GRIDS_MAX {
         let message = format!("{} coarser grids", refine.spacings.len());
-        checker.fail(REFINE, message, &format!("name {GRIDS_MAX} at most, such as [0.02]"));
+        checker.fail(REFINE, message, format!("name {GRIDS_MAX} at most, such as [0.02]"));
         return;
     }
     let finest = checker.spec.spacings()[0].value;

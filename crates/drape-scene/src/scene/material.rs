@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape_fabric::Fabric;
-use drape_input::{Diagnostic, Diagnostics, Document, FileAccess};
+use drape_input::{Diagnostic, Diagnostics, Document, FileAccess, Remedy};
 
 use crate::scene::model::Model;
 
@@ -45,8 +45,8 @@ pub fn read_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
         return Fabric::from_document(&document);
     }
     let message = "the file has no laws of a fabric (density, shear)";
-    let help = "if it is a sheet of measurements, fit it with `drape fit SHEET -o fabric.toml`, and name fabric.toml here";
-    Err(Diagnostic::new(request.file, message).help(help).into())
+    let remedy = Remedy::FitSheet { sheet: request.file.to_owned() };
+    Err(Diagnostic::new(request.file, message).help(remedy).into())
 }
 
 /// Returns whether a document is a fabric: it has laws where a sheet has values.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use drape_input::{Document, excerpt, figure};
+use drape_input::{Advice, Document, Remedy, excerpt, figure};
 use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 
@@ -104,12 +104,12 @@ pub(crate) struct SampledNumber {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct CovarianceError {
     pub(crate) message: String,
-    pub(crate) help: String,
+    pub(crate) help: Advice,
 }
 
 impl CovarianceError {
     /// Returns the error with the given `message` and the remedy `help`.
-    fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+    fn new(message: impl Into<String>, help: impl Into<Advice>) -> Self {
         Self { message: message.into(), help: help.into() }
     }
 }
@@ -124,15 +124,14 @@ impl Covariance {
         fabric: &Document,
         keys: Option<&[String]>,
     ) -> Result<Self, CovarianceError> {
-        let refit = "write it with `drape fit SHEET -o FABRIC.toml`, from a sheet with curves or with \
-                     standard deviations";
+        let refit = || Remedy::FitWithErrors { fabric: fabric.path().to_owned() };
         let file = fabric.path().display();
         let FabricNumbers { provenance, laws } = fabric
             .decode()
-            .map_err(|mistakes| CovarianceError::new(format!("{file}: {mistakes}"), refit))?;
+            .map_err(|mistakes| CovarianceError::new(format!("{file}: {mistakes}"), refit()))?;
         let FitErrors { standard_errors: errors, correlations } = provenance;
         if errors.is_empty() {
-            return Err(CovarianceError::new(format!("{file} has no standard errors"), refit));
+            return Err(CovarianceError::new(format!("{file} has no standard errors"), refit()));
         }
 
         let known: Vec<&String> =
@@ -391,7 +390,7 @@ stiffness = 30.0
         let fabric = Document::new("fabric.toml", text);
         let error = Covariance::read(&fabric, None).expect_err("it is wide");
         assert!(error.message.contains("warp.bending.rigidity of fabric.toml"), "{error:?}");
-        let list = error.help.split_once("keys = ").expect("a list").1;
+        let list = error.help.text.split_once("keys = ").expect("a list").1;
         let keys: Vec<String> = serde_json::from_str(list).expect("a list of texts");
         assert_eq!(keys.len(), 4);
         assert!(Covariance::read(&fabric, Some(&keys)).is_ok());
@@ -400,6 +399,7 @@ stiffness = 30.0
         assert!(error.message.contains("no standard error of"), "{error:?}");
         let bare = Document::new("bare.toml", "name = \"a\"\n");
         let error = Covariance::read(&bare, None).expect_err("it has none");
-        assert!(error.help.contains("drape fit SHEET -o FABRIC.toml"), "{error:?}");
+        let fabric = "bare.toml".into();
+        assert_eq!(error.help.remedy, Some(Remedy::FitWithErrors { fabric }));
     }
 }

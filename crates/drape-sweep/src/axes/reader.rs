@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_input::{
-    Diagnostic, Document, Setting, SettingError, excerpt, missing_file_help, toml_key, toml_string,
+    Advice, Diagnostic, Document, Setting, SettingError, excerpt, missing_file_help, toml_key,
+    toml_string,
 };
 
 use crate::axes::covariance::{Covariance, CovarianceError};
@@ -27,7 +28,7 @@ pub(crate) struct Reader<'a> {
 
 impl Reader<'_> {
     /// Records a mistake at the key path `key` of the study.
-    pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+    pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<Advice>) {
         self.mistakes.push(self.document.at(key, message).help(help));
     }
 
@@ -212,12 +213,17 @@ impl Reader<'_> {
         if !path.is_file() {
             return Err(CovarianceError {
                 message: format!("there is no {}", path.display()),
-                help: missing_file_help(&path),
+                help: missing_file_help(&path).into(),
             });
         }
-        Document::read_with(&path, self.document.access()).map_err(|mistakes| CovarianceError {
-            message: mistakes.to_string(),
-            help: "name a fabric.toml".into(),
+        Document::read_with(&path, self.document.access()).map_err(|mistakes| {
+            let remedy = mistakes.0.iter().find_map(|mistake| mistake.remedy.clone());
+            let messages: Vec<String> =
+                mistakes.0.into_iter().map(|mistake| mistake.message).collect();
+            CovarianceError {
+                message: format!("{}: {}", path.display(), messages.join("; ")),
+                help: Advice { text: "name a fabric.toml".into(), remedy },
+            }
         })
     }
 

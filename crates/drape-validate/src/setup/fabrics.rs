@@ -1,5 +1,4 @@
-//! Shipped fabrics of the suite: results of `drape fit` for sheets in the folder `fabrics` of the
-//! workspace.
+//! Shipped fabrics of the suite: fits to the sheets in the folder `fabrics` of the workspace.
 
 use drape_fabric::Fabric;
 use drape_input::Document;

@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::collide::{
-    FaultPlaces, Mesh, MeshInspection, RepairSettings, Triangulation, read_mesh_within, repair,
+    Error, FaultPlaces, Mesh, MeshInspection, RepairSettings, Triangulation, read_mesh_within,
+    repair,
 };
-use drape::input::{Diagnostic, Diagnostics, counted};
+use drape::input::{Diagnostic, Diagnostics, Remedy, counted};
 use drape::scene::MESH_LIMIT;
 
 use crate::failure::Failure;
@@ -50,8 +51,13 @@ struct ReadMesh {
 
 /// Reads the mesh at `path` and scales it to m.
 fn read(path: &Path, settings: BodySettings) -> Result<ReadMesh, Diagnostics> {
-    let mesh = read_mesh_within(path, MESH_LIMIT.bytes(input::access()))
-        .map_err(|error| Diagnostic::new(path, error.to_string()))?;
+    let mesh = read_mesh_within(path, MESH_LIMIT.bytes(input::access())).map_err(|error| {
+        let mistake = Diagnostic::new(path, error.to_string());
+        match error {
+            Error::FileTooLong { times, .. } => mistake.help(Remedy::RaiseLimits { factor: times }),
+            _ => mistake,
+        }
+    })?;
     let is_finite = mesh.vertices.iter().flatten().all(|x| x.abs() < 1e9);
     if mesh.triangles.is_empty() || !is_finite {
         let message = "the mesh has no triangles, or coordinates that are no positions";

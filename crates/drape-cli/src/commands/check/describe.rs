@@ -20,6 +20,7 @@ use super::pattern::CheckedPattern;
 use super::values;
 use crate::commands::sheets::{self, drafted};
 use crate::input;
+use crate::remedy;
 
 /// Kinds of files that `drape check` describes.
 const CHECKED: [FileKind; 7] = [
@@ -187,6 +188,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
     scene.bodies.iter().for_each(|moving| text += &body(moving));
     let _ = writeln!(text, "  {}", describe_needs(&scene.needs()));
     scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(|note| {
+        let note = note.in_words(remedy::in_words);
         let _ = writeln!(text, "  note: {note}");
     });
     scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));

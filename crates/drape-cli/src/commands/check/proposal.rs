@@ -15,6 +15,7 @@ use indicatif::ProgressBar;
 use crate::console::progress::bar;
 use crate::console::signal;
 use crate::input;
+use crate::remedy;
 
 /// Spacing of the cloth of a trial, in m. At this spacing a shirt is sewn in some seconds.
 const SPACING: f64 = 0.03;
@@ -59,6 +60,7 @@ fn proposed_center(mistake: &Diagnostic) -> Option<&Edit> {
 /// removed, because it is no remedy.
 fn with_outcome(mistake: Diagnostic, edit: &Edit, outcome: Option<&TrialOutcome>) -> Diagnostic {
     let center = edit.new.as_deref().unwrap_or_default();
+    let mistake = mistake.in_words(remedy::in_words);
     let proposal = mistake.help.clone().unwrap_or_default();
     let help = match outcome {
         None => {

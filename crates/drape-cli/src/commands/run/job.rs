@@ -19,6 +19,7 @@ use crate::console::signal;
 use crate::failure::Failure;
 use crate::pages::picture::{self, SnapshotPictures};
 use crate::pages::strain_map::draw_strains;
+use crate::remedy;
 use crate::say::{say, say_written};
 use drape::run::file;
 
@@ -84,7 +85,11 @@ impl Job<'_> {
         } else {
             draw(&FinalView { view, is_garment }, &ended, folder)?
         };
-        let summary = ended.close();
+        let limit = ended.limit;
+        let mut summary = ended.close();
+        if let Some(limit) = limit {
+            summary.reason = Some(remedy::limit_in_words(limit));
+        }
         if !options.json {
             say(describe(&summary))?;
             for warning in &summary.warnings {
@@ -162,5 +167,6 @@ fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
 
 /// Prints the notes on `scene`, and the limits of contact in it.
 fn print_notes(scene: &Scene) {
-    scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(note);
+    let notes = scene.source.notes.iter().chain(&scene.source.contact_limits);
+    notes.for_each(|advice| note(advice.in_words(remedy::in_words)));
 }

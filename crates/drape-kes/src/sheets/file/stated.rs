@@ -119,5 +119,5 @@ fn is_deviation(stated: f64) -> bool {
 
 /// Returns the refusal with `message` and the remedy `help`.
 pub(crate) fn refusal(message: impl Into<String>, help: impl Into<String>) -> Refusal {
-    Refusal::Reason(ValueError { message: message.into(), help: help.into(), meant: None })
+    Refusal::Reason(ValueError { message: message.into(), help: help.into(), intended_value: None })
 }

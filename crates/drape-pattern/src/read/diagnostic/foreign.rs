@@ -52,7 +52,7 @@ const FOREIGN: [ForeignFormat; 11] = [
     ForeignFormat {
         endings: &["rul"],
         content: "the grade rules that belong to a DXF file, without its pieces",
-        help: "name the *.dxf file beside it; one size of it is read with --size",
+        help: "name the *.dxf file beside it, which has the pieces in all sizes",
     },
     ForeignFormat {
         endings: &["plt", "hpg", "hpgl"],

@@ -1,6 +1,6 @@
 //! Panel of a piece: its sewing line, or its cut line, divided into edges at its corners.
 
-use drape_input::{Diagnostic, Document, Subject};
+use drape_input::{Advice, Diagnostic, Document, Remedy, Subject};
 
 use super::entities::{Block, Form, field, layer, texts};
 use super::slit::{close_slits, drop_specks};
@@ -12,7 +12,7 @@ use crate::read::diagnostic::diagnostic;
 use crate::read::fit::{TURN, fitted};
 use crate::read::marks::{add_notch, grain_angle, low_corner, says_on_fold, unfold};
 use crate::read::size::wrong_size;
-use crate::read::unit::Unit;
+use crate::read::unit::{DXF_UNITS, Unit};
 use crate::sketch::Sketch;
 use crate::write::as_written;
 
@@ -101,9 +101,9 @@ impl Reader<'_> {
         };
         if let Some(mistake) = wrong_size(&panel) {
             let unit = self.unit.word();
-            let help = format!(
-                "lengths were taken in {unit}; if that is wrong: drape convert … --unit mm (cm, m, in)"
-            );
+            let file = self.document.path().to_owned();
+            let help = Advice::from(format!("lengths were taken in {unit}"))
+                .with(Remedy::CorrectUnit { file, units: DXF_UNITS });
             let answer = diagnostic(self.document, &mistake).help(help);
             self.mistakes.push(answer.on_line(block.line));
         }

@@ -3,13 +3,13 @@
 
 use std::str::FromStr;
 
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, Remedy};
 use svgtypes::{Length, LengthUnit, ViewBox};
 
 use super::shapes::Shape;
 use crate::note::PatternNote;
 use crate::read::request::Request;
-use crate::read::unit::Unit;
+use crate::read::unit::{SVG_UNITS, Unit};
 
 /// Pixel of Inkscape before version 0.92, in m: 1/90 inch.
 const OLD_PIXEL: f64 = 0.0254 / 90.0;
@@ -193,9 +193,6 @@ fn ambiguous(document: &Document, shapes: &[Shape]) -> Diagnostics {
         "the drawing does not say how long its unit is: its largest shape, \"{name}\", is {size:.1} units, \
          which are {mm} if a unit is 1 mm, {point} if it is 1 pt (Illustrator), {pixel} if it is 1 px (CSS, Inkscape)"
     );
-    let help = format!(
-        "say it: drape convert {} --unit mm (or cm, m, in, pt, px), or unit = \"mm\" in the [from] of a pattern",
-        document.path().display()
-    );
-    Diagnostic::new(document.path(), message).help(help).into()
+    let remedy = Remedy::StateUnit { file: document.path().to_owned(), units: SVG_UNITS };
+    Diagnostic::new(document.path(), message).help(remedy).into()
 }

@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use drape_input::{
-    Diagnostic, Document, Edit, Faults, Given, Length, closest, figures, toml_key, toml_string,
+    Advice, Diagnostic, Document, Edit, Faults, Given, Length, closest, figures, toml_key,
+    toml_string,
 };
 
 use super::keys::{EdgeKeys, FoldKeys, PanelKeys};
@@ -54,7 +55,7 @@ impl<'a> Reader<'a> {
 
     /// Adds the mistake `message` with the remedy `help` at `key`, unless its value could not be
     /// read, which is a mistake already.
-    pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+    pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<Advice>) {
         self.fail_with(key, message, help, Vec::new());
     }
 
@@ -63,7 +64,7 @@ impl<'a> Reader<'a> {
         &mut self,
         key: &str,
         message: impl Into<String>,
-        help: impl Into<String>,
+        help: impl Into<Advice>,
         edits: Vec<Edit>,
     ) {
         if !self.faults.cover(key) {

@@ -144,7 +144,7 @@ fn check_value(
                 let Some(inner) = declaration.key(name) else { continue };
                 path.steps.push(KeyStep::Name(name.clone()));
                 if value.as_str() == Some("") && declaration.needs(name) {
-                    checker.fail(&path.to_string(), "is empty", &inner.sentence());
+                    checker.fail(&path.to_string(), "is empty", inner.sentence());
                 }
                 check_value(checker, path, value, &inner);
                 path.steps.pop();

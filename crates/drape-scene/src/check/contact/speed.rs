@@ -41,7 +41,7 @@ pub(crate) fn check_top_speed(checker: &mut Checker<'_>, most: f64) {
             figure(speed)
         );
         let most = figure_below(most);
-        let mistake = checker.fail(KEY, message, &format!("write {most} or less, in m/s"));
+        let mistake = checker.fail(KEY, message, format!("write {most} or less, in m/s"));
         checker.remedy(mistake, KEY, Some(&most));
     }
 }

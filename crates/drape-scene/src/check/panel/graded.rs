@@ -1,7 +1,7 @@
 //! Check of grading: panels whose particles are farther apart where the cloth is flat.
 
 use drape_cloth::{GradedPanel, Lattice};
-use drape_input::excerpt;
+use drape_input::{Remedy, excerpt};
 
 use crate::check::checker::Checker;
 use crate::grading::Grading;
@@ -16,9 +16,8 @@ pub(crate) fn grading(checker: &mut Checker<'_>) -> Option<Grading> {
     }
     let folder = checker.locate("grading.run", &entry.run)?;
     let read = Grading::read(&folder, entry.angle.to_radians());
-    let help = "run the scene without [grading] first, at a larger spacing and with a folder of its own: \
-                drape run SCENE --set spacing='\"10 mm\"' -o FOLDER";
-    read.map_err(|error| checker.fail("grading.run", error.to_string(), help)).ok()
+    let remedy = Remedy::RunWithoutGrading;
+    read.map_err(|error| checker.fail("grading.run", error.to_string(), remedy)).ok()
 }
 
 /// Returns a panel of a name with larger cells where its curvature allows them.

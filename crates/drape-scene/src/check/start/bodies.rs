@@ -3,7 +3,7 @@
 //! Holes, edges with more than two triangles, and triangles without area are refused when the mesh
 //! is read. What is said here does not keep a simulation from running.
 
-use drape_input::counted;
+use drape_input::{Advice, Remedy, counted};
 
 use crate::scene::{MeshSource, MovingBody, Scene};
 
@@ -11,7 +11,7 @@ use crate::scene::{MeshSource, MovingBody, Scene};
 const LYING: f64 = 1.5;
 
 /// Returns notes on the bodies of a scene that are meshes.
-pub(crate) fn body_notes(scene: &Scene) -> Vec<String> {
+pub(crate) fn body_notes(scene: &Scene) -> Vec<Advice> {
     let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing());
     let spacing = spacings.fold(f64::INFINITY, f64::min);
     let meshes = scene.bodies.iter().filter_map(|moving| Some((moving, moving.source.as_ref()?)));
@@ -19,9 +19,9 @@ pub(crate) fn body_notes(scene: &Scene) -> Vec<String> {
         .flat_map(|(moving, mesh)| {
             let worn = !scene.garments.is_empty();
             [
-                if worn { lying(moving, mesh) } else { None },
+                if worn { lying(moving, mesh).map(Advice::from) } else { None },
                 fine(moving, mesh, spacing),
-                coarse(moving, mesh, spacing),
+                coarse(moving, mesh, spacing).map(Advice::from),
             ]
         })
         .flatten()
@@ -29,23 +29,23 @@ pub(crate) fn body_notes(scene: &Scene) -> Vec<String> {
 }
 
 /// Returns what contact cannot promise on the bodies of a scene, a sentence each.
-pub(crate) fn contact_limits(scene: &Scene) -> Vec<String> {
+pub(crate) fn contact_limits(scene: &Scene) -> Vec<Advice> {
     let meshes = scene.bodies.iter().filter_map(|moving| Some((moving, moving.source.as_ref()?)));
     meshes.filter_map(|(moving, mesh)| crossing(moving, mesh)).collect()
 }
 
 /// Tells that a body passes through itself.
-fn crossing(moving: &MovingBody, mesh: &MeshSource) -> Option<String> {
+fn crossing(moving: &MovingBody, mesh: &MeshSource) -> Option<Advice> {
     let found = &mesh.inspection.intersections;
     let [x, y, z] = found.first.first()?;
     let places = counted(found.count, "edge", "edges");
-    Some(format!(
+    let note = format!(
         "body \"{}\" passes through its own surface with {places}, first near ({x:.3}, {y:.3}, {z:.3}) m: cloth is kept \
          off the surface, but it may be caught there, or come to lie inside the body; part the surfaces in a modelling \
-         program (`drape check {}` lists them)",
+         program",
         moving.body.name,
-        mesh.file.display()
-    ))
+    );
+    Some(Advice::from(note).with(Remedy::ListCrossings { mesh: mesh.file.clone() }))
 }
 
 /// Tells that a wearer lies.
@@ -61,20 +61,22 @@ fn lying(moving: &MovingBody, mesh: &MeshSource) -> Option<String> {
 }
 
 /// Tells that the triangles of a body are finer than cloth can see.
-fn fine(moving: &MovingBody, mesh: &MeshSource, spacing: f64) -> Option<String> {
+fn fine(moving: &MovingBody, mesh: &MeshSource, spacing: f64) -> Option<Advice> {
     mesh.inspection.is_too_fine(spacing).then(|| {
-        let file = mesh.file.display();
-        format!(
-            "body \"{}\" has {} triangles with edges of {:.2} mm, finer than cloth of {:.0} mm can see: they cost time; \
-             `drape check {file} --scale {} --spacing {} --repair {}` thins them",
+        let note = format!(
+            "body \"{}\" has {} triangles with edges of {:.2} mm, finer than cloth of {:.0} mm can see: they cost time",
             moving.body.name,
             mesh.inspection.triangles,
             1e3 * mesh.inspection.edge_lengths.median,
             1e3 * spacing,
-            mesh.scale,
-            1e3 * spacing,
-            mesh.file.with_extension("").display().to_string() + "-repaired.obj"
-        )
+        );
+        let stem = mesh.file.with_extension("").display().to_string();
+        Advice::from(note).with(Remedy::ThinMesh {
+            mesh: mesh.file.clone(),
+            scale: mesh.scale,
+            spacing,
+            thinned: format!("{stem}-repaired.obj").into(),
+        })
     })
 }
 

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use drape_collide::segment_meets_triangle;
+use drape_input::{Advice, Remedy};
 
 use crate::scene::Scene;
 use crate::scene::panel::Panel;
@@ -67,7 +68,7 @@ fn through(scene: &Scene, solids: &Solids<'_>, seam: &Seam) -> Option<String> {
 }
 
 /// Returns notes on the seams of a scene whose stitches lead through a panel that they do not sew.
-pub(crate) fn stitches_through_panels(scene: &Scene) -> Vec<String> {
+pub(crate) fn stitches_through_panels(scene: &Scene) -> Vec<Advice> {
     let Some(sewing) = &scene.sewing else { return Vec::new() };
     let sheets: Vec<Sheet<'_>> =
         scene.panels.iter().map(|panel| Sheet::new(scene, panel)).collect();
@@ -115,7 +116,7 @@ fn place(scene: &Scene, particle: u32) -> [f64; 3] {
 }
 
 /// Returns a note on a seam of which many stitches lead through a panel.
-fn through_panel(scene: &Scene, sheets: &[Sheet<'_>], seam: &Seam) -> Option<String> {
+fn through_panel(scene: &Scene, sheets: &[Sheet<'_>], seam: &Seam) -> Option<Advice> {
     let all = &seam.pairs.pairs;
     let sewn = |sheet: &&Sheet<'_>| {
         all.iter().flatten().any(|&particle| sheet.particles.contains(&(particle as usize)))
@@ -135,13 +136,13 @@ fn through_panel(scene: &Scene, sheets: &[Sheet<'_>], seam: &Seam) -> Option<Str
     }
     let [from, to] = crossing[crossing.len() / 2];
     let [x, y, z] = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
-    Some(format!(
+    let note = format!(
         "seam \"{}\": {} of {} stitches lead through the panel \"{}\" at the start, near ({x:.3}, {y:.3}, {z:.3}) m; \
-         move or turn panels so that nothing is between its sides (`drape check {} --figure place.png` shows them)",
+         move or turn panels so that nothing is between its sides",
         seam.name,
         crossing.len(),
         all.len(),
         sheet.name,
-        scene.source.file.display()
-    ))
+    );
+    Some(Advice::from(note).with(Remedy::ShowStart { scene: scene.source.file.clone() }))
 }

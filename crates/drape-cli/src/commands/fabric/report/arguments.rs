@@ -103,7 +103,7 @@ impl RecordArguments {
             ];
             for (key, text) in lines {
                 let Some(text) = text else { continue };
-                record.set(key, text).map_err(|mistake| Failure::Usage(mistake.to_string()))?;
+                record.set(key, text).map_err(|mistake| Failure::Usage(format!("--{mistake}")))?;
             }
             Ok(record)
         });
