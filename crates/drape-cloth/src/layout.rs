@@ -11,8 +11,8 @@
 //!
 //! `connectors` computes the areas. `columns` holds the arrays and reads them a batch at a time.
 //! `grid` is a panel in this form, `strip` a run of its points that is evaluated at once,
-//! `sparsity` the blocks of the stiffness matrix, `fingerprint` tells one cloth from another. `Cloth::new` builds all of it once, and `kernel`
-//! reads it.
+//! `sparsity` the blocks of the stiffness matrix, `fingerprint` tells one cloth from another.
+//! `Cloth::new` builds all of it once, and `kernel` reads it.
 
 pub(crate) mod columns;
 pub(crate) mod connectors;

@@ -24,9 +24,11 @@ mod sewing_tests;
 mod vertex_buffer;
 
 use std::collections::VecDeque;
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use drape_cloth::Interpolation;
 use drape_frames::{Frame, Manifest, Topology};
 use drape_implicit::{Report, Stop};
 use drape_scene::{Relaxation, Scene, Source};
@@ -117,7 +119,9 @@ pub struct Simulation {
 #[derive(Debug)]
 struct CoarserGrid {
     simulation: Box<Simulation>,
-    panels: Vec<coarser_grid::CoarserPanel>,
+    /// Indices of each panel's coordinates in the positions of the grid, and the interpolation of
+    /// the panel to the next grid.
+    panels: Vec<(Range<usize>, Interpolation)>,
 }
 
 /// Phases of a run.

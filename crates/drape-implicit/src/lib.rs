@@ -26,6 +26,7 @@ mod linear;
 mod nonlinear;
 
 // Settings and answers.
+mod check;
 mod error;
 mod report;
 mod settings;

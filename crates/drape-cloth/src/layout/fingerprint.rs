@@ -1,4 +1,4 @@
-//! Fingerprint of a cloth, which tells the states of one cloth from those of another.
+//! Fingerprint of a cloth, by which a cloth knows its states.
 
 /// Hash of the numbers that lay out a cloth or its seams, by the method FNV-1a \[FNV11\].
 ///

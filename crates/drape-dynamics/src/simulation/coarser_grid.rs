@@ -7,7 +7,6 @@
 //! coarser grid.
 
 use std::collections::VecDeque;
-use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -31,15 +30,6 @@ pub(super) const GROWTH_STEPS: f64 = 20.0;
 /// at the lines of the coarser grid, so the memories of friction are reset after each of these
 /// steps.
 const SMOOTHING_STEPS: usize = 3;
-
-/// Panel of a coarser grid.
-#[derive(Debug)]
-pub(super) struct CoarserPanel {
-    /// Indices of the panel's coordinates in the positions of the grid.
-    numbers: Range<usize>,
-    /// Interpolation to the next grid.
-    interpolation: Interpolation,
-}
 
 /// Cloth at rest on a coarser grid, interpolated to the particles of the next grid.
 struct CarriedCloth {
@@ -70,9 +60,9 @@ impl CoarserGrid {
         let grids = coarser.into_iter().zip(panels.windows(2)).map(|(mut scene, pair)| {
             scene.schedule.clock.end = end;
 
-            let panels = pair[0].iter().zip(&pair[1]).map(|(from, to)| CoarserPanel {
-                numbers: 3 * from.first..3 * from.particles().end,
-                interpolation: Interpolation::new(&from.lattice, &to.lattice),
+            let panels = pair[0].iter().zip(&pair[1]).map(|(from, to)| {
+                let numbers = 3 * from.first..3 * from.particles().end;
+                (numbers, Interpolation::new(&from.lattice, &to.lattice))
             });
             let panels = panels.collect();
             let mut simulation = Box::new(Simulation::with_scheme(scene, scheme.clone())?);
@@ -121,7 +111,7 @@ impl CoarserGrid {
         CarriedCloth {
             ticks: self.ticks(),
             positions: panels
-                .flat_map(|CoarserPanel { numbers, interpolation }| {
+                .flat_map(|(numbers, interpolation)| {
                     interpolation.apply(&positions[numbers.clone()]).expect(ALL_PARTICLES)
                 })
                 .collect(),

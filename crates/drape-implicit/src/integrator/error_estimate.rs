@@ -1,7 +1,8 @@
 //! Error estimate of a step, for callers that choose the step by its error.
 
 use super::formula::Formula;
-use super::state::{IntegratorState, check_step};
+use super::state::IntegratorState;
+use crate::check::check_step;
 use crate::error::Error;
 use crate::settings::Integrator;
 

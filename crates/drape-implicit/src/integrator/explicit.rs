@@ -1,7 +1,8 @@
 //! Explicit steps, as a cross-check of the implicit steps. Explicit steps do not use the solver.
 
 use super::path_work::{Path, PathWork};
-use super::state::{IntegratorState, Span, check_length, check_particles, check_step};
+use super::state::{IntegratorState, Span, check_particles};
+use crate::check::{check_length, check_step};
 use crate::error::{Error, Quantity};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::vector::first_not_finite;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::check::{check_length, check_step};
 use crate::error::Error;
 use crate::system::System;
 
@@ -103,16 +104,6 @@ impl IntegratorState {
         core::mem::swap(&mut self.velocities, velocities);
         self.time = span.end;
     }
-}
-
-/// Checks that the list called `name` has the `expected` length.
-pub(crate) fn check_length(name: &'static str, expected: usize, found: usize) -> Result<(), Error> {
-    if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
-}
-
-/// Checks that the length `dt` of a step, in s, is positive and finite.
-pub(crate) fn check_step(dt: f64) -> Result<(), Error> {
-    if dt > 0.0 && dt.is_finite() { Ok(()) } else { Err(Error::StepLength { dt }) }
 }
 
 /// Checks that `system` has the number of `particles`, with a positive, finite mass each.

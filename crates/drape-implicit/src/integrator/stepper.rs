@@ -1,8 +1,9 @@
 //! Stepper: checks the input, divides a step into sub-steps and attempts each sub-step.
 
-use super::state::{IntegratorState, Span, check_length, check_particles, check_step};
+use super::state::{IntegratorState, Span, check_particles};
 use super::step_control::StepControl;
 use super::sub_step::SubStepper;
+use crate::check::{check_length, check_step};
 use crate::error::{Error, Quantity};
 use crate::linear::system_matrix::SystemMatrix;
 use crate::linear::vector::first_not_finite;
@@ -66,8 +67,8 @@ impl Stepper {
     /// Checks `settings` and allocates a stepper for `system`.
     ///
     /// # Errors
-    /// [`Error::Setting`], [`Error::Dimension`], [`Error::MaterialPoint`], or, with the Cholesky solver,
-    /// [`Error::TooLarge`] and [`Error::WithoutCholesky`].
+    /// [`Error::Setting`], [`Error::Dimension`], [`Error::MaterialPoint`], or, with the Cholesky
+    /// solver, [`Error::TooLarge`] and [`Error::WithoutCholesky`].
     pub fn new(system: &dyn System, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         let solver = solver_for(system, &settings)?;

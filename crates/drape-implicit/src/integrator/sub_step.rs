@@ -3,7 +3,8 @@
 use super::error_estimate::Extrapolation;
 use super::formula::Formula;
 use super::path_work::{Path, PathWork, Work, is_sampled};
-use super::state::{IntegratorState, Span, check_length};
+use super::state::{IntegratorState, Span};
+use crate::check::check_length;
 use crate::error::Quantity;
 use crate::linear::block::triples;
 use crate::linear::vector::dot;

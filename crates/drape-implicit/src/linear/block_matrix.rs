@@ -2,8 +2,8 @@
 
 use core::ops::Range;
 
+use crate::check::check_length;
 use crate::error::Error;
-use crate::integrator::state::check_length;
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
 use crate::threads;
@@ -109,8 +109,8 @@ impl BlockMatrix {
 
     /// Adds `value` to the block of `slot`.
     ///
-    /// A slot that the sparsity does not have counts as a block outside the sparsity, in the row and
-    /// the column one beyond the last: see [`add`](Self::add).
+    /// A slot that the sparsity does not have counts as a block outside the sparsity, in the row
+    /// and the column one beyond the last: see [`add`](Self::add).
     pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
         let Some(block) = self.blocks.get_mut(slot) else {
             let beyond = self.sparsity.particle_count();

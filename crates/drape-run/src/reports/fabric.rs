@@ -76,8 +76,8 @@ pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     }
 }
 
-/// Returns the loop that an ideal instrument draws of a `fabric` in a `test`. A fabric out of range,
-/// whose loads are not finite, has no loop.
+/// Returns the loop that an ideal instrument draws of a `fabric` in a `test`. A fabric out of
+/// range, whose loads are not finite, has no loop.
 pub fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Option<Curve> {
     instrument::ideal(fabric, test, direction, POINTS).ok()
 }
