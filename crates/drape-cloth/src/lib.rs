@@ -14,6 +14,7 @@
 //! share.
 //!
 //! The modules are listed in layers: a module uses modules of its layer and of earlier layers.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // Panels before deformation, and the measures of connectors.
 mod error;

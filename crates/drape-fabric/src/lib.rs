@@ -12,6 +12,7 @@
 //!   TOML file, and the comments in the file.
 //! * [`samples`]: fabrics for examples and tests.
 //! * `breen`: the work curves of Breen, House & Wozny, derived from the laws.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // The laws for one connector, and for many side by side.
 mod batch;

@@ -12,6 +12,7 @@
 //! * `values`: laws from KES values ([`tensile_from_values`], …) and values from laws
 //!   ([`fabric_values`]).
 //! * `fabric`: the whole sheet, with defaults for what it lacks; batches of sheets.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod error;
 mod settings;

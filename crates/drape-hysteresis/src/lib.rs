@@ -10,6 +10,7 @@
 //!   tangent), `error`.
 //! * Dahl elements for SIMD loops: `prepared` (an element that is evaluated without branches),
 //!   `exponential` (the exponential function without branches).
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // Argument, result and errors of the models.
 mod error;

@@ -14,6 +14,7 @@
 //! A [`Report`] counts the work done. An [`Error`] says why a step failed. [`check_system`] tests a
 //! new system. [`ErrorEstimate`] serves callers that choose the length of a step by its error.
 //! [`Explicit`] integrates by another method as a cross-check.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // Interface of a system.
 mod step_filter;

@@ -24,6 +24,7 @@
 //! * `schema`: JSON Schema of numbers with units, with the feature `schema`.
 //! * `figure`: [`figure`](fn@figure), [`Notation`], [`excerpt`] and others, numbers and texts in
 //!   messages, on pages and in tables.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod decode;
 mod diagnostic;

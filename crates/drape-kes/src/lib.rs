@@ -14,6 +14,7 @@
 //! * `results`: reads tables of KES values, as laboratories and publications print them.
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of values and curves.
 //! * `exports`: [`SheetDraft`], a sheet drafted from a folder of exported files.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod error;
 // Tests, and the values that they give.

@@ -10,6 +10,7 @@
 //! * The minimiser: `minimise` moves `iterate`, the current point with its linear model. `iterate`
 //!   uses `difference` (Jacobian by differences) and `trust_region` (a step within a radius).
 //! * The uncertainty: `covariance`, `profile`, `student` (quantiles), `akaike`.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // The problem.
 mod check;

@@ -11,6 +11,7 @@
 //!
 //! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; the
 //! chapters `panel` and `pattern`, `sketch`; the chapters `read` and `cut`; `write`.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // Geometry of outlines.
 mod edge;

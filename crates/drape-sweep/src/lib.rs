@@ -12,6 +12,7 @@
 //! * Results. `table`: [`Table`], inputs, measures and records of all points. `effects`: means over
 //!   levels.
 //! * `engine`: files with which Slurm, HyperQueue and Dask run a study.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod axes;
 mod base;
