@@ -268,10 +268,12 @@ impl Simulation {
         })
     }
 
-    /// Returns the latest end of the run, in ticks of the clock.
+    /// Returns the latest end of the run, in ticks of the clock: the largest number that
+    /// [`Progress::step`] can report on the grid of the scene. A run that comes to rest ends
+    /// earlier.
     #[must_use]
-    pub fn ticks_to_do(&self) -> usize {
-        self.stepping.clock().ticks_to_do()
+    pub fn end_ticks(&self) -> usize {
+        self.stepping.clock().end_ticks()
     }
 
     /// Returns the length of a whole step, in s.
@@ -297,7 +299,9 @@ impl Simulation {
         self.coarser.front().map_or_else(|| self.stepping.ticks(), CoarserGrid::ticks)
     }
 
-    /// Returns the current positions of cloth and bodies as a [`Frame`], without pressures.
+    /// Returns the current positions of cloth and bodies as a [`Frame`], without pressures. Its
+    /// number is the number of frames that [`run`](Self::run) has handed on, so a program that
+    /// takes frames itself numbers them.
     #[must_use]
     pub fn frame(&self) -> Frame {
         let bodies = self.world.contact.triangulations();
@@ -326,7 +330,9 @@ impl Simulation {
         topology::topology(&self.world)
     }
 
-    /// Returns the panels and bodies that all frames share, as a [`Manifest`].
+    /// Returns the panels and bodies that all frames share, as a [`Manifest`]. With the
+    /// [`topology`](Self::topology) and some [`frame`](Self::frame)s it makes a
+    /// [`Recording`](drape_frames::Recording::of_frames), which exports and the verifier take.
     #[must_use]
     pub fn manifest(&self) -> Manifest {
         topology::manifest(&self.world, &self.parts)
@@ -362,8 +368,9 @@ impl Simulation {
         self.rest.criteria.is_some()
     }
 
-    /// Returns the loads of the pins, in the order of the scene, without the inertia of the
-    /// particles that the pins hold. The load of a released pin is zero.
+    /// Returns the loads of the pins by their numbers: the pins of the scene in its order, then the
+    /// pins of [`hold`](Self::hold). The inertia of the particles that a pin holds is not in its
+    /// load. The load of a released pin is zero.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
         self.world.pin_loads(self.stepping.time())
     }
@@ -387,7 +394,8 @@ impl Simulation {
         self.statistics.hashes.get_or_insert_default();
     }
 
-    /// Advances by one step.
+    /// Advances by one step. The steps of a garment first sew it, and [`Step::phase`] says when
+    /// that is over. A program that steps itself stops at [`Step::finished`].
     ///
     /// # Errors
     /// Returns an error if the step cannot be solved even in parts. The state is then the last
@@ -584,7 +592,7 @@ impl Simulation {
 
     /// Returns whether no step remains: the cloth is at rest, or the time is over.
     fn is_over(&self) -> bool {
-        self.is_at_rest() || self.ticks() >= self.ticks_to_do()
+        self.is_at_rest() || self.ticks() >= self.end_ticks()
     }
 
     fn has_settled(&self) -> bool {

@@ -71,7 +71,7 @@ impl Scene {
             let of_vertices = of_vertex.saturating_mul(vertices);
             of_particle.saturating_mul(particles).saturating_add(of_vertices)
         };
-        let frames = clock.ticks_to_do() / clock.ticks_per_frame.max(1);
+        let frames = clock.end_ticks() / clock.ticks_per_frame.max(1);
         Needs {
             memory: sum(MEMORY, vertices).saturating_add(BASE),
             frames: (frames as u64).saturating_add(1),

@@ -39,11 +39,7 @@ fn what_is_not_said_has_its_default() {
     assert_eq!(scene.environment.gravity, [0.0, -9.81, 0.0]);
     assert!((scene.environment.air - 0.5 * 1.2 * 1.28).abs() < 1e-15);
     assert_eq!(
-        (
-            scene.schedule.clock.step,
-            scene.schedule.clock.tick(),
-            scene.schedule.clock.ticks_to_do()
-        ),
+        (scene.schedule.clock.step, scene.schedule.clock.tick(), scene.schedule.clock.end_ticks()),
         (0.004, 0.004, 25)
     );
     assert_eq!(

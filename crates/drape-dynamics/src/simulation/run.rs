@@ -18,7 +18,8 @@ const LONG_STEP: Duration = Duration::from_millis(200);
 
 /// Watcher of a running simulation. `()` watches nothing.
 pub trait Progress {
-    /// Called after each [`Step`], with the time in ticks of the clock.
+    /// Called after each [`Step`], with the time in ticks of the clock
+    /// ([`Clock`](drape_scene::Clock)). The end is at [`Simulation::end_ticks`].
     fn step(&mut self, _step: &Step, _ticks: usize) {}
 
     /// Called when a [`Frame`] is due, with the energy balance since the start, or since the

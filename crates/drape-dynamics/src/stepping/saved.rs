@@ -55,7 +55,7 @@ impl Stepping {
         integrator.check(particles).map_err(|error| error.to_string())?;
         let mut clock = self.clock;
         (clock.end, clock.ticks_max) = (end, ticks_max);
-        if !(end > 0.0 && end.is_finite()) || ticks_max == 0 || ticks > clock.ticks_to_do() {
+        if !(end > 0.0 && end.is_finite()) || ticks_max == 0 || ticks > clock.end_ticks() {
             return Err("its clock is wrong".into());
         }
 

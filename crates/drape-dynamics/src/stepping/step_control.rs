@@ -70,7 +70,7 @@ impl StepControl {
     /// another step.
     pub(crate) fn next(&self, now: usize) -> usize {
         let Clock { ticks_per_frame, .. } = self.clock;
-        let remaining = self.clock.ticks_to_do().saturating_sub(now).max(1);
+        let remaining = self.clock.end_ticks().saturating_sub(now).max(1);
         let is_quasi_static = self.relaxation.is_some_and(|relaxation| !relaxation.inertia);
         let to_frame =
             if is_quasi_static { remaining } else { ticks_per_frame - now % ticks_per_frame };

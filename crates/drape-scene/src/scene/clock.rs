@@ -27,9 +27,9 @@ impl Clock {
         self.step / self.ticks_per_step as f64
     }
 
-    /// Returns the time of the end at the latest, in ticks.
+    /// Returns the time `end`, in ticks: the number of ticks of a run that does not end earlier.
     #[must_use]
-    pub fn ticks_to_do(&self) -> usize {
+    pub fn end_ticks(&self) -> usize {
         (self.end / self.tick()).round() as usize
     }
 }

@@ -37,7 +37,7 @@ impl Progress for MeasuredSteps {
 /// that pace, as a line.
 pub(super) fn describe(path: &Path) -> Result<String, Failure> {
     let scene = read_scene(path)?;
-    let total_ticks = scene.schedule.clock.ticks_to_do();
+    let total_ticks = scene.schedule.clock.end_ticks();
     let may_rest = scene.schedule.relaxation.is_some();
     let mut simulation = Simulation::new(scene)?;
     let begin = Instant::now();
