@@ -37,6 +37,9 @@ pub fn cantilever(weight: f64, load: f64) -> Tip {
 
 /// Returns the whole shape of the strip of [`cantilever`], from its clamp at (0, 0): reach and drop
 /// over the length, at the ends of `parts` equal parts of the strip.
+///
+/// # Panics
+/// If `parts` is 0.
 #[must_use]
 pub fn cantilever_shape(weight: f64, load: f64, parts: usize) -> Vec<[f64; 2]> {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
