@@ -26,9 +26,9 @@ pub struct Clip<'a> {
 }
 
 impl<'a> Clip<'a> {
-    /// Returns the clip of the frames of `recording` with `numbers`. `rate` is its frame rate in
-    /// frames per second. Without it the rate comes from the times of the frames. Of frames at one
-    /// time the last is taken.
+    /// Returns the clip of the frames of `recording` with `numbers`, from 0: all frames are
+    /// `0..=recording.frame_count() - 1`. `rate` is its frame rate in frames per second. Without it
+    /// the rate comes from the times of the frames. Of frames at one time the last is taken.
     ///
     /// # Errors
     /// The first of `numbers` is above the last, a frame is missing, or `rate` is out of range.

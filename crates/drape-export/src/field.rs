@@ -99,8 +99,9 @@ impl Field {
         matches!(self, Field::StrainWarp | Field::StrainWeft | Field::Shear)
     }
 
-    /// Returns the range of nearly all values in `frames`, rounded up to 1, 2 or 5 times a power of
-    /// ten. The range of a signed field is symmetric about zero, another range begins at zero.
+    /// Returns the range of nearly all values in `frames`, a list of values for each, rounded up to
+    /// 1, 2 or 5 times a power of ten. The range of a signed field is symmetric about zero, another
+    /// range begins at zero.
     #[must_use]
     pub fn range(self, frames: &[Vec<f64>]) -> [f64; 2] {
         scale::range(frames.iter().flatten().copied(), self.is_signed())

@@ -16,7 +16,8 @@ use drape_kes::{BendingPoints, EvaluationPoints, Model, ShearPoints, Sheet};
 use model::{LoopModel, Plateau, Toe, TractionModel};
 use weighting::Weighting;
 
-/// Laws to identify, how to identify them, and where KES values are read.
+/// Laws to identify, how to identify them, and where KES values are read. `None` lets the data
+/// select a law.
 ///
 /// `CurveFit::candidates` lists the laws among which one was selected.
 ///
@@ -76,7 +77,7 @@ impl FitSettings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Intervals {
-    /// From the standard errors: valid where the law is nearly linear over them.
+    /// From the standard errors: valid where the law is nearly linear over them. The default.
     #[default]
     Wald,
     /// From the residuals themselves, [`drape_lm::profile`]: valid for curved laws and at bounds,

@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 /// Positions of cloth and bodies at one time.
 ///
+/// A program that makes a frame gives the time and the positions. `number`, `bodies_frame` and
+/// `file` may keep their defaults: a [`Recording`](crate::Recording) of frames in memory sets the
+/// first two, and a [`FrameWriter`](crate::FrameWriter) does not read them.
+///
 /// ```
 /// use drape_frames::Frame;
 ///
@@ -26,7 +30,8 @@ pub struct Frame {
     /// Number of the first frame with these positions of the bodies, or `None` in a run without
     /// bodies. No body moves between frames that have the same number.
     pub bodies_frame: Option<usize>,
-    /// Pressure of contact at each vertex of the cloth, in Pa, if it was stored.
+    /// Pressure of contact at each vertex of the cloth, in Pa, one number for each, if it was
+    /// stored.
     pub pressures: Option<Vec<f64>>,
     /// File of the cloth, or `None` for a frame in memory.
     pub file: Option<PathBuf>,

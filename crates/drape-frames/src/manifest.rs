@@ -28,7 +28,8 @@ pub struct Manifest {
     /// cloth. The fraction is above 0 and at most 1.
     #[serde(rename = "thinned", default = "full_separation")]
     pub pinch_fraction: f64,
-    /// Pairs of cloth vertices that are sewn together and count as one.
+    /// Pairs of cloth vertices that are sewn together and count as one, by their numbers in the
+    /// whole cloth, from 0.
     #[serde(rename = "twins", default)]
     pub seam_pairs: Vec<[u32; 2]>,
     /// Cloth vertices that are tied to a point of an edge, each with the two ends of the edge.

@@ -26,7 +26,8 @@ pub trait FrameSource: Debug + Send + Sync {
     /// is not before the time of an earlier frame.
     fn time(&self, number: usize) -> f64;
 
-    /// Returns the frame `number`, which is below the number of frames.
+    /// Returns the frame `number`, which is below the number of frames. The frame has this `number`
+    /// and, with bodies, its `bodies_frame`, by which exports know whether the bodies have moved.
     ///
     /// # Errors
     /// [`Error`] if the frame cannot be read.

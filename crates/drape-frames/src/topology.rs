@@ -8,11 +8,12 @@ use crate::manifest::{Manifest, SurfacePart};
 /// Triangles and material coordinates that all frames share.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Topology {
-    /// Weft and warp coordinate of each vertex of the cloth at rest, in m.
+    /// Weft and warp coordinate of each vertex of the cloth at rest, in m, panel after panel. A
+    /// program without a pattern gives the flat coordinates of its choice.
     pub material: Vec<[f64; 2]>,
-    /// Triangles of the cloth, panel after panel: numbers of vertices of the cloth.
+    /// Triangles of the cloth, panel after panel: numbers of vertices of the whole cloth, from 0.
     pub cloth: Vec<[u32; 3]>,
-    /// Triangles of the bodies, body after body: numbers of vertices of the bodies.
+    /// Triangles of the bodies, body after body: numbers of vertices of all bodies, from 0.
     pub bodies: Vec<[u32; 3]>,
 }
 

@@ -25,6 +25,9 @@ use crate::slip::Slip;
 /// Two half steps therefore equal one step, and the result does not depend on how a path is
 /// divided.
 ///
+/// The load has the sign of the slip: a deformation that increases raises it. It is the load that
+/// deforms, so the force of the friction on a body that moves is its negative.
+///
 /// The caller chooses the units of load and deformation: N/m and a ratio for the tension of a yarn,
 /// N and 1/m for a bending moment per width.
 ///

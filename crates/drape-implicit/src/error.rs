@@ -5,6 +5,7 @@ use crate::report::Stop;
 /// Error of a step or of its input, one variant per remedy.
 ///
 /// After any error the state and the system's memory are at the end of the last accepted sub-step.
+/// A particle is named by its number, from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -17,7 +17,7 @@ pub enum Integrator {
     /// (\[HNW93\] III.5). A slow oscillation is damped by a factor of only `1 − (ω dt)⁴/4` per
     /// step. The first step, and each step after [`IntegratorState::restart`], is backward Euler. A
     /// step is at most twice as long as the step before. A longer step is divided into sub-steps,
-    /// each twice as long as the last.
+    /// each twice as long as the last. The default.
     ///
     /// [`IntegratorState::restart`]: crate::IntegratorState::restart
     #[default]
@@ -30,7 +30,7 @@ pub enum Integrator {
 pub enum Method {
     /// Newton's method with fewer system matrices. Each matrix is kept for a few iterations, in
     /// which Broyden's rank-one updates improve the inverse. A line search safeguards the first
-    /// step with each matrix.
+    /// step with each matrix. The default.
     #[default]
     Broyden,
     /// Newton's method: a new system matrix in every iteration.
@@ -50,7 +50,7 @@ pub enum Method {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InitialMatrix {
-    /// Inertia `M/(β dt)²`.
+    /// Inertia `M/(β dt)²`. The default.
     #[default]
     Mass,
     /// Diagonal of the system matrix at the start of the step.
@@ -62,7 +62,7 @@ pub enum InitialMatrix {
 #[serde(rename_all = "kebab-case")]
 pub enum LinearSolver {
     /// Conjugate gradients with an incomplete block Cholesky preconditioner. This solver needs
-    /// little memory, and is the faster solver unless the step is very long.
+    /// little memory, and is the faster solver unless the step is very long. The default.
     #[default]
     ConjugateGradient,
     /// Sparse Cholesky factorisation. This solver is exact, so it is a cross-check of conjugate

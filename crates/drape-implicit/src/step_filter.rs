@@ -113,8 +113,11 @@ pub trait StepFilter: System {
     /// Moves obstacles to the fraction `time` of their motion in this (sub)step: 0 at the start, 1
     /// at the end.
     ///
-    /// Forces, potential and stiffness then refer to the moved obstacles. [`begin`](System::begin)
-    /// sets the obstacle time to 1.
+    /// Forces, potential and stiffness then refer to the moved obstacles. In a filtered step the
+    /// solver calls this method before it evaluates at another obstacle time, so that
+    /// [`begin`](System::begin) may leave any time.
+    /// [`Stepper::advance`](crate::Stepper::advance) never calls this method: a system with moving
+    /// obstacles that is also stepped without a filter sets the time 1 in its `begin`.
     fn set_obstacle_time(&mut self, time: f64);
 
     /// Returns the work of the obstacles over their whole motion in this (sub)step, in J, with the

@@ -29,6 +29,7 @@ pub struct MaterialPoint {
 /// have prescribed motions.
 ///
 /// Vectors are flat, three entries per particle: `x₀ y₀ z₀ x₁ …`. Positions are in m, forces in N.
+/// Indices such as the rows and columns of a matrix count particles, from 0, and not coordinates.
 ///
 /// The solver calls `begin` at the start of a (sub)step, then `forces`, `potential` and `stiffness`
 /// any number of times in any order. A (sub)step that succeeded ends with `accept`. After one that
@@ -43,11 +44,12 @@ pub trait System {
     /// Number of particles.
     fn particle_count(&self) -> usize;
 
-    /// Mass of each particle, finite and positive, in kg.
+    /// Mass of each particle, finite and positive, in kg. The solver reads this list at each call
+    /// of [`Stepper::advance`](crate::Stepper::advance).
     fn masses(&self) -> &[f64];
 
-    /// Whether the motion of each particle is prescribed. The solver reads this list after each
-    /// [`begin`](Self::begin).
+    /// Whether the motion of each particle is prescribed, one entry per particle. The solver reads
+    /// this list after each [`begin`](Self::begin).
     fn held(&self) -> &[bool];
 
     /// Begins an attempt at a (sub)step that ends at `end_time` and lasts `dt`, both in s, from the

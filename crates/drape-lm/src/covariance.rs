@@ -53,6 +53,8 @@ pub enum Undetermined {
 
 /// Standard errors and correlations of fitted parameters.
 ///
+/// Parameters are named by their index in the list that was minimised, from 0.
+///
 /// ```math
 /// C = s^2 (J^T J)^{-1}, \qquad s^2 = \frac{\sum_i w_i r_i^2}{n - p}
 /// ```

@@ -19,7 +19,7 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Loss {
-    /// Least squares: `$\rho = u$`.
+    /// Least squares: `$\rho = u$`. The default.
     #[default]
     Squares,
     /// Huber's loss: `$\rho = u$` for `$u \le 1$`, else `$2\sqrt u - 1$` \[Hub64\].

@@ -67,18 +67,20 @@ const POLISH_STEPS: usize = 12;
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct MinimiserSettings {
     /// Relative reduction of the sum at which to stop. Both the actual reduction by a step and the
-    /// reduction that the linear model predicts must be this small.
+    /// reduction that the linear model predicts must be this small. Default 1e-14.
     pub reduction: f64,
     /// Length of a step over the length of the parameters at which to stop, in the scaled norm.
+    /// Default 1e-14.
     pub step: f64,
-    /// Cosine between the residuals and every column of the Jacobian at which to stop.
+    /// Cosine between the residuals and every column of the Jacobian at which to stop. Default
+    /// 1e-14.
     pub gradient: f64,
-    /// Limit on the number of steps, accepted or rejected.
+    /// Limit on the number of steps, accepted or rejected. Default 300.
     pub iterations: usize,
-    /// Function of a residual whose sum is minimised.
+    /// Function of a residual whose sum is minimised. Default [`Loss::Squares`].
     pub loss: Loss,
     /// Whether the minimisation ends with undamped steps, which cost a few evaluations and gain the
-    /// last digits.
+    /// last digits. Default `true`.
     pub polish: bool,
 }
 
@@ -155,9 +157,10 @@ pub struct Iteration<'a> {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
-    /// Best parameters found.
+    /// Best parameters found, in the order of the parameters that were given.
     pub parameters: Vec<f64>,
-    /// Root of the weighted mean square residual at `parameters`, in the unit of the residuals.
+    /// Root of the weighted mean square residual at `parameters`, `$\sqrt{\sum_i w_i r_i^2/n}$`
+    /// over all `$n$` residuals, in the unit of the residuals. NaN if nothing was evaluated.
     pub rms: f64,
     /// Sum of the losses at `parameters`. For [`Loss::Squares`] it is the weighted sum of squares.
     pub sum: f64,
@@ -191,6 +194,9 @@ pub struct Report {
 /// parameters is projected on the bounds, and the reduction is predicted for the projected step.
 /// The last steps are undamped: near its minimum the sum is too flat to separate parameters that
 /// the linear model still separates.
+///
+/// A report is returned in every case. [`Report::stop`] says whether it is a minimum
+/// ([`Stop::converged`]), or why not.
 ///
 /// ```
 /// use drape_lm::{Parameter, Problem, MinimiserSettings, minimise};

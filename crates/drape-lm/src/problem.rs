@@ -30,10 +30,17 @@ pub trait Problem {
 
     /// Writes the residuals at `parameters` into `out`, or NaN where the model has no value.
     ///
+    /// `parameters` are in the order in which they were given to the minimiser. `out` has one entry
+    /// for each residual. The residuals are without their weights.
+    ///
     /// The minimiser rejects a trial step that has a residual that is not finite.
     fn residuals(&self, parameters: &[f64], out: &mut [f64]);
 
     /// Writes the derivative of residual `i` by parameter `j` into `out[(i, j)]`, if it is known.
+    ///
+    /// `out` has a row for each residual and a column for each parameter, fixed ones included. Its
+    /// type is from [`nalgebra`](crate::nalgebra), which this crate re-exports. Derivatives are
+    /// without weights.
     ///
     /// Returns `false`, the default, if `out` was not written. The minimiser then differentiates
     /// the residuals by finite differences.
@@ -41,8 +48,9 @@ pub trait Problem {
         false
     }
 
-    /// Returns the weight of each squared residual, not negative. The default, an empty slice,
-    /// means that every weight is one.
+    /// Returns the weight of each squared residual, not negative: `$1/\sigma^2$` for a measurement
+    /// with the standard deviation `$\sigma$`. The default, an empty slice, means that every weight
+    /// is one.
     fn weights(&self) -> &[f64] {
         &[]
     }
@@ -61,9 +69,9 @@ pub trait Problem {
 pub struct Parameter {
     /// Starting value. A value outside the bounds is moved to the nearest bound.
     pub start: f64,
-    /// Lower bound.
+    /// Lower bound, −∞ without one.
     pub lower: f64,
-    /// Upper bound.
+    /// Upper bound, +∞ without one.
     pub upper: f64,
     /// Typical size of the value. The size sets the difference step where the value is near zero.
     pub scale: f64,

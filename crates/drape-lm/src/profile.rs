@@ -31,9 +31,10 @@ const FIT_TOLERANCE: f64 = 1e-10;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct ProfileSettings {
-    /// Probability that an interval contains the true value, 0 to 1.
+    /// Probability that an interval contains the true value, 0 to 1. Default 0.95.
     pub level: f64,
-    /// Settings of the minimisation whose report is profiled.
+    /// Settings of the minimisation whose report is profiled. Give the settings with which the
+    /// report was found. Default [`MinimiserSettings::default`].
     pub minimiser: MinimiserSettings,
 }
 
@@ -96,7 +97,8 @@ impl Interval {
     }
 }
 
-/// Computes the profile likelihood interval of each of `parameters` around the minimum in `report`.
+/// Computes the profile likelihood interval of each of `parameters`, in their order, around the
+/// minimum in `report`.
 ///
 /// Each parameter is moved away from its estimate while all other parameters are fitted again,
 /// until the loss has risen to the level \[Bat88, §6.1.2\]:

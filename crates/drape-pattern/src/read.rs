@@ -71,8 +71,9 @@ impl Pattern {
         Ok(parse(&document, request)?)
     }
 
-    /// Returns the pattern of `document` in any of the formats. The ending of its path and its
-    /// content say which.
+    /// Returns the pattern of `document` in any of the formats. The ending of its path, which need
+    /// not exist, says which: `.toml`, `.json`, `.svg` or `.dxf`. The content decides between the
+    /// two formats in JSON, and for a path without an ending.
     ///
     /// # Errors
     /// All mistakes of the text, each with its place and a remedy.

@@ -99,7 +99,8 @@ pub struct Scene {
     pub start: Start,
     /// Pins, in the order of the file.
     pub pins: Vec<Pin>,
-    /// Bodies, in the order of the file.
+    /// Bodies by their kind: spheres, boxes, cylinders, planes, rigid meshes, and meshes that
+    /// change their shape; within a kind in the order of the file.
     pub bodies: Vec<MovingBody>,
     /// Contact of cloth and bodies.
     pub contact: ContactSettings,

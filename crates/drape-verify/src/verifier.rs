@@ -8,6 +8,10 @@ use crate::mesh::Mesh;
 use crate::verdict::{Verdict, verify};
 
 /// Verifier of the frames of a recording.
+///
+/// Intersections are tested in every frame. Distances are held against
+/// [`half_min_separation`](drape_frames::SurfacePart::half_min_separation) of the parts: parts with
+/// 0, the default, promise no distance.
 #[derive(Debug, Clone)]
 pub struct Verifier {
     recording: Recording,

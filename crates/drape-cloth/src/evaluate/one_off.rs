@@ -45,7 +45,8 @@ impl Cloth {
         Workspace::new(self)
     }
 
-    /// Adds the forces of all connectors at the positions `trial` to `forces`, in N. For many
+    /// Adds the forces of all connectors at the positions `trial` to `forces`, in N. `trial` and
+    /// `forces` have three numbers for each particle. The weight is not among the forces. For many
     /// evaluations use a [`Workspace`].
     ///
     /// # Errors
@@ -70,8 +71,8 @@ impl Cloth {
         self.workspace().potential(self.trial(state, trial)?)
     }
 
-    /// Adds the negative derivative of the forces with respect to `trial`, in N/m, to `values`: the
-    /// blocks of [`Cloth::sparsity`].
+    /// Adds the negative derivative of the forces with respect to `trial`, in N/m, to `values`:
+    /// nine numbers for each block of [`Cloth::sparsity`], in its order.
     ///
     /// With `definite`, parts that make the matrix indefinite are left out: compression across a
     /// segment, negative tangents, and the second derivatives of the sine of shear.
@@ -88,7 +89,8 @@ impl Cloth {
         self.workspace().add_stiffness(self.trial(state, trial)?, definite, values)
     }
 
-    /// Accepts a step: advances the positions, velocities and all memories of `state`. Only this
+    /// Accepts a step that ends at `positions`, in m, with `velocities`, in m/s, three numbers for
+    /// each particle: advances the positions, velocities and all memories of `state`. Only this
     /// method and [`Workspace::commit`] write memories. Returns the energy dissipated by the
     /// fabric's friction, in J.
     ///

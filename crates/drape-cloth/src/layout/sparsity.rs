@@ -6,6 +6,7 @@
 ///
 /// Row `i` has the columns `columns[offsets[i]..offsets[i + 1]]` in rising order, the first of
 /// which is `i` itself. Block `k` occupies the nine numbers `9k..9k + 9` of the values, row by row.
+/// Rows and columns count particles, not coordinates.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Sparsity {
     /// Index of the first block of each row, with one entry more than there are particles.

@@ -6,7 +6,7 @@ use crate::panel::lattice::Lattice;
 /// Strip of cloth along part of a panel's outline: the allowance of a seam, or a hem.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Allowance {
-    /// Consecutive particles along the outline, by number.
+    /// Consecutive particles along the outline, by their numbers in the panel, from 0.
     pub line: Vec<u32>,
     /// Width of the strip of cloth, in m.
     pub width: f64,

@@ -33,7 +33,10 @@ const ROUNDING_ERROR: f64 = 1e-6;
 /// # Ok::<(), drape_cloth::Error>(())
 /// ```
 ///
-/// A mesh of triangles alone has no grid. `spacing` is then the size of the triangles.
+/// A mesh of triangles alone has no grid: `grid` and `cells` are empty, and `spacing` is the size
+/// of the triangles. Its cloth has traction and shear in each triangle and bending about each node,
+/// and it may have folds, allowances and seams. [`Breen`](crate::Breen) refuses it, as every panel
+/// with a rim, and [`Lattice::graded`] has no cells to enlarge.
 ///
 /// ```
 /// use drape_cloth::{Cloth, Grain, Lattice, Mesh};

@@ -3,8 +3,8 @@
 /// Seam: the nodes that are sewn to each other, and how it bends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seam {
-    /// Pairs of particles, one of each side, in the order of the seam. Both may be one particle, as
-    /// at the tip of a dart.
+    /// Pairs of particles of the [`Cloth`](crate::Cloth) by number, one of each side, in the order
+    /// of the seam. Both may be one particle, as at the tip of a dart.
     pub pairs: Vec<[u32; 2]>,
     /// Particles of a gather's longer side between the pairs, in the order of the seam.
     pub ties: Vec<Tie>,
@@ -21,7 +21,7 @@ pub struct Seam {
 /// Particle that is tied to a point between two others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tie {
-    /// Number of the tied particle.
+    /// Number of the tied particle in the [`Cloth`](crate::Cloth), from 0.
     pub particle: u32,
     /// The two particles between which it lies: particles of the other side, of two consecutive
     /// pairs.

@@ -97,7 +97,8 @@ impl Mesh {
     /// the file.
     ///
     /// # Errors
-    /// The file cannot be read, or [`Mesh::new`] refuses its surface.
+    /// The file cannot be read, or [`Mesh::new`] refuses its surface. Or the crate was built
+    /// without its feature `mesh-files`.
     pub fn load(path: impl AsRef<Path>, scale: f64) -> Result<Mesh, Error> {
         check("the scale of the mesh", scale, "positive", scale > 0.0)?;
         let Triangulation { vertices, triangles } = read_mesh(path)?.scaled(scale);

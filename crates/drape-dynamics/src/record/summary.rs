@@ -63,7 +63,9 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Limits of the guarantees of contact on the bodies, a sentence each.
     pub contact_limits: Vec<String>,
-    /// Measures of garments.
+    /// Measures of garments by key, empty without seams: `seam_gap_max` and `lowest` in m,
+    /// `free_edges`, `openings`, `girths`, `strain` and, where surfaces touch, `pressure`. All
+    /// numbers are in SI, angles in rad.
     pub measures: serde_json::Map<String, serde_json::Value>,
     /// Position of the open seam that ended the run early, in m.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -18,7 +18,9 @@ pub enum BodyTarget {
 }
 
 impl Simulation {
-    /// Returns the name and the current [`Triangulation`] of each body.
+    /// Returns the name and the current [`Triangulation`] of each body, in the order of
+    /// [`Scene::bodies`](drape_scene::Scene::bodies). A body without a name in the scene is called
+    /// by its kind and number, from 1, such as `sphere 1`.
     #[must_use]
     pub fn bodies(&self) -> Vec<(String, Triangulation)> {
         let names = self.world.contact.bodies().iter().map(|body| body.name.clone());

@@ -24,7 +24,8 @@ impl Simulation {
         self.world.pins().count()
     }
 
-    /// Returns the particles that the pin `pin` holds.
+    /// Returns the numbers of the particles that the pin `pin` holds, from 0: particle `i` has the
+    /// coordinates `3 * i`, `3 * i + 1` and `3 * i + 2` of [`positions`](Self::positions).
     ///
     /// # Errors
     /// [`Error::Unsuited`] for a pin that does not exist.
@@ -78,10 +79,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// Holds `particles` where they are, in all directions, from now on. Returns the number of
-    /// their pin, which [`lead_pin`](Self::lead_pin) leads and [`pin_loads`](Self::pin_loads)
-    /// lists. A particle leaves the pin that held it before. Particles that are sewn to one of
-    /// `particles` are held with it.
+    /// Holds `particles`, given by their numbers, where they are, in all directions, from now on.
+    /// Returns the number of their pin, which [`lead_pin`](Self::lead_pin) leads and
+    /// [`pin_loads`](Self::pin_loads) lists. A particle leaves the pin that held it before.
+    /// Particles that are sewn to one of `particles` are held with it.
     ///
     /// Particles in flight stop at once. Their kinetic energy is negative work of the pin in
     /// [`Energy::work_in`](crate::Energy::work_in). The number of a pin whose particles have all

@@ -5,13 +5,13 @@ use super::prescription::unsuited;
 use crate::error::Error;
 
 impl Simulation {
-    /// Returns the material coordinates of the particles, in m.
+    /// Returns the material coordinates of the particles, along weft and warp, in m.
     #[must_use]
     pub fn coordinates(&self) -> &[[f64; 2]] {
         self.world.cloth.coordinates()
     }
 
-    /// Returns the triangles of the surface.
+    /// Returns the triangles of the surface, each as the numbers of three particles.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.world.cloth.triangles()

@@ -21,6 +21,12 @@ pub struct Memory {
 /// A trial deformation never changes the memory. Only [`Law::commit`] returns a new memory. Between
 /// two commits the load is a single-valued function of the trial deformation, so the load has a
 /// potential, [`Law::work`], in spite of the friction.
+///
+/// | law | deformation | load, per width | tangent |
+/// |---|---|---|---|
+/// | [`TractionLaw`](crate::TractionLaw) | strain, a ratio | tension, in N/m | in N/m |
+/// | [`ShearLaw`](crate::ShearLaw) | sine of the shear angle | force, in N/m | in N/m |
+/// | [`BendingLaw`](crate::BendingLaw) | curvature, in 1/m | moment, in N | in N·m |
 pub trait Law {
     /// Returns the memory of a fabric that was never deformed.
     #[must_use]

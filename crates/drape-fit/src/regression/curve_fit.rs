@@ -84,13 +84,14 @@ pub struct CurveFit {
     pub chosen: usize,
     /// Reason of the selection.
     pub choice: Choice,
-    /// Deformation at each point of the curve, in SI.
+    /// Deformation at each point of the curve, in the unit that [`Test`] has for it.
     pub deformation: Vec<f64>,
-    /// Measured load at each point, in SI.
+    /// Measured load at each point, per width, in the unit that [`Test`] has for it.
     pub measured: Vec<f64>,
-    /// Load of the law at each point, in SI.
+    /// Load of the law at each point, in the unit of `measured`.
     pub load: Vec<f64>,
-    /// Half width of the 95 % band around the load of the law, in SI.
+    /// Half width of the 95 % band around the load of the law at each point, in the unit of
+    /// `measured`.
     ///
     /// It comes from the errors of the parameters that the curve determines. Zero at points that
     /// were not used.

@@ -7,7 +7,9 @@ use drape_kes::Symbol;
 /// Fitted parameter, in SI.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Estimate {
-    /// Name of the parameter.
+    /// Name of the parameter. [`parameter_key`](crate::parameter_key) has its key in a fabric file,
+    /// whose unit it has. Others have no key: `zero` and `drift` of the load are in its unit;
+    /// `free strain`, `state`, `toe_growth`, `slow` and `ratio` are ratios.
     pub name: &'static str,
     /// Value, in SI.
     pub value: f64,

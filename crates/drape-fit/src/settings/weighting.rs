@@ -19,7 +19,8 @@ pub enum Weighting {
     ///
     /// A fabric drapes at deformations well below the largest of the test. With this weighting the
     /// lowest 30 % of the deformations count as much as all above. Where the law follows the curve
-    /// everywhere the weights change nothing but the errors, which grow by a tenth or so.
+    /// everywhere the weights change nothing but the errors, which grow by a tenth or so. The
+    /// default.
     #[default]
     LowDeformation,
     /// Same weight for all points.

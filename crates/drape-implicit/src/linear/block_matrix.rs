@@ -123,6 +123,7 @@ impl BlockMatrix {
     }
 
     /// Adds `value` to the block in row `i` and column `j`, and its transpose to the mirror image.
+    /// Rows and columns are numbers of particles. `value` is row-major.
     ///
     /// Give each pair once, in either order. A block outside the sparsity is not added. Then
     /// [`outside_sparsity`](Self::outside_sparsity) returns the first such row and column, and the

@@ -67,11 +67,12 @@ fn with_paths(draft: &CurveDraft, folder: &str) -> CurveDraft {
 impl SheetDraft {
     /// Drafts the sheets of the files at `path`, one sheet per fabric. The `path` is a workbook, a
     /// table, a zip archive, or a folder whose exports and subfolders are read. `beside` is the
-    /// folder of the sheets.
+    /// folder of the sheets. Archives need the feature `archives`, workbooks the feature
+    /// `spreadsheets`.
     ///
     /// # Errors
     /// The file or the folder cannot be read, or no file holds a curve or a value. The error names
-    /// each file with the reason.
+    /// each file with the reason, such as a feature that the crate was built without.
     pub fn of(path: &Path, beside: &Path) -> Result<Vec<Self>, Error> {
         Self::of_with(path, beside, FileAccess::usual())
     }

@@ -39,6 +39,12 @@ impl<'a> SurfaceStart<'a> {
 
 /// Step of a [`SurfaceContact`] that is open.
 ///
+/// [`SurfaceContact::begin`] opens a step. Then [`set_obstacle_time`](OpenStep::set_obstacle_time),
+/// [`energy`](OpenStep::energy), [`limit`](OpenStep::limit) and
+/// [`intersections`](OpenStep::intersections) may be called any number of times and in any order:
+/// none of them changes what the contact remembers. Before a commit, a solver tests the end
+/// positions with `intersections` at the obstacle time 1.
+///
 /// [`commit`](OpenStep::commit) and [`reject`](OpenStep::reject) end the step. If the handle is
 /// dropped, the step stays open, and [`SurfaceContact::step`] returns a handle again. So a solver
 /// can hold the contact and borrow the step for one call at a time.
@@ -113,7 +119,9 @@ impl<'a> OpenStep<'a> {
     }
 
     /// Sets the obstacle time to `time`: the fraction of the bodies' motion in this step, 0 to 1.
-    /// The step begins at 0.
+    /// The step begins at 0. The other methods refer to the time that was set last, except for
+    /// [`limit`](OpenStep::limit), whose trial has its own. A solver that evaluates only at the end
+    /// of a step sets 1.
     pub fn set_obstacle_time(&mut self, time: f64) {
         self.contact.obstacles.time = time;
     }

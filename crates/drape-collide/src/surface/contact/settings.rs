@@ -15,7 +15,9 @@ pub struct SurfaceSettings {
     /// A load below Coulomb's limit displaces the surfaces by less than this, once. A smaller value
     /// holds more stiffly and is harder to solve.
     pub sticking_displacement: f64,
-    /// Coefficient of friction for each two groups, row by row.
+    /// Coefficient of friction for each two groups, row by row: the square of the number of groups.
+    /// The entry `g * groups + h` is for the groups `g` and `h`, and equals the entry for `h` and
+    /// `g`.
     pub friction_coefficients: Vec<f64>,
     /// Policy for cloth between closing bodies.
     pub pinch: PinchPolicy,
@@ -25,7 +27,7 @@ pub struct SurfaceSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PinchPolicy {
-    /// A step that pinches cloth fails.
+    /// A step that pinches cloth fails. The default.
     #[default]
     Error,
     /// The cloth keeps [`PinchPolicy::THINNED_FRACTION`] of its minimum separation from bodies.

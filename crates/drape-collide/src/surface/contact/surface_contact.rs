@@ -120,6 +120,7 @@ pub struct SurfaceContact {
 
 impl SurfaceContact {
     /// Returns the contact of `surface` with its bodies at the flat positions `bodies`, in m.
+    /// `bodies` is empty for a surface without bodies.
     ///
     /// # Errors
     /// A setting is out of range; or `bodies` has the wrong number of vertices, or a coordinate

@@ -46,12 +46,12 @@ pub struct SurfaceParts {
     pub rest_positions: Vec<f64>,
     /// Vertices of each triangle, all of one group.
     pub triangles: Vec<[u32; 3]>,
-    /// Lumped area of cloth at each vertex, in m². The force on a point is in proportion to its
-    /// area. Entries of bodies are not used.
+    /// Lumped area of cloth at each vertex, in m², such as a third of its triangles. The force on a
+    /// point is in proportion to its area. Entries of bodies must be there and are not used.
     pub areas: Vec<f64>,
-    /// Group of each vertex: a panel or a body.
+    /// Group of each vertex, from 0: a panel or a body.
     pub groups: Vec<u32>,
-    /// Half distances of each group.
+    /// Half distances of each group. Their number is the number of groups.
     pub distances: Vec<ContactDistances>,
     /// Number of free vertices, which come first. The others belong to bodies and move as
     /// prescribed.

@@ -26,16 +26,17 @@ const LOCKED: f64 = 0.05;
 /// Trial step of a solver, of the free vertices and of the bodies.
 #[derive(Debug)]
 pub struct SurfaceTrial<'a> {
-    /// Positions of the free vertices at the start of the step, in m.
+    /// Positions of the free vertices at the start of the step, flat, in m.
     pub start: &'a [f64],
-    /// Displacements of the free vertices, in m.
+    /// Displacements of the free vertices, flat, in m. They are shortened in place.
     pub displacements: &'a mut [f64],
-    /// Free vertices whose motion is prescribed. They move by the fraction of the bodies.
+    /// Numbers of the free vertices whose motion is prescribed, from 0: of vertices, not of
+    /// coordinates. They move by the fraction of the bodies.
     pub held: &'a [usize],
     /// Obstacle time at the start of the step: fraction of the bodies' motion in the open step, 0
     /// to 1.
     pub obstacle_time: f64,
-    /// Fraction of the bodies' motion during the trial step.
+    /// Fraction of the bodies' motion during the trial step. It is shortened in place.
     pub obstacle_advance: &'a mut f64,
 }
 
