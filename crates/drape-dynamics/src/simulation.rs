@@ -400,6 +400,9 @@ impl Simulation {
     /// # Errors
     /// Returns an error if the step cannot be solved even in parts. The state is then the last
     /// accepted state.
+    /// [`Stop::Blocked`](drape_implicit::Stop::Blocked) and
+    /// [`Stop::Intersection`](drape_implicit::Stop::Intersection) in it mean that pins or bodies press
+    /// surfaces into each other: let them move more slowly, or elsewhere.
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
         if !self.coarser.is_empty() {
             return self.step_on_coarser_grid();
