@@ -269,8 +269,8 @@ impl Simulation {
     }
 
     /// Returns the latest end of the run, in ticks of the clock: the largest number that
-    /// [`Progress::step`] can report on the grid of the scene. A run that comes to rest ends
-    /// earlier.
+    /// [`Progress::step`](crate::Progress::step) can report on the grid of the scene. A run that
+    /// comes to rest ends earlier.
     #[must_use]
     pub fn end_ticks(&self) -> usize {
         self.stepping.clock().end_ticks()
