@@ -9,12 +9,13 @@
 /// ```
 /// use drape_hysteresis::{Dahl, Slip};
 ///
-/// let element = Dahl::new(0.5, 0.01);
+/// let element = Dahl::new(0.5, 0.01)?;
 /// // A number is a slip of weight one.
 /// assert_eq!(element.advance(0.0, 0.02), element.advance(0.0, Slip::weighted(0.02, 1.0, 1.0)));
 /// // Half of the weight gives half of the load.
 /// let half = element.advance(0.0, Slip::weighted(0.02, 0.5, 0.5));
 /// assert!((half / element.advance(0.0, 0.02) - 0.5).abs() < 1e-15);
+/// # Ok::<(), drape_hysteresis::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
