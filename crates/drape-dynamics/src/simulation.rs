@@ -200,7 +200,7 @@ impl Simulation {
     /// Prepares the simulation of `scene` with the [`Scheme`] that the scene asks for.
     ///
     /// # Errors
-    /// When the solver cannot be set up.
+    /// When the solver cannot be set up, or when `scene` has a [fault](Scene::fault).
     pub fn new(scene: Scene) -> Result<Self, Error> {
         let scheme = Scheme::new(&scene.solver);
         Self::with_scheme(scene, scheme)
@@ -224,8 +224,11 @@ impl Simulation {
     /// for.
     ///
     /// # Errors
-    /// When the solver cannot be set up.
+    /// When the solver cannot be set up, or when `scene` has a [fault](Scene::fault).
     pub fn with_scheme(mut scene: Scene, scheme: Scheme) -> Result<Self, Error> {
+        if let Some(fault) = scene.fault() {
+            return Err(Error::Unsuited { reason: fault });
+        }
         let coarser = CoarserGrid::take_from(&mut scene, &scheme)?;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing());
         let spacing = spacings.fold(f64::INFINITY, f64::min);

@@ -15,6 +15,7 @@ pub(crate) mod pin;
 pub(crate) mod relaxation;
 pub(crate) mod seam;
 pub(crate) mod solver;
+mod soundness;
 
 use std::path::PathBuf;
 

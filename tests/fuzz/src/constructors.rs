@@ -1,6 +1,7 @@
 //! Public constructors and entries with data of any kind: not a number, infinite, empty, too short,
 //! too long, out of range. None of them may panic; an error is as good as a result.
 
+mod changed_scene;
 mod cloth;
 mod contact;
 mod curves;
@@ -88,7 +89,7 @@ impl Source<'_> {
 /// Calls the constructors of one crate, which the bytes choose.
 pub fn call(bytes: &[u8]) {
     let source = &mut Source::new(bytes);
-    match source.below(9) {
+    match source.below(10) {
         0 => least_squares::fit(source),
         1 => least_squares::friction(source),
         2 => solver::step(source),
@@ -97,6 +98,7 @@ pub fn call(bytes: &[u8]) {
         5 => contact::surfaces(source),
         6 => contact::bodies(source),
         7 => frames::recording(source),
-        _ => curves::identify(source),
+        8 => curves::identify(source),
+        _ => changed_scene::simulate(source),
     }
 }

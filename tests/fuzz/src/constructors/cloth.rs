@@ -9,7 +9,7 @@ use drape::fabric::{Fabric, samples};
 use crate::shapes::Source;
 
 /// Largest number of particles that are evaluated.
-const PARTICLES_MAX: usize = 2000;
+const PARTICLES_MAX: usize = 300;
 
 fn mesh(source: &mut Source<'_>) -> Mesh {
     let columns = 1 + source.below(3) as u32;
@@ -48,6 +48,9 @@ fn lattice(source: &mut Source<'_>) -> Option<Lattice> {
     } else {
         size[0].abs().min(size[1].abs()) / source.between(2.0, 8.0)
     };
+    // Millions of particles are right, and take minutes.
+    let cells = size.iter().map(|side| side / spacing).fold(0.0, f64::max);
+    let spacing = if cells.is_finite() && cells > 1e3 { size[0] } else { spacing };
     let lattice = match source.below(5) {
         0 => Lattice::rectangle(size[0], size[1], spacing),
         1 => Lattice::rectangle_at(grain, [source.odd(), source.odd()], size, spacing),

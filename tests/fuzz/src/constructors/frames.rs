@@ -16,10 +16,8 @@ pub fn recording(source: &mut Source<'_>) {
     let count = places.len();
     let cloth = source.triangles(5, count);
     let _ = curvatures(&places, &cloth);
-    let manifest = Manifest {
-        panels: vec![part(source, "panel", count, cloth.len())],
-        ..Manifest::default()
-    };
+    let manifest =
+        Manifest { panels: vec![part(source, "panel", count, cloth.len())], ..Manifest::default() };
     let material = (0..source.length(count)).map(|_| [source.odd(), source.odd()]).collect();
     let topology = Topology { material, cloth, bodies: source.triangles(2, count) };
     let frame = |source: &mut Source<'_>, cloth: Vec<[f64; 3]>| Frame {

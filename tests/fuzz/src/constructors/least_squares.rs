@@ -51,7 +51,8 @@ pub fn fit(source: &mut Source<'_>) {
         weights: if source.below(2) == 0 { Vec::new() } else { source.odd_list(count) },
     };
     let parameters = [parameter(source), parameter(source)];
-    let loss = if source.below(2) == 0 { Loss::Squares } else { Loss::Huber { size: source.odd() } };
+    let loss =
+        if source.below(2) == 0 { Loss::Squares } else { Loss::Huber { size: source.odd() } };
     let settings = MinimiserSettings { loss, ..MinimiserSettings::default() };
     let mut report = minimise(&line, &parameters, &settings);
 
@@ -94,5 +95,8 @@ pub fn friction(source: &mut Source<'_>) {
         (work, size) = (work + part, size + part.abs());
         loads = friction.advance(loads, slip);
     }
-    assert!(!work.is_finite() || work >= -1e-9 * size, "{friction:?} makes {work} of {size}");
+    // The work of a slip far shorter than the friction length is a difference of larger numbers.
+    let plateaus: f64 = friction.elements.iter().map(|element| element.plateau.abs()).sum();
+    let rounding = 1e-9 * size + 1e-14 * plateaus * half.amount;
+    assert!(!work.is_finite() || work >= -rounding, "{friction:?} makes {work} of {size}");
 }
