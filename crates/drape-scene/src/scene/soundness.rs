@@ -130,3 +130,43 @@ fn sewing_fault(sewing: &Sewing, particles: usize) -> Option<String> {
     let is_time = *seconds > 0.0 && seconds.is_finite();
     (!is_time).then(|| "the time of sewing must be positive".into())
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_fabric::samples;
+    use drape_input::Document;
+
+    use super::*;
+
+    fn towel() -> Scene {
+        let fabric = Document::new("plain.toml", samples::plain_weave().to_toml());
+        let text = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n\
+            panel = [{ name = \"towel\", fabric = \"plain\", rectangle = [0.1, 0.1] }]\n\
+            pin = [{ panel = \"towel\", edge = \"top\" }]\n\
+            time = { step = 0.005, end = 2 }\n";
+        Scene::from_documents(&Document::new("towel.toml", text), &[fabric]).expect("right")
+    }
+
+    #[test]
+    fn a_change_that_does_not_fit_is_named() {
+        assert_eq!(towel().fault(), None);
+        let changes: [(&str, fn(&mut Scene)); 10] = [
+            ("a step must have a tick", |scene| scene.schedule.clock.ticks_per_step = 0),
+            ("a frame must have a tick", |scene| scene.schedule.clock.ticks_per_frame = 0),
+            ("the length of a step", |scene| scene.schedule.clock.step = f64::NAN),
+            ("the acceleration of gravity", |scene| scene.environment.gravity[1] = f64::INFINITY),
+            ("velocities are given for", |scene| scene.start.velocities.truncate(3)),
+            ("the positions at the start", |scene| scene.start.positions[4] = f64::NAN),
+            ("the panel \"towel\"", |scene| scene.panels[0].first = 1),
+            ("the panels have 0 particles", |scene| scene.panels.clear()),
+            ("the panel \"towel\"", |scene| scene.panels[0].material = 7),
+            ("the pin 0", |scene| scene.pins[0].particles[0] = 36),
+        ];
+        for (words, change) in changes {
+            let mut scene = towel();
+            change(&mut scene);
+            let fault = scene.fault().unwrap_or_default();
+            assert!(fault.contains(words), "{fault:?} does not say {words:?}");
+        }
+    }
+}
