@@ -22,6 +22,45 @@ const CELL_PART_MIN: f64 = 0.1;
 /// any case.
 const QUADRANT_PART_MIN: f64 = 0.05;
 
+/// Numbers of the kept cells of a grid, row by row; `None` for a cell that is not kept.
+struct KeptCells {
+    /// Number of cells in a row.
+    across: usize,
+    numbers: Vec<Option<usize>>,
+}
+
+impl KeptCells {
+    /// Returns the kept cell that is nearest to the cell in `column` and `row`. Of several, it is
+    /// the one with the lowest number.
+    fn nearest(&self, column: usize, row: usize) -> Option<usize> {
+        let along = self.numbers.len() / self.across.max(1);
+        let mut best: Option<(usize, usize)> = None;
+        // Square rings around the cell. A cell of the next ring is no nearer than its number.
+        for ring in 0..self.across.max(along) {
+            if best.is_some_and(|(square, _)| square < ring * ring) {
+                break;
+            }
+            for r in row.saturating_sub(ring)..(row + ring + 1).min(along) {
+                let is_side = r.abs_diff(row) == ring;
+                let step = if is_side || ring == 0 { 1 } else { 2 * ring };
+                let first = (column as isize) - ring as isize;
+                let columns = (first..=(column + ring) as isize).step_by(step);
+                for c in columns.filter_map(|c| usize::try_from(c).ok()) {
+                    if c >= self.across {
+                        continue;
+                    }
+                    let Some(number) = self.numbers[r * self.across + c] else { continue };
+                    let square = c.abs_diff(column).pow(2) + r.abs_diff(row).pow(2);
+                    if best.is_none_or(|best| (square, number) < best) {
+                        best = Some((square, number));
+                    }
+                }
+            }
+        }
+        best.map(|(_, number)| number)
+    }
+}
+
 impl Lattice {
     /// Returns a rectangle of `width` along the weft and `height` along the warp, with particles at
     /// the distance `spacing`, all in m.
@@ -177,7 +216,7 @@ impl Lattice {
         let [across, along] = cells.map(|n| n as usize);
         let columns = across + 1;
         let full = spacing[0] * spacing[1];
-        let mut kept = Vec::new();
+        let mut kept: Vec<(usize, usize, [f64; 4])> = Vec::new();
         let mut slivers = Vec::new();
         for row in 0..along {
             for column in 0..across {
@@ -190,12 +229,13 @@ impl Lattice {
                 }
             }
         }
+        let mut numbers = vec![None; across * along];
+        for (number, (column, row, _)) in kept.iter().enumerate() {
+            numbers[row * across + column] = Some(number);
+        }
+        let cells = KeptCells { across, numbers };
         for (column, row, areas) in slivers {
-            let nearest = (0..kept.len()).min_by_key(|&k| {
-                let (c, r, _): (usize, usize, [f64; 4]) = kept[k];
-                c.abs_diff(column).pow(2) + r.abs_diff(row).pow(2)
-            });
-            if let Some(nearest) = nearest {
+            if let Some(nearest) = cells.nearest(column, row) {
                 kept[nearest].2.iter_mut().zip(areas).for_each(|(a, sliver)| *a += sliver);
             }
         }
@@ -309,6 +349,30 @@ fn half_segment(radius: f64, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_nearest_kept_cell_is_the_one_that_a_search_of_all_finds() {
+        let (across, along) = (9, 7);
+        for pattern in 1..60_u32 {
+            let mut kept = Vec::new();
+            let mut numbers = vec![None; across * along];
+            for cell in 0..across * along {
+                // Few cells, scattered in another way for each pattern.
+                if (cell as u32 * 7919 + pattern * 104_729) % 11 < pattern % 4 {
+                    numbers[cell] = Some(kept.len());
+                    kept.push([cell % across, cell / across]);
+                }
+            }
+            let cells = KeptCells { across, numbers };
+            for cell in 0..across * along {
+                let [column, row] = [cell % across, cell / across];
+                let nearest = (0..kept.len()).min_by_key(|&k| {
+                    kept[k][0].abs_diff(column).pow(2) + kept[k][1].abs_diff(row).pow(2)
+                });
+                assert_eq!(cells.nearest(column, row), nearest, "{pattern}: {column}, {row}");
+            }
+        }
+    }
 
     #[test]
     fn a_rectangle_is_a_pure_grid_of_its_own_area() {
