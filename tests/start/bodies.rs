@@ -172,6 +172,24 @@ fn a_check_of_a_body_and_a_scene_judge_alike() {
 }
 
 #[test]
+fn a_fault_that_a_repair_left_is_not_to_be_repaired_again() {
+    // Three triangles meet in one edge: no repair makes a closed surface of them.
+    let folder = folder(&[0.0], "0.2");
+    let fan = "v 0 0 0\nv 0 0.3 0\nv 0.3 0 0\nv -0.3 0 0.1\nv 0 0 0.4\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
+    for (name, proposed) in [("fan.obj", true), ("fan-repaired.obj", false)] {
+        std::fs::write(folder.path().join(name), fan).expect("written");
+        let scene = SCENE.replace("HEIGHT", "0.2").replace("blocks.obj", name);
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+        for arguments in [&["check", name, "--scale", "1"][..], &["check", "scene.toml"]] {
+            let (code, _, failed) = drape(folder.path(), arguments);
+            assert_eq!(code, Some(3), "{failed}");
+            assert_eq!(failed.contains("--repair"), proposed, "{failed}");
+            assert_eq!(failed.contains("in a modelling program"), !proposed, "{failed}");
+        }
+    }
+}
+
+#[test]
 fn a_body_with_lips_that_nearly_touch_is_sound_and_stays_so() {
     // Two cubes, corner before corner, 0.4 µm apart.
     let folder = folder(&[0.0, 0.0], "0.2");

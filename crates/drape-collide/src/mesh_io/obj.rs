@@ -4,7 +4,9 @@ use super::triangulation::Triangulation;
 
 /// Returns the vertices and triangles of `bytes`, a Wavefront OBJ text.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
-    let (text, count) = surface_lines(&String::from_utf8_lossy(bytes));
+    let text = String::from_utf8_lossy(bytes);
+    check_lines(&text)?;
+    let (text, count) = surface_lines(&text);
     let options = tobj::LoadOptions {
         triangulate: true,
         ignore_points: true,
@@ -40,6 +42,68 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     Ok(Triangulation { vertices, triangles })
 }
 
+/// Checks the lines of vertices and faces of the OBJ `text`: a vertex has three numbers, and a face
+/// at least three corners, which are vertices of the text.
+///
+/// # Errors
+/// The number of the first line that is wrong, and what is wrong with it.
+fn check_lines(text: &str) -> Result<(), String> {
+    let is_vertex = |line: &&str| line.split_whitespace().next() == Some("v");
+    let count = text.lines().filter(is_vertex).count() as i64;
+    let mut before = 0;
+    for (index, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        let fault = match words.next() {
+            Some("v") => {
+                before += 1;
+                vertex_fault(words)
+            }
+            Some("f") => face_fault(words, before, count),
+            _ => None,
+        };
+        if let Some(fault) = fault {
+            return Err(format!("line {}: {fault}", index + 1));
+        }
+    }
+    Ok(())
+}
+
+/// Returns what is wrong with a vertex of the `coordinates`.
+fn vertex_fault<'a>(coordinates: impl Iterator<Item = &'a str>) -> Option<String> {
+    let coordinates: Vec<&str> = coordinates.take(3).collect();
+    if coordinates.len() < 3 {
+        return Some(format!("a vertex has {} of three coordinates", coordinates.len()));
+    }
+    let wrong = coordinates.into_iter().find(|word| word.parse::<f64>().is_err())?;
+    Some(format!("the coordinate \"{wrong}\" of a vertex is no number"))
+}
+
+/// Returns what is wrong with a face of the `corners`, in a text with a number of vertices `before`
+/// the face and `count` vertices in all.
+fn face_fault<'a>(
+    corners: impl Iterator<Item = &'a str>,
+    before: i64,
+    count: i64,
+) -> Option<String> {
+    let mut number = 0;
+    for corner in corners {
+        number += 1;
+        let word = corner.split('/').next().unwrap_or("");
+        // Negative numbers count back from the last vertex before the face.
+        let vertex = match word.parse::<i64>() {
+            Ok(vertex) if vertex < 0 => before + 1 + vertex,
+            Ok(vertex) => vertex,
+            Err(_) => return Some(format!("the corner \"{corner}\" of a face is no number")),
+        };
+        if !(1..=count).contains(&vertex) {
+            return Some(format!(
+                "the corner \"{corner}\" of a face is no vertex: the file has {count} vertices, counted from 1"
+            ));
+        }
+    }
+    (number < 3).then(|| "a face has fewer than three corners".into())
+}
+
 /// Returns the lines of vertices and faces of the OBJ `text`, and the number of vertices. Faces
 /// lose their normals and texture coordinates.
 ///
@@ -70,4 +134,28 @@ fn surface_lines(text: &str) -> (String, usize) {
         kept.push('\n');
     }
     (kept, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mistakes_name_their_line() {
+        let vertices = "# a comment\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\n";
+        let mistakes = [
+            ("f 1 2\n", "line 5: a face has fewer than three corners"),
+            ("\nf 1 2 4\n", "line 6: the corner \"4\" of a face is no vertex: the file has 3"),
+            ("f 1/1 2/2 -4/3\n", "line 5: the corner \"-4/3\" of a face is no vertex"),
+            ("f 1 2 x\n", "line 5: the corner \"x\" of a face is no number"),
+            ("v 1 2\n", "line 5: a vertex has 2 of three coordinates"),
+            ("v 1 2,5 3\n", "line 5: the coordinate \"2,5\" of a vertex is no number"),
+        ];
+        for (line, expected) in mistakes {
+            let error = parse(format!("{vertices}{line}").as_bytes()).expect_err(line);
+            assert!(error.starts_with(expected), "{error} does not say {expected}");
+        }
+        let whole = parse(format!("{vertices}f -3 2/7/8 3//1\n").as_bytes()).expect("right");
+        assert_eq!((whole.vertices.len(), whole.triangles), (3, vec![[0, 1, 2]]));
+    }
 }

@@ -27,6 +27,10 @@ const FAR: f64 = 1e4;
 const MEND_GIVEN: &str = "a body is one closed surface, each of whose edges has two triangles: mend it where it was \
                           made, such as with trimesh.repair.fill_holes";
 
+/// Remedy for a mesh that a repair has not mended.
+const MEND_REPAIRED: &str = "a repair has left this fault: mend it where the body was made, in a \
+                             modelling program";
+
 /// Body, with its friction where the file gives it.
 pub(crate) struct CheckedBody {
     pub(crate) body: Body,
@@ -175,6 +179,10 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Optio
                 checker.fail_mesh(&key, &error);
             } else if let Some(path) = path.filter(|path| checker.given(path).is_none()) {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                if stem.ends_with("-repaired") {
+                    checker.fail(&key, error.to_string(), MEND_REPAIRED);
+                    return None;
+                }
                 let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
                 let named = file.file.file().unwrap_or_default();
                 let named = Path::new(named).with_file_name(format!("{stem}-repaired.obj"));

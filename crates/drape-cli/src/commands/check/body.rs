@@ -105,11 +105,15 @@ pub(crate) fn describe(
 
     let mut mistakes = Vec::new();
     if let Some(fault) = fault(&mesh) {
-        let help = format!(
-            "a scene refuses it as well; `drape check {} --repair {}` mends what is safe",
-            path.display(),
-            repaired_name(path)
-        );
+        let help = match repaired_name(path) {
+            Some(repaired) => format!(
+                "a scene refuses it as well; `drape check {} --repair {repaired}` mends what is safe",
+                path.display()
+            ),
+            None => "a scene refuses it as well, and a repair has left these faults: mend them where the body was \
+                     made, in a modelling program"
+                .into(),
+        };
         mistakes.push(Diagnostic::new(input::message_path(path), fault).help(help));
     }
     Ok(BodyDescription { text, mistakes })
@@ -120,10 +124,12 @@ fn fault(mesh: &Triangulation) -> Option<String> {
     Mesh::new(&mesh.vertices, &mesh.triangles).err().map(|error| error.to_string())
 }
 
-/// Returns the file name that a message proposes for the repaired mesh of `path`.
-fn repaired_name(path: &Path) -> String {
+/// Returns the file name that a message proposes for the repaired mesh of `path`, or `None` if the
+/// mesh has been repaired already.
+fn repaired_name(path: &Path) -> Option<String> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-repaired.obj")).display().to_string()
+    let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
+    (!stem.ends_with("-repaired")).then(|| repaired.display().to_string())
 }
 
 /// Repairs the mesh at `path`, writes it as OBJ in the unit of its file, and describes the repair.

@@ -26,6 +26,9 @@ const STITCHES: usize = 48;
 /// listed and the opposite one.
 const EDGES_MAX: usize = 4;
 
+/// Largest distance of two points that are one point of a panel, in m.
+const JOINED: f64 = 1e-6;
+
 /// Edge on a side of a seam.
 #[derive(Debug, Clone)]
 pub(crate) struct SideEdge {
@@ -44,20 +47,13 @@ struct Order {
     reversed: bool,
 }
 
-/// Order that fits better than the listed one, with the mean gaps of its stitches, in m.
+/// Order that fits better than the listed one, with the root mean squares of the gaps of the
+/// stitches in both orders, in m.
 #[derive(Debug, Clone, PartialEq)]
 struct Better {
     order: Order,
     listed_gap: f64,
     gap: f64,
-}
-
-/// Gaps of the stitches of an order.
-struct Gaps {
-    /// Mean, in m.
-    mean: f64,
-    /// Mean square, in m².
-    mean_square: f64,
 }
 
 /// File that states the seams of a garment, or that can: its pattern, or the scene for patterns of
@@ -101,7 +97,7 @@ impl<'a> PlacedSeam<'a> {
             ("twisted", "if its edges were in the order that fits")
         };
         let message = format!(
-            "the seam is {fault}: its stitches are {:.0} mm long on average at the start, and would be {:.0} mm {change}",
+            "the seam is {fault}: its stitches are {:.0} mm long at the start, in the root mean square, and would be {:.0} mm {change}",
             1e3 * listed_gap,
             1e3 * gap
         );
@@ -124,20 +120,25 @@ impl<'a> PlacedSeam<'a> {
     /// Returns the order that fits better than the listed one, if there is one.
     fn better(&self) -> Option<Better> {
         let listed = self.listed();
-        let listed_gaps = self.gaps(&listed);
+        let listed_square = self.mean_square_gap(&listed);
         let lengths = self.sides.each_ref().map(|side| side.iter().map(SideEdge::length).sum());
         let [one, other]: [f64; 2] = lengths;
         let scale = one * other / 3.0;
-        let mut best: Option<(Order, Gaps)> = None;
+        // A point that is sewn to itself, such as the tip of a dart, stays so.
+        let is_joined = self.has_joined_end(&listed);
+        let mut best: Option<(Order, f64)> = None;
         for order in self.orders() {
-            let gaps = self.gaps(&order);
-            if best.as_ref().is_none_or(|(_, best)| gaps.mean_square < best.mean_square) {
-                best = Some((order, gaps));
+            if is_joined && !self.has_joined_end(&order) {
+                continue;
+            }
+            let square = self.mean_square_gap(&order);
+            if best.as_ref().is_none_or(|(_, best)| square < *best) {
+                best = Some((order, square));
             }
         }
-        let (order, gaps) = best?;
-        let better = listed_gaps.mean_square - gaps.mean_square > ADVANTAGE * scale;
-        better.then_some(Better { order, listed_gap: listed_gaps.mean, gap: gaps.mean })
+        let (order, square) = best?;
+        let better = listed_square - square > ADVANTAGE * scale;
+        better.then_some(Better { order, listed_gap: listed_square.sqrt(), gap: square.sqrt() })
     }
 
     /// Returns the orders to compare, those with the listed sense first.
@@ -154,8 +155,8 @@ impl<'a> PlacedSeam<'a> {
         both.collect()
     }
 
-    /// Returns the gaps of the stitches of an order.
-    fn gaps(&self, order: &Order) -> Gaps {
+    /// Returns the mean square of the gaps of the stitches of an order, in m².
+    fn mean_square_gap(&self, order: &Order) -> f64 {
         let along = [true, order.reversed];
         let [one, other] = [0, 1].map(|side| {
             let edges: Vec<&SideEdge> =
@@ -168,8 +169,25 @@ impl<'a> PlacedSeam<'a> {
             .map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum())
             .collect();
         let count = squares.len().max(1) as f64;
-        let mean = squares.iter().map(|square| square.sqrt()).sum::<f64>() / count;
-        Gaps { mean, mean_square: squares.iter().sum::<f64>() / count }
+        squares.iter().sum::<f64>() / count
+    }
+
+    /// Returns whether an `order` sews both sides to each other where they meet, at one of its ends.
+    fn has_joined_end(&self, order: &Order) -> bool {
+        let along = [true, order.reversed];
+        let ends = [0, 1].map(|side| {
+            let edge = |edge: Option<&usize>, at_end: bool| {
+                let places = &self.sides[side][*edge?].places;
+                (if at_end { places.last() } else { places.first() }).copied()
+            };
+            let edges = &order.edges[side];
+            [edge(edges.first(), !along[side]), edge(edges.last(), along[side])]
+        });
+        let meet = |end: usize| match [ends[0][end], ends[1][end]] {
+            [Some(one), Some(other)] => distance(one, other) < JOINED,
+            _ => false,
+        };
+        meet(0) || meet(1)
     }
 
     /// Returns the sides of an order, in TOML.
@@ -294,6 +312,37 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Returns whether another order fits a dart better, with its mouth from `left` to `right` and
+    /// its `tip`. Its legs run along the outline, over the tip.
+    fn is_mistaken(reversed: bool, [left, tip, right]: [[f64; 3]; 3]) -> bool {
+        let edges = [[0, 1], [0, 2]].map(|[panel, edge]| vec![EdgeId { panel, edge }]);
+        let seam = Seam {
+            name: "dart".into(),
+            sides: edges,
+            reversed,
+            max_ease: DEFAULT_EASE,
+            angle: 0.0,
+            allowance: 0.0,
+        };
+        let leg = |name: &str, ends: [[f64; 3]; 2]| {
+            vec![SideEdge { name: name.into(), places: ends.to_vec() }]
+        };
+        let sides = [leg("front.left", [left, tip]), leg("front.right", [tip, right])];
+        PlacedSeam { seam: &seam, sides }.better().is_some()
+    }
+
+    #[test]
+    fn a_dart_is_closed_from_its_mouth_to_its_tip() {
+        let narrow = [[-0.01, 0.0, 0.0], [0.0, -0.1, 0.0], [0.01, 0.0, 0.0]];
+        assert!(!is_mistaken(false, narrow));
+        assert!(is_mistaken(true, narrow), "the tip would be sewn to the mouth");
+
+        // The legs of a straight dart lie on a line. With one leg the other way round all gaps are
+        // 0.1 m, less than the root mean square of gaps from 0 to 0.2 m.
+        let straight = [[-0.1, 0.0, 0.0], [0.0; 3], [0.1, 0.0, 0.0]];
+        assert!(!is_mistaken(false, straight), "the tip stays closed");
+    }
 
     #[test]
     fn few_edges_are_compared_in_every_order() {
