@@ -271,20 +271,6 @@ impl Simulation {
         })
     }
 
-    /// Returns the latest end of the run, in ticks of the clock: the largest number that
-    /// [`Progress::step`](crate::Progress::step) can report on the grid of the scene. A run that
-    /// comes to rest ends earlier.
-    #[must_use]
-    pub fn end_ticks(&self) -> usize {
-        self.stepping.clock().end_ticks()
-    }
-
-    /// Returns the length of a whole step, in s.
-    #[must_use]
-    pub fn step_length(&self) -> f64 {
-        self.stepping.clock().step
-    }
-
     /// Cancels the current step as soon as `flag` is set, at any point of the solver.
     pub fn give_up_when(&mut self, flag: Arc<AtomicBool>) {
         self.coarser.iter_mut().for_each(|grid| grid.give_up_when(&flag));

@@ -356,10 +356,10 @@ mod tests {
         for pattern in 1..60_u32 {
             let mut kept = Vec::new();
             let mut numbers = vec![None; across * along];
-            for cell in 0..across * along {
+            for (cell, number) in numbers.iter_mut().enumerate() {
                 // Few cells, scattered in another way for each pattern.
                 if (cell as u32 * 7919 + pattern * 104_729) % 11 < pattern % 4 {
-                    numbers[cell] = Some(kept.len());
+                    *number = Some(kept.len());
                     kept.push([cell % across, cell / across]);
                 }
             }

@@ -1,4 +1,5 @@
-//! Plan: the remaining phases of a run, on coarser grids and on the grid of the scene.
+//! Plan: the end of a run, its steps, and its remaining phases on coarser grids and on the grid of
+//! the scene.
 
 use super::Simulation;
 use crate::record::summary::PhaseName;
@@ -18,6 +19,20 @@ pub struct PlannedPhase {
 }
 
 impl Simulation {
+    /// Returns the latest end of the run, in ticks of the clock: the largest number that
+    /// [`Progress::step`](crate::Progress::step) can report on the grid of the scene. A run that
+    /// comes to rest ends earlier.
+    #[must_use]
+    pub fn end_ticks(&self) -> usize {
+        self.stepping.clock().end_ticks()
+    }
+
+    /// Returns the length of a whole step, in s.
+    #[must_use]
+    pub fn step_length(&self) -> f64 {
+        self.stepping.clock().step
+    }
+
     /// Returns the remaining phases as [`PlannedPhase`]s, the current one first. A garment is sewn
     /// only on the first grid if its cloth can be carried to the next grid.
     #[must_use]

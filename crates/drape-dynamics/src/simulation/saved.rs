@@ -9,7 +9,7 @@
 //! held and released particles, gravity, the velocity of the air, and forces.
 
 use drape_checkpoint::Checkpoint;
-use drape_scene::Relaxation;
+use drape_scene::{Clock, Relaxation};
 use serde::{Deserialize, Serialize};
 
 use super::{LastStep, Outcome, Phases, Simulation};
@@ -222,16 +222,58 @@ impl Simulation {
 
     /// Extends the run by `seconds` beyond its end. Returns `false`, and changes nothing, if the
     /// cloth is at rest, so that the run is over.
-    pub fn extend(&mut self, seconds: f64) -> bool {
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] if `seconds` is not positive, or if the run would end later than
+    /// [`Clock::END_MAX`] seconds after its start.
+    pub fn extend(&mut self, seconds: f64) -> Result<bool, Error> {
+        let end = self.stepping.clock().end;
+        if !(seconds > 0.0 && end + seconds <= Clock::END_MAX) {
+            let reason = format!(
+                "a run that ends at {end} s cannot go on for {seconds} s: give a positive number of seconds up to \
+                 an end at {} s",
+                Clock::END_MAX
+            );
+            return Err(Error::Unsuited { reason });
+        }
         let goes_on = !self.is_at_rest();
         if goes_on {
             self.stepping.extend(seconds);
         }
-        goes_on
+        Ok(goes_on)
     }
 }
 
 /// Returns an [`Error::Unfit`] with `reason`.
 fn unfit(reason: String) -> Error {
     Error::Unfit { reason }
+}
+
+#[cfg(test)]
+mod tests {
+    use drape_fabric::samples;
+    use drape_input::Document;
+    use drape_scene::Scene;
+
+    use super::*;
+
+    fn hanging() -> Simulation {
+        let fabric = Document::new("plain.toml", samples::plain_weave().to_toml());
+        let text = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n\
+            panel = [{ name = \"towel\", fabric = \"plain\", rectangle = [0.06, 0.06] }]\n\
+            pin = [{ panel = \"towel\", edge = \"top\" }]\n\
+            time = { step = 0.004, end = 0.02 }\n";
+        let scene = Scene::from_documents(&Document::new("towel.toml", text), &[fabric]);
+        Simulation::new(scene.expect("right")).expect("it can be set up")
+    }
+
+    #[test]
+    fn a_state_whose_end_is_no_time_is_refused() {
+        for end in [f64::INFINITY, f64::NAN, -1.0] {
+            let mut saved = hanging().saved();
+            saved.stepping.end = end;
+            let refused = hanging().resume(saved).expect_err("no end");
+            assert!(refused.to_string().contains("its clock is wrong"), "{refused}");
+        }
+    }
 }

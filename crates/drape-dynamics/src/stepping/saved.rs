@@ -17,7 +17,7 @@ pub(crate) struct SavedStepping {
     accuracy: Accuracy,
     control: SavedControl,
     /// Latest end of the run, in s.
-    end: f64,
+    pub(crate) end: f64,
     /// Largest number of ticks of a step.
     ticks_max: usize,
     /// Current time, in ticks.

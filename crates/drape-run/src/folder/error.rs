@@ -78,6 +78,9 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
+    /// The run cannot be extended by the time that was asked for: give another time.
+    #[error("{0}")]
+    Extension(drape_dynamics::Error),
     /// The cloth has come to rest, which ends a run.
     #[error("the cloth is at rest, by which the run is over; there is nothing to extend")]
     AtRest,

@@ -126,7 +126,9 @@ impl FolderRun {
             None => FrameWriter::create(&folder, &manifest, &simulation.topology())?,
             Some(Resumption { saved, extend }) => {
                 simulation.resume(saved.simulation)?;
-                if extend.is_some_and(|seconds| !simulation.extend(seconds)) {
+                if let Some(seconds) = extend
+                    && !simulation.extend(seconds).map_err(Error::Extension)?
+                {
                     return Err(Error::AtRest);
                 }
                 FrameWriter::resume(&folder, &manifest, saved.frames)?

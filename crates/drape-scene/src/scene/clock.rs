@@ -21,6 +21,9 @@ pub struct Clock {
 }
 
 impl Clock {
+    /// Latest end of a simulation, in s: a little more than a day.
+    pub const END_MAX: f64 = 1e5;
+
     /// Returns the length of a tick, in s.
     #[must_use]
     pub fn tick(&self) -> f64 {

@@ -150,7 +150,8 @@ mod tests {
     #[test]
     fn a_change_that_does_not_fit_is_named() {
         assert_eq!(towel().fault(), None);
-        let changes: [(&str, fn(&mut Scene)); 10] = [
+        type Change = fn(&mut Scene);
+        let changes: [(&str, Change); 10] = [
             ("a step must have a tick", |scene| scene.schedule.clock.ticks_per_step = 0),
             ("a frame must have a tick", |scene| scene.schedule.clock.ticks_per_frame = 0),
             ("the length of a step", |scene| scene.schedule.clock.step = f64::NAN),
