@@ -63,7 +63,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Stretched by 2 % along the warp, the upper half is drawn down by the tension of the law.
     let mut forces = vec![0.0; 3 * cloth.particle_count()];
-    cloth.add_forces(&state, &place(|[u, v]| [u, 1.02 * v, 0.0]), &mut forces).expect("the lists fit");
+    cloth
+        .add_forces(&state, &place(|[u, v]| [u, 1.02 * v, 0.0]), &mut forces)
+        .expect("the lists fit");
     let is_upper = |point: &[f64; 2]| point[1] > 0.5 * SIZE[1];
     let particles = cloth.coordinates().iter().zip(forces.chunks_exact(3));
     let upper = particles.filter(|(point, _)| is_upper(point));
