@@ -50,7 +50,7 @@ fn lattice(source: &mut Source<'_>) -> Option<Lattice> {
     };
     // Millions of particles are right, and take minutes.
     let cells = size.iter().map(|side| side / spacing).fold(0.0, f64::max);
-    let spacing = if cells.is_finite() && cells > 1e3 { size[0] } else { spacing };
+    let spacing = if cells.is_finite() && cells > 300.0 { size[0] } else { spacing };
     let lattice = match source.below(5) {
         0 => Lattice::rectangle(size[0], size[1], spacing),
         1 => Lattice::rectangle_at(grain, [source.odd(), source.odd()], size, spacing),

@@ -108,8 +108,8 @@ impl Quad {
     /// Sets the box in `lane` to `bounds`.
     fn set(&mut self, lane: usize, bounds: &Bounds) {
         for k in 0..DIRECTIONS {
-            self.low[k].as_mut_array()[lane] = bounds.low[k];
-            self.high[k].as_mut_array()[lane] = bounds.high[k];
+            self.low[k].as_mut_array()[lane] = finite_low(bounds.low[k]);
+            self.high[k].as_mut_array()[lane] = finite_high(bounds.high[k]);
         }
     }
 
@@ -123,7 +123,10 @@ impl Quad {
 
     /// Returns `bounds` in all four lanes.
     fn splat(bounds: &Bounds) -> Quad {
-        Quad { low: bounds.low.map(f32x4::splat), high: bounds.high.map(f32x4::splat) }
+        Quad {
+            low: bounds.low.map(|low| f32x4::splat(finite_low(low))),
+            high: bounds.high.map(|high| f32x4::splat(finite_high(high))),
+        }
     }
 
     /// Returns a bit for each lane in which this box and the box of `other` overlap.
@@ -146,6 +149,17 @@ impl Quad {
     fn overlaps_along(&self, other: &Quad, k: usize) -> f32x4 {
         self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k])
     }
+}
+
+/// Returns the lower end of a box. The end of an infinite box is the least number, so that the box
+/// does not overlap an empty one.
+fn finite_low(low: f32) -> f32 {
+    low.max(f32::MIN)
+}
+
+/// Returns the higher end of a box, at most the largest number; see [`finite_low`].
+fn finite_high(high: f32) -> f32 {
+    high.min(f32::MAX)
 }
 
 /// Query of a tree for up to four primitives at once.
@@ -298,6 +312,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn an_infinite_box_overlaps_no_empty_one() {
+        let all =
+            Bounds { low: [f32::NEG_INFINITY; DIRECTIONS], high: [f32::INFINITY; DIRECTIONS] };
+        assert_eq!(Quad::splat(&all).overlaps(&Quad::EMPTY), 0);
+        let mut quad = Quad::EMPTY;
+        quad.set(2, &all);
+        assert_eq!(Quad::splat(&Bounds::EMPTY).overlaps(&quad), 0);
+        let point = Bounds::around([[1e30, -2.0, 0.0]], 1e-3);
+        assert_eq!(Quad::splat(&all).overlaps(&Quad::splat(&point)), 0xf);
     }
 
     #[test]

@@ -172,7 +172,8 @@ impl<'a> PlacedSeam<'a> {
         squares.iter().sum::<f64>() / count
     }
 
-    /// Returns whether an `order` sews both sides to each other where they meet, at one of its ends.
+    /// Returns whether an `order` sews both sides to each other where they meet, at one of its
+    /// ends.
     fn has_joined_end(&self, order: &Order) -> bool {
         let along = [true, order.reversed];
         let ends = [0, 1].map(|side| {
