@@ -25,6 +25,49 @@ fn book(sheets: &[(&str, &str)]) -> Vec<u8> {
     book.save_to_buffer().expect("a workbook")
 }
 
+const RESULTS: &str = "Property,Unit,Linen\nB,gf.cm2/cm,0.118\n2HB,gf.cm/cm,0.06\nW,mg/cm2,18\n";
+
+#[test]
+fn a_stray_cell_in_the_last_row_and_column_takes_nothing_away() {
+    let mut stray = rust_xlsxwriter::Workbook::new();
+    let sheet = stray.add_worksheet().set_name("Results").expect("a name");
+    for (row, line) in RESULTS.lines().enumerate() {
+        for (column, cell) in line.split(',').enumerate() {
+            let (row, column) = (row as u32, column as u16);
+            match cell.parse::<f64>() {
+                Ok(number) => sheet.write(row, column, number).expect("written"),
+                Err(_) => sheet.write(row, column, cell).expect("written"),
+            };
+        }
+    }
+    sheet.write(1_048_575, 16_383, "stray").expect("written");
+    let stray = stray.save_to_buffer().expect("a workbook");
+    for bytes in [book(&[("Results", RESULTS)]), stray] {
+        let (_, sheet) = drafted("results.xlsx", &bytes);
+        let values: Vec<(&str, f64)> =
+            sheet.listed().iter().map(|value| (value.symbol, value.value)).collect();
+        assert!(values.contains(&("B", 0.118)) && values.contains(&("W", 18.0)), "{values:?}");
+    }
+}
+
+#[test]
+fn a_workbook_that_unpacks_to_too_much_is_refused() {
+    use std::io::Write;
+
+    let whole = book(&[("Results", RESULTS)]);
+    let mut archive = zip::ZipWriter::new_append(std::io::Cursor::new(whole)).expect("a workbook");
+    let options = zip::write::SimpleFileOptions::default().large_file(true);
+    archive.start_file("xl/media/blank.bmp", options).expect("a member");
+    let blank = vec![0_u8; 1 << 20];
+    for _ in 0..500 {
+        archive.write_all(&blank).expect("written to memory");
+    }
+    let bomb = archive.finish().expect("an archive").into_inner();
+    assert!(bomb.len() < 1 << 20, "{} bytes", bomb.len());
+    let error = SheetDraft::from_bytes("results.xlsx", &bomb).expect_err("refused").to_string();
+    assert!(error.contains("it unpacks to 524 MB, more than 500 MB"), "{error}");
+}
+
 #[test]
 fn a_workbook_of_numbers_as_text_percent_cells_dates_and_errors() {
     let mut book = rust_xlsxwriter::Workbook::new();

@@ -18,6 +18,23 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
     zip || compound || (named && !ending.eq_ignore_ascii_case("xls"))
 }
 
+/// Largest number of cells of a sheet, the empty ones to the left of others included. Larger tables
+/// are no results of a laboratory.
+#[cfg(feature = "spreadsheets")]
+const CELLS_MAX: usize = 4_000_000;
+
+/// Largest size of a spreadsheet once it is unpacked, in bytes.
+#[cfg(feature = "spreadsheets")]
+const UNPACKED_MAX: u64 = 500_000_000;
+
+/// Cell with its row and its column, both from 0.
+#[cfg(feature = "spreadsheets")]
+struct PlacedCell {
+    row: u32,
+    column: u32,
+    cell: crate::tables::grid::Cell,
+}
+
 /// Reads the sheets of a spreadsheet from its `bytes`. `Err` holds the reason why the spreadsheet
 /// cannot be read.
 ///
@@ -25,14 +42,12 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
 /// because it is no number of a test.
 #[cfg(feature = "spreadsheets")]
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
-    use calamine::{Data, Reader, SheetType};
+    use calamine::{Reader, SheetType};
 
-    use crate::tables::grid::{Cell, Row};
-
+    check_unpacked_size(bytes)?;
     let cursor = std::io::Cursor::new(bytes);
     let mut book =
         calamine::open_workbook_auto_from_rs(cursor).map_err(|error| error.to_string())?;
-    let mut grids = Vec::new();
     // Sheets of a chart or a macro have no cells.
     let names: Vec<String> = book
         .sheets_metadata()
@@ -40,30 +55,135 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
         .filter(|sheet| sheet.typ == SheetType::WorkSheet)
         .map(|sheet| sheet.name.clone())
         .collect();
+    let mut grids = Vec::new();
     for sheet in names {
-        let range = book.worksheet_range(&sheet).map_err(|error| error.to_string())?;
-        let styles = book.worksheet_style(&sheet).ok();
-        let (first_row, first_column) = range.start().unwrap_or((0, 0));
-        let mut rows = Vec::new();
-        for (line, data) in (first_row..).zip(range.rows()) {
-            let mut cells = vec![Cell::Text(String::new()); first_column as usize];
-            for (column, data) in (first_column..).zip(data) {
-                let style = styles.as_ref().and_then(|styles| styles.get((line, column)));
-                let format = style.and_then(|style| style.number_format.as_ref());
-                let is_percent =
-                    format.is_some_and(|format| is_percent_format(&format.format_code));
-                cells.push(match data {
-                    Data::Float(number) if is_percent => Cell::Percent(100.0 * number),
-                    data => cell(data),
-                });
-            }
-            if cells.iter().any(|cell| !cell.is_empty()) {
-                rows.push(Row { line: line as usize + 1, cells });
-            }
-        }
+        let cells = placed_cells(&mut book, &sheet)
+            .map_err(|reason| format!("the sheet \"{sheet}\": {reason}"))?;
+        let rows = rows_of(cells).map_err(|reason| format!("the sheet \"{sheet}\": {reason}"))?;
         grids.push(Grid { sheet, rows, ..Grid::default() });
     }
     Ok(grids)
+}
+
+/// Checks that a packed spreadsheet with these `bytes` does not unpack to more than
+/// [`UNPACKED_MAX`].
+#[cfg(feature = "spreadsheets")]
+fn check_unpacked_size(bytes: &[u8]) -> Result<(), String> {
+    let Ok(mut archive) = zip::ZipArchive::new(std::io::Cursor::new(bytes)) else { return Ok(()) };
+    let mut size = 0_u64;
+    for number in 0..archive.len() {
+        let member = archive.by_index_raw(number).map_err(|error| error.to_string())?;
+        size = size.saturating_add(member.size());
+    }
+    if size > UNPACKED_MAX {
+        return Err(format!(
+            "it unpacks to {} MB, more than {} MB: save the sheet of the results in a file of its own",
+            size / 1_000_000,
+            UNPACKED_MAX / 1_000_000
+        ));
+    }
+    Ok(())
+}
+
+/// Returns the cells of a `sheet` of `book` that are not empty.
+#[cfg(feature = "spreadsheets")]
+fn placed_cells<R: std::io::Read + std::io::Seek>(
+    book: &mut calamine::Sheets<R>,
+    sheet: &str,
+) -> Result<Vec<PlacedCell>, String> {
+    use calamine::{Data, Reader, Sheets};
+
+    let text = |error: &dyn std::fmt::Display| error.to_string();
+    let mut cells = Vec::new();
+    match book {
+        // The cells are read one by one: a stray cell in the last column costs no more than others.
+        Sheets::Xlsx(book) => {
+            let mut reader = match book.worksheet_cells_reader(sheet) {
+                Err(calamine::XlsxError::NotAWorksheet(_)) => return Ok(cells),
+                reader => reader.map_err(|e| text(&e))?,
+            };
+            let shows_percent: Vec<bool> = reader
+                .styles()
+                .iter()
+                .map(|style| {
+                    let format = style.number_format.as_ref();
+                    format.is_some_and(|format| is_percent_format(&format.format_code))
+                })
+                .collect();
+            while let Some((found, style)) =
+                reader.next_cell_with_style_id().map_err(|e| text(&e))?
+            {
+                let (row, column) = found.get_position();
+                let is_percent = shows_percent.get(style).copied().unwrap_or(false);
+                let cell = cell(&Data::from(found.get_value().clone()), is_percent);
+                place(&mut cells, PlacedCell { row, column, cell })?;
+            }
+        }
+        Sheets::Xlsb(book) => {
+            let mut reader = book.worksheet_cells_reader(sheet).map_err(|e| text(&e))?;
+            while let Some(found) = reader.next_cell().map_err(|e| text(&e))? {
+                let (row, column) = found.get_position();
+                let cell = cell(&Data::from(found.get_value().clone()), false);
+                place(&mut cells, PlacedCell { row, column, cell })?;
+            }
+        }
+        book => {
+            let range = book.worksheet_range(sheet).map_err(|e| text(&e))?;
+            let (first_row, first_column) = range.start().unwrap_or((0, 0));
+            for (row, column, data) in range.used_cells() {
+                let (row, column) = (first_row + row as u32, first_column + column as u32);
+                place(&mut cells, PlacedCell { row, column, cell: cell(data, false) })?;
+            }
+        }
+    }
+    Ok(cells)
+}
+
+/// Appends `placed` to `cells`, if it is not empty.
+#[cfg(feature = "spreadsheets")]
+fn place(cells: &mut Vec<PlacedCell>, placed: PlacedCell) -> Result<(), String> {
+    if cells.len() == CELLS_MAX {
+        return Err(too_many_cells());
+    }
+    if !placed.cell.is_empty() {
+        cells.push(placed);
+    }
+    Ok(())
+}
+
+/// Returns the reason for which a sheet with too many cells is refused.
+#[cfg(feature = "spreadsheets")]
+fn too_many_cells() -> String {
+    format!("it has more than {CELLS_MAX} cells: delete the stray ones, or save the results alone")
+}
+
+/// Returns the rows of `cells`. All rows are as wide as the sheet, unless that takes more than
+/// [`CELLS_MAX`] cells: then each row ends with its last cell.
+#[cfg(feature = "spreadsheets")]
+fn rows_of(mut cells: Vec<PlacedCell>) -> Result<Vec<crate::tables::grid::Row>, String> {
+    use crate::tables::grid::{Cell, Row};
+
+    // Of two cells at one place the later one counts.
+    cells.sort_by_key(|placed| (placed.row, placed.column));
+    let width = cells.iter().map(|placed| placed.column as usize + 1).max().unwrap_or(0);
+    let groups = || cells.chunk_by(|one, other| one.row == other.row);
+    let is_padded = groups().count().saturating_mul(width) <= CELLS_MAX;
+    let width_of = |group: &[PlacedCell]| match group.last() {
+        Some(last) if !is_padded => last.column as usize + 1,
+        _ => width,
+    };
+    if groups().map(width_of).sum::<usize>() > CELLS_MAX {
+        return Err(too_many_cells());
+    }
+
+    let rows = groups().map(|group| {
+        let mut row = vec![Cell::Text(String::new()); width_of(group)];
+        for placed in group {
+            row[placed.column as usize] = placed.cell.clone();
+        }
+        Row { line: group.first().map_or(0, |placed| placed.row as usize) + 1, cells: row }
+    });
+    Ok(rows.collect())
 }
 
 /// Returns whether a number `format` displays percent: the sign stands outside of quotes.
@@ -82,15 +202,16 @@ fn is_percent_format(format: &str) -> bool {
     false
 }
 
-/// Returns the cell of `data`.
+/// Returns the cell of `data`, a number of which may be displayed in percent.
 #[cfg(feature = "spreadsheets")]
-fn cell(data: &calamine::Data) -> crate::tables::grid::Cell {
+fn cell(data: &calamine::Data, is_percent: bool) -> crate::tables::grid::Cell {
     use calamine::Data;
 
     use crate::tables::grid::Cell;
 
     match data {
         Data::Int(number) => Cell::Number(*number as f64),
+        Data::Float(number) if is_percent => Cell::Percent(100.0 * number),
         Data::Float(number) => Cell::Number(*number),
         Data::Empty => Cell::Text(String::new()),
         Data::DateTime(moment) => {
