@@ -115,14 +115,16 @@ fn map() -> Uses {
 }
 
 /// Returns all source files, of crates, their tests, examples and benches, but those of crates
-/// left.
+/// left and of folders of builds.
 fn sources() -> Vec<PathBuf> {
     let mut sources = Vec::new();
     let mut open: Vec<PathBuf> = ["crates", "tests", "benches"].map(|f| root().join(f)).into();
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(&folder).expect("a folder can be read") {
             let path = entry.expect("an entry can be read").path();
-            if path.is_dir() {
+            // Builds of the packages beside the workspace, such as the driver of fuzzing, are no
+            // sources.
+            if path.is_dir() && !path.ends_with("target") {
                 open.push(path);
             } else if path.extension().is_some_and(|ending| ending == "rs") {
                 sources.push(path);
