@@ -17,6 +17,7 @@ mod error;
 mod read;
 mod spec;
 
+pub use check::body::mesh_remedy::{is_repaired, mesh_remedy, repaired_file};
 pub use check::checker::MESH_LIMIT;
 pub use error::{Error, Refused};
 pub use figure::cloth_section::ClothPlaces;

@@ -1,5 +1,6 @@
 //! Bodies of a scene: primitives and meshes, with their motions.
 
+pub(crate) mod mesh_remedy;
 mod shape_files;
 
 use std::path::{Path, PathBuf};
@@ -13,6 +14,7 @@ use crate::scene::motion::{BodyMotion, rotate, rotate_pose};
 use crate::spec::body::{CommonKeys, CylinderSpec, MeshSpec};
 use crate::spec::file_or::FileOr;
 
+use self::mesh_remedy::{is_repaired, repaired_file};
 use self::shape_files::{Sampling, ShapeError, outline, read_shapes};
 
 /// Shortest and longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is
@@ -178,14 +180,12 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Optio
             if !error.is_fault_of_surface() {
                 checker.fail_mesh(&key, &error);
             } else if let Some(path) = path.filter(|path| checker.given(path).is_none()) {
-                let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                if stem.ends_with("-repaired") {
+                if is_repaired(&path) {
                     checker.fail(&key, error.to_string(), MEND_REPAIRED);
                     return None;
                 }
-                let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
-                let named = file.file.file().unwrap_or_default();
-                let named = Path::new(named).with_file_name(format!("{stem}-repaired.obj"));
+                let repaired = repaired_file(&path);
+                let named = repaired_file(Path::new(file.file.file().unwrap_or_default()));
                 let remedy = Remedy::RepairMesh { mesh: path, repaired, named };
                 checker.fail(&key, error.to_string(), remedy);
             } else {

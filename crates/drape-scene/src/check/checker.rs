@@ -8,10 +8,11 @@ use std::path::{Path, PathBuf};
 
 use drape_collide::{MESH_BYTES_MAX, Triangulation, parse_mesh, read_mesh_within};
 use drape_input::{
-    Advice, Diagnostic, Diagnostics, Document, Faults, Remedy, SizeLimit, Subject, closest,
-    excerpt, figure, missing_file_help, similar_file, tidy, toml_key, toml_string,
+    Advice, Diagnostic, Diagnostics, Document, Faults, SizeLimit, Subject, closest, excerpt,
+    figure, missing_file_help, similar_file, tidy, toml_key, toml_string,
 };
 
+use crate::check::body::mesh_remedy::mesh_remedy;
 use crate::check::documents::Documents;
 use crate::check::memory::particles_max;
 use crate::spec::SceneSpec;
@@ -140,11 +141,9 @@ impl<'a> Checker<'a> {
 
     /// Adds a mistake at a key whose mesh cannot be read.
     pub(crate) fn fail_mesh(&mut self, key: &str, error: &drape_collide::Error) {
-        self.add(key, tidy(&error.to_string()), |mistake| match error {
-            drape_collide::Error::FileTooLong { times, .. } => {
-                mistake.help(Remedy::RaiseLimits { factor: *times })
-            }
-            _ => mistake,
+        self.add(key, tidy(&error.to_string()), |mistake| match mesh_remedy(error) {
+            Some(remedy) => mistake.help(remedy),
+            None => mistake,
         });
     }
 

@@ -4,11 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::collide::{
-    Error, FaultPlaces, Mesh, MeshInspection, RepairSettings, Triangulation, read_mesh_within,
-    repair,
+    FaultPlaces, Mesh, MeshInspection, RepairSettings, Triangulation, read_mesh_within, repair,
 };
-use drape::input::{Diagnostic, Diagnostics, Remedy, counted};
-use drape::scene::MESH_LIMIT;
+use drape::input::{Diagnostic, Diagnostics, counted};
+use drape::scene::{MESH_LIMIT, is_repaired, mesh_remedy, repaired_file};
 
 use crate::failure::Failure;
 use crate::input;
@@ -53,9 +52,9 @@ struct ReadMesh {
 fn read(path: &Path, settings: BodySettings) -> Result<ReadMesh, Diagnostics> {
     let mesh = read_mesh_within(path, MESH_LIMIT.bytes(input::access())).map_err(|error| {
         let mistake = Diagnostic::new(path, error.to_string());
-        match error {
-            Error::FileTooLong { times, .. } => mistake.help(Remedy::RaiseLimits { factor: times }),
-            _ => mistake,
+        match mesh_remedy(&error) {
+            Some(remedy) => mistake.help(remedy),
+            None => mistake,
         }
     })?;
     let is_finite = mesh.vertices.iter().flatten().all(|x| x.abs() < 1e9);
@@ -105,14 +104,16 @@ pub(crate) fn describe(
 
     let mut mistakes = Vec::new();
     if let Some(fault) = fault(&mesh) {
-        let help = match repaired_name(path) {
-            Some(repaired) => format!(
-                "a scene refuses it as well; `drape check {} --repair {repaired}` mends what is safe",
-                path.display()
-            ),
-            None => "a scene refuses it as well, and a repair has left these faults: mend them where the body was \
-                     made, in a modelling program"
-                .into(),
+        let help = if is_repaired(path) {
+            "a scene refuses it as well, and a repair has left these faults: mend them where the body was made, in a \
+             modelling program"
+                .into()
+        } else {
+            format!(
+                "a scene refuses it as well; `drape check {} --repair {}` mends what is safe",
+                path.display(),
+                repaired_file(path).display()
+            )
         };
         mistakes.push(Diagnostic::new(input::message_path(path), fault).help(help));
     }
@@ -122,14 +123,6 @@ pub(crate) fn describe(
 /// Returns the reason for which a scene refuses `mesh`, if there is one.
 fn fault(mesh: &Triangulation) -> Option<String> {
     Mesh::new(&mesh.vertices, &mesh.triangles).err().map(|error| error.to_string())
-}
-
-/// Returns the file name that a message proposes for the repaired mesh of `path`, or `None` if the
-/// mesh has been repaired already.
-fn repaired_name(path: &Path) -> Option<String> {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
-    (!stem.ends_with("-repaired")).then(|| repaired.display().to_string())
 }
 
 /// Repairs the mesh at `path`, writes it as OBJ in the unit of its file, and describes the repair.

@@ -5,6 +5,7 @@
 
 use drape_input::{Advice, Remedy, counted};
 
+use crate::check::body::mesh_remedy::repaired_file;
 use crate::scene::{MeshSource, MovingBody, Scene};
 
 /// Least ratio of the longest horizontal side to the height of a wearer that lies.
@@ -70,12 +71,11 @@ fn fine(moving: &MovingBody, mesh: &MeshSource, spacing: f64) -> Option<Advice> 
             1e3 * mesh.inspection.edge_lengths.median,
             1e3 * spacing,
         );
-        let stem = mesh.file.with_extension("").display().to_string();
         Advice::from(note).with(Remedy::ThinMesh {
             mesh: mesh.file.clone(),
             scale: mesh.scale,
             spacing,
-            thinned: format!("{stem}-repaired.obj").into(),
+            thinned: repaired_file(&mesh.file),
         })
     })
 }
