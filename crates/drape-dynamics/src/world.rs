@@ -121,11 +121,6 @@ impl World {
             None => Seams { springs: None, sewn: None },
         };
 
-        if let Some(SewnCloth { cloth, bending }) = &seams.sewn {
-            // A scene that was changed after it was checked is refused now, not when it is sewn.
-            bending.state(&start.positions)?;
-            cloth.state(start.positions.clone())?;
-        }
         let mut state = cloth.state(start.positions)?;
         state.velocities = start.velocities;
         let coupled = seams.springs.as_ref().map_or_else(Vec::new, ClosingSprings::coupled_pairs);

@@ -123,6 +123,12 @@ impl SeamBending {
         Ok(Self { connectors, particles, fingerprint })
     }
 
+    /// Returns the number of particles of the cloth.
+    #[must_use]
+    pub fn particle_count(&self) -> usize {
+        self.particles
+    }
+
     /// Checks that `state` belongs to these seams, and that the list called `name` has three
     /// numbers for every particle.
     fn check(
@@ -189,7 +195,7 @@ impl SeamBending {
     /// Adds the forces of all seams at the positions `trial` to `forces`, in N.
     ///
     /// # Errors
-    /// The state belongs to other seams, or a list has another length than three numbers for every
+    /// The state belongs to other seams, or a list does not have three numbers for every
     /// particle.
     pub fn add_forces(
         &self,

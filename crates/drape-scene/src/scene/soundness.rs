@@ -28,7 +28,7 @@ impl Scene {
             })
     }
 
-    /// Returns what is wrong with the times and the surroundings.
+    /// Returns the first fault of the clock, the relaxation or the environment of the scene.
     fn clock_fault(&self) -> Option<String> {
         let Clock { step, ticks_per_step, ticks_max, error, end, ramp, ticks_per_frame } =
             self.schedule.clock;
@@ -61,7 +61,8 @@ impl Scene {
         rules.iter().find(|(holds, _)| !holds).map(|(_, rule)| (*rule).into())
     }
 
-    /// Returns what is wrong with the panels and garments of a cloth with a number of `particles`.
+    /// Returns the first fault of the panels and garments of a cloth that has `particles`
+    /// particles.
     fn panel_fault(&self, particles: usize) -> Option<String> {
         let mut first = 0;
         for panel in &self.panels {
@@ -86,7 +87,8 @@ impl Scene {
         Some(format!("the garment \"{}\" has more particles than the cloth", beyond.name))
     }
 
-    /// Returns what is wrong with the start of a number of `particles`.
+    /// Returns the first fault of the positions and velocities at which `particles` particles
+    /// start.
     fn start_fault(&self, particles: usize) -> Option<String> {
         let lists = [("positions", &self.start.positions), ("velocities", &self.start.velocities)];
         lists.into_iter().find_map(|(name, list)| {
@@ -99,7 +101,7 @@ impl Scene {
         })
     }
 
-    /// Returns what is wrong with the bodies that move.
+    /// Returns the first body whose motion does not fit the body, in words.
     fn body_fault(&self) -> Option<String> {
         let is_sound = |MovingBody { body, motion, .. }: &MovingBody| match motion {
             Some(motion @ BodyMotion::Shapes(_)) => {
@@ -113,9 +115,9 @@ impl Scene {
     }
 }
 
-/// Returns what is wrong with the `sewing` of a cloth with a number of `particles`.
+/// Returns the fault of the `sewing` of a cloth that has `particles` particles, if there is one.
 fn sewing_fault(sewing: &Sewing, particles: usize) -> Option<String> {
-    let Sewing { seams, pairs, cloth, seconds, .. } = sewing;
+    let Sewing { seams, pairs, cloth, seconds, bending } = sewing;
     let exists = |particle: &u32| (*particle as usize) < particles;
     let all = seams.iter().map(|seam| &seam.pairs).chain([pairs]);
     for pairs in all {
@@ -124,7 +126,7 @@ fn sewing_fault(sewing: &Sewing, particles: usize) -> Option<String> {
             return Some("a seam names a particle that does not exist".into());
         }
     }
-    if cloth.particle_count() != particles {
+    if [cloth.particle_count(), bending.particle_count()] != [particles; 2] {
         return Some("the cloth that is sewn has another number of particles".into());
     }
     let is_time = *seconds > 0.0 && seconds.is_finite();
