@@ -7,8 +7,13 @@ mod support;
 
 use support::{BOTH, WARP, WEFT, assert_values, drafted, get};
 
+/// Returns the bytes of a workbook of [`sheets`].
+fn book(texts: &[(&str, &str)]) -> Vec<u8> {
+    sheets(texts).save_to_buffer().expect("a workbook")
+}
+
 /// Makes a workbook of sheets, each a name and its cells with commas between.
-fn book(sheets: &[(&str, &str)]) -> Vec<u8> {
+fn sheets(sheets: &[(&str, &str)]) -> rust_xlsxwriter::Workbook {
     let mut book = rust_xlsxwriter::Workbook::new();
     for (name, text) in sheets {
         let sheet = book.add_worksheet().set_name(*name).expect("a name");
@@ -22,27 +27,19 @@ fn book(sheets: &[(&str, &str)]) -> Vec<u8> {
             }
         }
     }
-    book.save_to_buffer().expect("a workbook")
+    book
 }
 
 const RESULTS: &str = "Property,Unit,Linen\nB,gf.cm2/cm,0.118\n2HB,gf.cm/cm,0.06\nW,mg/cm2,18\n";
 
 #[test]
 fn a_stray_cell_in_the_last_row_and_column_takes_nothing_away() {
-    let mut stray = rust_xlsxwriter::Workbook::new();
-    let sheet = stray.add_worksheet().set_name("Results").expect("a name");
-    for (row, line) in RESULTS.lines().enumerate() {
-        for (column, cell) in line.split(',').enumerate() {
-            let (row, column) = (row as u32, column as u16);
-            match cell.parse::<f64>() {
-                Ok(number) => sheet.write(row, column, number).expect("written"),
-                Err(_) => sheet.write(row, column, cell).expect("written"),
-            };
-        }
-    }
+    let texts = [("Results", RESULTS)];
+    let mut stray = sheets(&texts);
+    let sheet = stray.worksheet_from_index(0).expect("one sheet");
     sheet.write(1_048_575, 16_383, "stray").expect("written");
     let stray = stray.save_to_buffer().expect("a workbook");
-    for bytes in [book(&[("Results", RESULTS)]), stray] {
+    for bytes in [book(&texts), stray] {
         let (_, sheet) = drafted("results.xlsx", &bytes);
         let values: Vec<(&str, f64)> =
             sheet.listed().iter().map(|value| (value.symbol, value.value)).collect();

@@ -57,9 +57,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
         .collect();
     let mut grids = Vec::new();
     for sheet in names {
-        let cells = placed_cells(&mut book, &sheet)
+        let rows = placed_cells(&mut book, &sheet)
+            .and_then(rows_of)
             .map_err(|reason| format!("the sheet \"{sheet}\": {reason}"))?;
-        let rows = rows_of(cells).map_err(|reason| format!("the sheet \"{sheet}\": {reason}"))?;
         grids.push(Grid { sheet, rows, ..Grid::default() });
     }
     Ok(grids)
@@ -93,14 +93,13 @@ fn placed_cells<R: std::io::Read + std::io::Seek>(
 ) -> Result<Vec<PlacedCell>, String> {
     use calamine::{Data, Reader, Sheets};
 
-    let text = |error: &dyn std::fmt::Display| error.to_string();
     let mut cells = Vec::new();
     match book {
         // The cells are read one by one: a stray cell in the last column costs no more than others.
         Sheets::Xlsx(book) => {
             let mut reader = match book.worksheet_cells_reader(sheet) {
                 Err(calamine::XlsxError::NotAWorksheet(_)) => return Ok(cells),
-                reader => reader.map_err(|e| text(&e))?,
+                reader => reader.map_err(|error| error.to_string())?,
             };
             let shows_percent: Vec<bool> = reader
                 .styles()
@@ -110,25 +109,26 @@ fn placed_cells<R: std::io::Read + std::io::Seek>(
                     format.is_some_and(|format| is_percent_format(&format.format_code))
                 })
                 .collect();
-            while let Some((found, style)) =
-                reader.next_cell_with_style_id().map_err(|e| text(&e))?
+            while let Some((read, style)) =
+                reader.next_cell_with_style_id().map_err(|error| error.to_string())?
             {
-                let (row, column) = found.get_position();
+                let (row, column) = read.get_position();
                 let is_percent = shows_percent.get(style).copied().unwrap_or(false);
-                let cell = cell(&Data::from(found.get_value().clone()), is_percent);
+                let cell = cell(&Data::from(read.get_value().clone()), is_percent);
                 place(&mut cells, PlacedCell { row, column, cell })?;
             }
         }
         Sheets::Xlsb(book) => {
-            let mut reader = book.worksheet_cells_reader(sheet).map_err(|e| text(&e))?;
-            while let Some(found) = reader.next_cell().map_err(|e| text(&e))? {
-                let (row, column) = found.get_position();
-                let cell = cell(&Data::from(found.get_value().clone()), false);
+            let mut reader =
+                book.worksheet_cells_reader(sheet).map_err(|error| error.to_string())?;
+            while let Some(read) = reader.next_cell().map_err(|error| error.to_string())? {
+                let (row, column) = read.get_position();
+                let cell = cell(&Data::from(read.get_value().clone()), false);
                 place(&mut cells, PlacedCell { row, column, cell })?;
             }
         }
         book => {
-            let range = book.worksheet_range(sheet).map_err(|e| text(&e))?;
+            let range = book.worksheet_range(sheet).map_err(|error| error.to_string())?;
             let (first_row, first_column) = range.start().unwrap_or((0, 0));
             for (row, column, data) in range.used_cells() {
                 let (row, column) = (first_row + row as u32, first_column + column as u32);
