@@ -23,10 +23,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     for model in &models {
         let (positions, _) = model.mesh.positions.as_chunks::<3>();
         let (colours, _) = model.mesh.vertex_color.as_chunks::<3>();
-        let (faces, remainder) = model.mesh.indices.as_chunks::<3>();
-        if !remainder.is_empty() {
-            return Err("a face has fewer than three corners".to_string());
-        }
+        let (faces, _) = model.mesh.indices.as_chunks::<3>();
         let numbers: Vec<u32> = colours.iter().map(|colour| colour[0] as u32).collect();
         for (&number, position) in numbers.iter().zip(positions) {
             *vertices.get_mut(number as usize).ok_or("a vertex has no number")? = *position;
@@ -46,7 +43,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
 /// at least three corners, which are vertices of the text.
 ///
 /// # Errors
-/// The number of the first line that is wrong, and what is wrong with it.
+/// The number of the first line with a fault, and the fault.
 fn check_lines(text: &str) -> Result<(), String> {
     let is_vertex = |line: &&str| line.split_whitespace().next() == Some("v");
     let count = text.lines().filter(is_vertex).count() as i64;
@@ -68,7 +65,7 @@ fn check_lines(text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns what is wrong with a vertex of the `coordinates`.
+/// Returns the fault of a vertex whose coordinates are the words `coordinates`, if there is one.
 fn vertex_fault<'a>(coordinates: impl Iterator<Item = &'a str>) -> Option<String> {
     let coordinates: Vec<&str> = coordinates.take(3).collect();
     if coordinates.len() < 3 {
@@ -78,8 +75,8 @@ fn vertex_fault<'a>(coordinates: impl Iterator<Item = &'a str>) -> Option<String
     Some(format!("the coordinate \"{wrong}\" of a vertex is no number"))
 }
 
-/// Returns what is wrong with a face of the `corners`, in a text with a number of vertices `before`
-/// the face and `count` vertices in all.
+/// Returns the fault of a face whose corners are the words `corners`, if there is one. The text has
+/// `before` vertices before the face, and `count` vertices in all.
 fn face_fault<'a>(
     corners: impl Iterator<Item = &'a str>,
     before: i64,
