@@ -102,7 +102,8 @@ fn use_file(path: &Path, named: &Path, purpose: FilePurpose) -> String {
     }
 }
 
-/// Returns the advice `start` for the pattern `file`, which states its unit in none of `units`.
+/// Returns the advice to state one of `units` for the pattern `file`. The advice begins with the
+/// words `start`.
 fn say_unit(start: &str, file: &Path, units: &[&str]) -> String {
     let (first, others) = units.split_first().unwrap_or((&"mm", &[]));
     format!(

@@ -189,7 +189,7 @@ impl Cloth {
     /// each of `ties` lies. The sum and the centre of the masses stay.
     ///
     /// # Errors
-    /// A tie names a particle that does not exist, or a fraction beyond 0 to 1.
+    /// A tie names a particle that does not exist, or has a fraction outside of 0 to 1.
     pub fn with_ties<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Result<Self, Error> {
         for (tie, &Tie { particle, ends, fraction }) in ties.into_iter().enumerate() {
             let mut particles = ends.into_iter().chain([particle]);

@@ -94,8 +94,8 @@ pub enum Error {
         /// Problems of the fabric, each with its key.
         problems: Vec<String>,
     },
-    /// A tie of a cloth names a particle that does not exist, or a fraction beyond 0 to 1.
-    #[error("tie {tie} names a particle that does not exist, or a fraction beyond 0 to 1")]
+    /// A tie of a cloth names a particle that does not exist, or has a fraction outside of 0 to 1.
+    #[error("tie {tie} names a particle that does not exist, or has a fraction outside of 0 to 1")]
     Tie {
         /// Index of the tie, counted from 0.
         tie: usize,

@@ -188,7 +188,7 @@ impl Breen {
     /// Adds the forces on the particles at `positions` to `forces`, in N, three numbers each.
     ///
     /// # Errors
-    /// A list has another length than three numbers for every particle.
+    /// A list does not have three numbers for every particle.
     pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) -> Result<(), Error> {
         self.check("positions", positions)?;
         self.check("forces", forces)?;

@@ -50,8 +50,8 @@ impl Cloth {
     /// evaluations use a [`Workspace`].
     ///
     /// # Errors
-    /// The state belongs to another cloth, or a list has another length than three numbers for
-    /// every particle.
+    /// The state belongs to another cloth, or a list does not have three numbers for every
+    /// particle.
     pub fn add_forces(
         &self,
         state: &State,
@@ -95,8 +95,8 @@ impl Cloth {
     /// fabric's friction, in J.
     ///
     /// # Errors
-    /// The state belongs to another cloth, or a list has another length than three numbers for
-    /// every particle. The state is then unchanged.
+    /// The state belongs to another cloth, or a list does not have three numbers for every
+    /// particle. The state is then unchanged.
     pub fn commit(
         &self,
         state: &mut State,

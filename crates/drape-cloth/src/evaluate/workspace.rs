@@ -100,7 +100,8 @@ impl Workspace {
     /// Adds the forces to `forces`, in N, like [`Cloth::add_forces`].
     ///
     /// # Errors
-    /// The trial is of another cloth, or `forces` has not three numbers for every particle.
+    /// The trial is of another cloth, or `forces` does not have three numbers for every
+    /// particle.
     pub fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) -> Result<(), Error> {
         let Trial { cloth, state, .. } = trial;
         self.check(cloth)?;
@@ -169,7 +170,8 @@ impl Workspace {
     /// Adds the stiffness to `values`, in N/m, like [`Cloth::add_stiffness`].
     ///
     /// # Errors
-    /// The trial is of another cloth, or `values` has not nine numbers for every block.
+    /// The trial is of another cloth, or `values` does not have nine numbers for every
+    /// block.
     pub fn add_stiffness(
         &mut self,
         trial: Trial<'_>,

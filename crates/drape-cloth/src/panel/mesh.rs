@@ -165,8 +165,8 @@ impl Mesh {
             let steps = [[0_u32, 0], [1, 0], [1, 1], [0, 1]];
             let is_full = cell.iter().zip(steps).all(|(&node, step)| {
                 let point = [0, 1].map(|k| first[k].checked_add(step[k]));
-                let found = self.grid.get(node as usize);
-                found.is_some_and(|found| found.map(Some) == point)
+                let point_of_node = self.grid.get(node as usize);
+                point_of_node.is_some_and(|of_node| of_node.map(Some) == point)
             });
             if !is_full {
                 return Err(("cell", index, "is not a full cell of the grid"));

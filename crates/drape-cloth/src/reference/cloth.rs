@@ -171,7 +171,7 @@ impl ReferenceCloth {
     /// [`Cloth::add_forces`](crate::Cloth::add_forces).
     ///
     /// # Errors
-    /// A list has another length than three numbers for every particle.
+    /// A list does not have three numbers for every particle.
     pub fn add_forces(&self, trial: &[f64], forces: &mut [f64]) -> Result<(), Error> {
         self.check("trial positions", trial)?;
         self.check("forces", forces)?;
@@ -238,7 +238,8 @@ impl ReferenceCloth {
     /// [`Cloth::add_stiffness`](crate::Cloth::add_stiffness).
     ///
     /// # Errors
-    /// There are not three numbers for every particle, or not nine `values` for every block.
+    /// `trial` does not have three numbers for every particle, or `values` does not have nine
+    /// numbers for every block.
     pub fn add_stiffness(
         &self,
         trial: &[f64],
@@ -303,7 +304,7 @@ impl ReferenceCloth {
     /// belong to the state after the step. Returns the energy dissipated, in J.
     ///
     /// # Errors
-    /// A list has another length than three numbers for every particle.
+    /// A list does not have three numbers for every particle.
     pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> Result<f64, Error> {
         self.check("positions", positions)?;
         self.check("normals", normals)?;
