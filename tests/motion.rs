@@ -78,6 +78,37 @@ fn cloth_that_is_stretched_beyond_its_measurements_gets_a_warning() {
     }
 }
 
+#[test]
+fn cloth_that_is_deformed_beyond_what_is_plausible_gets_a_warning_with_the_place() {
+    // A strip of 0.1 m whose upper edge is led by a shift, in m. Its fabric has no ranges.
+    let warnings_after = |shift: [f64; 2]| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [x, y] = shift;
+        let scene = format!(
+            "spacing = 0.01\ngravity = [0, 0, 0]\nfabric.plain.file = \"plain.toml\"\n\
+             [[panel]]\nname = \"strip\"\nfabric = \"plain\"\nrectangle = [0.05, 0.1]\n\
+             [[pin]]\npanel = \"strip\"\nedge = \"bottom\"\n\
+             [[pin]]\npanel = \"strip\"\nedge = \"top\"\n\
+             [pin.motion]\ntimes = [0, 0.5]\nshift = [[0, 0, 0], [{x}, {y}, 0]]\n\
+             [time]\nstep = 0.01\nend = 0.6\n"
+        );
+        let (summary, _) = run(folder.path(), &scene, FABRIC);
+        summary["warnings"].to_string()
+    };
+    // Stretched by 8 and by 30 %.
+    assert_eq!(warnings_after([0.0, 0.008]), "[]");
+    let stretched = warnings_after([0.0, 0.03]);
+    assert!(stretched.contains("stretch along the warp reaches 3"), "{stretched}");
+    assert!(stretched.contains("in \\\"strip\\\" near ("), "{stretched}");
+    assert!(stretched.contains("doubtful beyond 10.0 %"), "{stretched}");
+    assert!(!stretched.contains("shear"), "{stretched}");
+    // The upper edge moves on a circle about the lower one, so that the warp keeps its length and
+    // turns by 60 degrees.
+    let sheared = warnings_after([0.0866, -0.05]);
+    assert!(sheared.contains("shear reaches ") && sheared.contains("beyond 45.0°"), "{sheared}");
+    assert!(!sheared.contains("stretch along the weft"), "{sheared}");
+}
+
 /// Root-mean-square distance of two lists of positions, in m.
 fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     let square =

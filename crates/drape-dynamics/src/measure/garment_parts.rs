@@ -26,9 +26,19 @@ pub(crate) struct GarmentParts {
     pub(crate) named_seams: Vec<Seam>,
     /// Edges of panels that are not part of a seam.
     pub(crate) free_edges: Vec<FreeEdge>,
-    /// Largest measured deformation of each law of each fabric, by the name of the fabric and the
-    /// key of the law.
-    pub(crate) measured_ranges: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Ranges of the fabrics.
+    pub(crate) materials: Vec<MaterialRanges>,
+}
+
+/// Ranges in which the laws of a fabric hold.
+#[derive(Debug, Clone)]
+pub(crate) struct MaterialRanges {
+    /// Name of the fabric in the scene.
+    pub(crate) name: String,
+    /// Thickness, in m.
+    pub(crate) thickness: f64,
+    /// Largest measured deformation of each law that was measured, by the key of the law.
+    pub(crate) measured: BTreeMap<String, f64>,
 }
 
 /// Panel and its particles.
@@ -99,7 +109,7 @@ impl GarmentParts {
             seams: seams.unwrap_or_default(),
             named_seams: sewing.map_or_else(Vec::new, |sewing| sewing.seams.clone()),
             free_edges: free_edges(scene),
-            measured_ranges: measured_ranges(&scene.materials),
+            materials: scene.materials.iter().map(MaterialRanges::new).collect(),
         }
     }
 
@@ -123,6 +133,24 @@ impl GarmentParts {
     pub(crate) fn panel_of(&self, particle: usize) -> &str {
         let mut panels = self.panels.iter();
         panels.find(|panel| panel.particles.contains(&particle)).map_or("", |panel| &panel.name)
+    }
+}
+
+impl MaterialRanges {
+    /// Returns the ranges of the fabric of `material`, from its file. A missing range of warp or
+    /// weft is replaced by the range of the other direction.
+    fn new(material: &Material) -> Self {
+        let provenance = material.fabric.provenance.as_ref();
+        let mut measured =
+            provenance.map_or_else(BTreeMap::new, |provenance| provenance.measured_range.clone());
+        for [known, missing] in
+            [["warp.traction", "weft.traction"], ["weft.traction", "warp.traction"]]
+        {
+            if let Some(strain) = measured.get(known).copied() {
+                measured.entry(missing.into()).or_insert(strain);
+            }
+        }
+        Self { name: material.name.clone(), thickness: material.fabric.thickness, measured }
     }
 }
 
@@ -182,21 +210,4 @@ fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
         count > 2 && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
     });
     free_edges.collect()
-}
-
-/// Returns the largest measured deformations of the fabrics of `materials`, from their files. A
-/// missing range of warp or weft is replaced by the range of the other direction.
-fn measured_ranges(materials: &[Material]) -> BTreeMap<String, BTreeMap<String, f64>> {
-    let ranges = materials.iter().filter_map(|material| {
-        let mut ranges = material.fabric.provenance.as_ref()?.measured_range.clone();
-        for [known, missing] in
-            [["warp.traction", "weft.traction"], ["weft.traction", "warp.traction"]]
-        {
-            if let Some(strain) = ranges.get(known).copied() {
-                ranges.entry(missing.into()).or_insert(strain);
-            }
-        }
-        Some((material.name.clone(), ranges))
-    });
-    ranges.collect()
 }

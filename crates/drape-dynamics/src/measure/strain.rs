@@ -1,41 +1,79 @@
 //! Strains of the cloth, and warnings where they exceed the measured range of the fabric.
 
 use drape_cloth::TriangleStrain;
+use drape_frames::curvatures;
 use serde_json::{Map, Value, json};
 
-use crate::measure::garment_parts::GarmentParts;
+use crate::measure::garment_parts::{GarmentParts, MaterialRanges};
+use crate::measure::vector::point_of;
 use crate::world::{ALL_PARTICLES, World};
 
 /// Fraction of the area of a cloth that may be deformed beyond the measured range of its fabric
 /// without a warning.
 const UNMEASURED: f64 = 1e-3;
 
-/// Measured law, and the deformation that is compared with its measured range.
-struct MeasuredLaw {
-    key: &'static str,
+/// Strain of a woven fabric above which a result is doubtful unless the fabric was measured so far.
+/// The Kawabata system stretches cloth to 500 N/m, where most woven fabrics are below.
+const STRAIN_MAX: f64 = 0.1;
+
+/// Shear angle above which a result is doubtful unless the fabric was measured so far, in rad.
+/// Yarns of clothing jam before 45 degrees.
+const SHEAR_MAX: f64 = std::f64::consts::FRAC_PI_4;
+
+/// Deformation of a triangle of the cloth.
+struct Deformation {
+    /// Number of the triangle in the cloth.
+    triangle: usize,
+    strain: TriangleStrain,
+    /// Largest curvature of the triangle, in 1/m.
+    curvature: f64,
+}
+
+/// Law, and the deformation that is compared with the range of the law.
+struct RangedLaw {
+    /// Keys of the law in the measured ranges of a fabric. The largest range counts.
+    keys: &'static [&'static str],
     name: &'static str,
-    deformation: fn(&TriangleStrain) -> f64,
+    deformation: fn(&Deformation) -> f64,
+    /// Converts a measured range into a limit of the deformation.
+    measured: fn(f64) -> f64,
+    /// Returns the deformation above which a result is doubtful without a measurement.
+    plausible: fn(&MaterialRanges) -> f64,
     written: fn(f64) -> String,
 }
 
-const LAWS: [MeasuredLaw; 3] = [
-    MeasuredLaw {
-        key: "warp.traction",
+const LAWS: [RangedLaw; 4] = [
+    RangedLaw {
+        keys: &["warp.traction"],
         name: "stretch along the warp",
-        deformation: |strain| strain.warp,
+        deformation: |deformation| deformation.strain.warp,
+        measured: |strain| strain,
+        plausible: |_| STRAIN_MAX,
         written: percent,
     },
-    MeasuredLaw {
-        key: "weft.traction",
+    RangedLaw {
+        keys: &["weft.traction"],
         name: "stretch along the weft",
-        deformation: |strain| strain.weft,
+        deformation: |deformation| deformation.strain.weft,
+        measured: |strain| strain,
+        plausible: |_| STRAIN_MAX,
         written: percent,
     },
-    MeasuredLaw {
-        key: "shear",
+    RangedLaw {
+        keys: &["shear"],
         name: "shear",
-        deformation: |strain| strain.shear.sin().abs(),
-        written: |sine| format!("{:.1}°", sine.asin().to_degrees()),
+        deformation: |deformation| deformation.strain.shear.abs(),
+        measured: |sine| sine.clamp(0.0, 1.0).asin(),
+        plausible: |_| SHEAR_MAX,
+        written: |angle| format!("{:.1}°", angle.to_degrees()),
+    },
+    RangedLaw {
+        keys: &["warp.bending", "weft.bending"],
+        name: "curvature",
+        deformation: |deformation| deformation.curvature,
+        measured: |curvature| curvature,
+        plausible: |ranges| 1.0 / ranges.thickness,
+        written: |curvature| format!("{curvature:.0} 1/m"),
     },
 ];
 
@@ -47,7 +85,7 @@ fn strains(world: &World) -> Vec<TriangleStrain> {
     world.cloth.triangle_strains(&world.state.positions).expect(ALL_PARTICLES)
 }
 
-/// Deformation of a triangle.
+/// Value of a triangle.
 struct Deformed {
     value: f64,
     /// Area of the triangle, in m².
@@ -89,35 +127,90 @@ fn quantiles(strains: &[TriangleStrain], deformation: fn(&TriangleStrain) -> f64
 }
 
 /// Returns a warning for each law of a fabric of `parts` whose cloth in `world` is deformed beyond
-/// the measured range.
+/// the measured range, or beyond what is plausible where nothing was measured.
 pub(crate) fn extrapolated(parts: &GarmentParts, world: &World) -> Vec<String> {
-    let strains = strains(world);
+    let deformations = deformations(world);
+    let triangles = world.cloth.triangles();
     let mut warnings = Vec::new();
-    for (fabric, ranges) in &parts.measured_ranges {
-        let of_fabric = world.cloth.triangles().iter().zip(&strains).filter(|(corners, _)| {
-            let first = corners[0] as usize;
+    for ranges in &parts.materials {
+        let of_fabric = deformations.iter().filter(|deformation| {
+            let first = triangles[deformation.triangle][0] as usize;
             let mut panels = parts.panels.iter();
-            panels.any(|panel| panel.fabric == *fabric && panel.particles.contains(&first))
+            panels.any(|panel| panel.fabric == ranges.name && panel.particles.contains(&first))
         });
-        let fabric_strains: Vec<&TriangleStrain> = of_fabric.map(|(_, strain)| strain).collect();
-        let total: f64 = fabric_strains.iter().map(|strain| strain.area).sum();
-
-        for MeasuredLaw { key, name, deformation, written } in &LAWS {
-            let Some(limit) = ranges.get(*key) else { continue };
-            let deformations = fabric_strains.iter().map(|strain| deformation(strain));
-            let largest = deformations.fold(0.0, f64::max);
-            let beyond = fabric_strains.iter().filter(|strain| deformation(strain) > *limit);
-            let fraction = beyond.map(|strain| strain.area).sum::<f64>() / total;
-            if fraction > UNMEASURED {
-                warnings.push(format!(
-                    "fabric \"{fabric}\": {name} reaches {}, and was measured up to {}: {:.1} % of the cloth go by what \
-                     the law says beyond",
-                    written(largest),
-                    written(*limit),
-                    100.0 * fraction
-                ));
-            }
+        let of_fabric: Vec<&Deformation> = of_fabric.collect();
+        for law in &LAWS {
+            let Some(excess) = Excess::new(law, ranges, &of_fabric) else { continue };
+            let corners = triangles[excess.worst.triangle].map(|corner| corner as usize);
+            let points = corners.map(|corner| point_of(&world.state.positions, corner as u32));
+            let [x, y, z] =
+                [0, 1, 2].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / 3.0);
+            let panel = parts.panel_of(corners[0]);
+            warnings.push(format!(
+                "fabric \"{}\": {} reaches {} in \"{panel}\" near ({x:.4}, {y:.4}, {z:.4}) m, {}; {:.2} % of the cloth \
+                 are beyond",
+                ranges.name,
+                law.name,
+                (law.written)((law.deformation)(excess.worst)),
+                excess.reason,
+                100.0 * excess.fraction
+            ));
         }
     }
     warnings
+}
+
+/// Returns the deformation of each triangle of the cloth of `world`.
+fn deformations(world: &World) -> Vec<Deformation> {
+    let positions = world.state.positions.as_chunks::<3>().0;
+    let curvatures = curvatures(positions, world.cloth.triangles()).expect(ALL_PARTICLES);
+    let strains = strains(world).into_iter().zip(curvatures).enumerate();
+    let deformations =
+        strains.map(|(triangle, (strain, curvature))| Deformation { triangle, strain, curvature });
+    deformations.collect()
+}
+
+/// Cloth that is deformed beyond the range of a law.
+struct Excess<'a> {
+    /// Triangle with the largest deformation.
+    worst: &'a Deformation,
+    /// Fraction of the area that is beyond, 0 to 1.
+    fraction: f64,
+    /// What the deformation was compared with, in words.
+    reason: String,
+}
+
+impl<'a> Excess<'a> {
+    /// Returns the part of `deformations` that is beyond the range of `law`. Returns `None` if no
+    /// part is, or if the part is small and plausible.
+    fn new(
+        law: &RangedLaw,
+        ranges: &MaterialRanges,
+        deformations: &[&'a Deformation],
+    ) -> Option<Excess<'a>> {
+        let value = |deformation: &Deformation| (law.deformation)(deformation);
+        let worst =
+            *deformations.iter().max_by(|first, second| value(first).total_cmp(&value(second)))?;
+        let plausible = (law.plausible)(ranges);
+        let measured = law.keys.iter().filter_map(|key| ranges.measured.get(*key).copied());
+        let measured = measured.map(law.measured).reduce(f64::max);
+        let limit = measured.unwrap_or(plausible);
+
+        let area = |deformation: &&&Deformation| deformation.strain.area;
+        let total: f64 = deformations.iter().map(|deformation| area(&deformation)).sum();
+        let beyond = deformations.iter().filter(|deformation| value(deformation) > limit);
+        let fraction = beyond.map(|deformation| area(&deformation)).sum::<f64>() / total;
+        let is_large = fraction > UNMEASURED || value(worst) > plausible.max(limit);
+        if !(fraction > 0.0 && is_large) {
+            return None;
+        }
+
+        let written = (law.written)(limit);
+        let reason = if measured.is_some() {
+            format!("and was measured up to {written}: beyond, the law is a guess")
+        } else {
+            format!("was not measured, and is doubtful beyond {written}")
+        };
+        Some(Excess { worst, fraction, reason })
+    }
 }
