@@ -250,6 +250,7 @@ impl Simulation {
 
         Ok(Self {
             stepping: Stepping::new(&world, scheme, schedule.clock, steps)?,
+            statistics: Statistics::new(&world),
             world,
             rest: RestDetector::new(schedule.relaxation),
             phases: Phases {
@@ -258,7 +259,6 @@ impl Simulation {
                 rested: false,
             },
             parts,
-            statistics: Statistics::new(),
             last: LastStep { speed_max: 0.0, imbalance: f64::NAN },
             outcome: Outcome::new(Vec::new()),
             frame_times: Vec::new(),

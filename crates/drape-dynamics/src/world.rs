@@ -241,7 +241,7 @@ impl World {
 
     /// Returns whether the closing springs are stiffened.
     pub(crate) fn springs_are_stiffened(&self) -> bool {
-        self.seams.springs.as_ref().is_some_and(|springs| springs.stiffening().is_some())
+        self.seams.springs.as_ref().is_some_and(ClosingSprings::are_stiffened)
     }
 
     /// Ends the sewing at `time`, in s, with the cloth at rest at `positions`, in m.

@@ -45,7 +45,7 @@ pub mod samples;
 pub use energy_table::EnergyTable;
 pub use error::Error;
 pub use frame::Frame;
-pub use manifest::{Manifest, SurfacePart};
+pub use manifest::{CLOSED_GAP, Manifest, SurfacePart};
 pub use recording::Recording;
 pub use source::FrameSource;
 pub use surface::curvature::curvatures;

@@ -9,6 +9,13 @@ use crate::error::Error;
 /// Format of the folders that this crate reads and writes.
 const FORMAT: u64 = 2;
 
+/// Widest gap at which the two sides of a seam count as closed while a garment is sewn, in m.
+///
+/// Until the vertices of a seam are merged, triangles from its two sides may intersect where the
+/// seam is closed: where its vertices are within this distance of each other, and a tied vertex
+/// within it of its edge. A run and the check of its frames both follow this rule.
+pub const CLOSED_GAP: f64 = 1e-4;
+
 /// Data that all frames of a run share: the content of `surfaces.json`.
 ///
 /// The default has no parts, and its surfaces are not kept apart.
@@ -35,6 +42,10 @@ pub struct Manifest {
     /// Cloth vertices that are tied to a point of an edge, each with the two ends of the edge.
     #[serde(default)]
     pub ties: Vec<[u32; 3]>,
+    /// Widest gap at which the two sides of a seam count as closed, in m: [`CLOSED_GAP`], also in
+    /// folders of older versions.
+    #[serde(default = "closed_gap")]
+    pub closed_gap: f64,
 }
 
 /// Panel or body of a run.
@@ -72,6 +83,11 @@ fn full_separation() -> f64 {
     1.0
 }
 
+/// Returns the default of `closed_gap`.
+fn closed_gap() -> f64 {
+    CLOSED_GAP
+}
+
 /// Returns the default of `weft`, the direction of the weft of a body and of a panel that states
 /// none.
 fn along_width() -> [f64; 2] {
@@ -102,6 +118,7 @@ impl Default for Manifest {
             pinch_fraction: full_separation(),
             seam_pairs: Vec::new(),
             ties: Vec::new(),
+            closed_gap: closed_gap(),
         }
     }
 }
@@ -124,9 +141,12 @@ impl Serialize for Manifest {
             twins: &'a [[u32; 2]],
             #[serde(skip_serializing_if = "<[_]>::is_empty")]
             ties: &'a [[u32; 3]],
+            #[serde(skip_serializing_if = "Option::is_none")]
+            closed_gap: Option<f64>,
         }
 
         let thinned = Some(self.pinch_fraction).filter(|fraction| *fraction != full_separation());
+        let has_seams = !(self.seam_pairs.is_empty() && self.ties.is_empty());
         let file = File {
             format: self.format,
             units: "m",
@@ -137,6 +157,7 @@ impl Serialize for Manifest {
             thinned,
             twins: &self.seam_pairs,
             ties: &self.ties,
+            closed_gap: has_seams.then_some(self.closed_gap),
         };
         file.serialize(to)
     }
@@ -239,6 +260,10 @@ impl Manifest {
 
         if !(self.pinch_fraction > 0.0 && self.pinch_fraction <= 1.0) {
             return Err(format!("{} is no fraction of a distance", self.pinch_fraction));
+        }
+        if !(0.0..=CLOSED_GAP).contains(&self.closed_gap) {
+            let widest = 1e3 * CLOSED_GAP;
+            return Err(format!("closed_gap is not between 0 and {widest} mm"));
         }
         if total > COUNT_MAX {
             return Err(format!("{total} vertices and triangles are too many"));

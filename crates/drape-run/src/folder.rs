@@ -17,6 +17,7 @@ mod resumable_run;
 mod space;
 mod status;
 mod stored_spec;
+mod verdict;
 
 pub use error::Error;
 pub use folder_run::{EndedRun, FolderRun, end_at};
@@ -27,3 +28,4 @@ pub use request::RunRequest;
 pub use resumable_run::ResumableRun;
 pub use space::describe_needs;
 pub use stored_spec::scene_document;
+pub use verdict::RunVerdict;

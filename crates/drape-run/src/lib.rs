@@ -12,7 +12,7 @@ mod scene_fabric;
 #[cfg(not(target_family = "wasm"))]
 pub use folder::{
     EndedRun, Error, FolderRun, Goal, Limits, ReachedLimit, ResumableRun, RunOptions, RunRequest,
-    Watcher, describe_needs, end_at, scene_document,
+    RunVerdict, Watcher, describe_needs, end_at, scene_document,
 };
 pub use scene_fabric::{
     NamedCurve, PlacedSpec, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of,

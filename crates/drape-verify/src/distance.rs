@@ -109,6 +109,16 @@ fn segment_segment([a, b]: [Point; 2], [c, d]: [Point; 2]) -> ClosestPoints {
     closest
 }
 
+/// Returns the shortest distance by which `segment` would have to move to leave `triangle`, which
+/// it intersects, in m: until one of its ends is in the face, or until it lies across a side.
+pub(crate) fn penetration(segment: [Point; 2], triangle: [Point; 3]) -> f64 {
+    let [a, b, c] = triangle;
+    let ends = segment.map(|end| point_triangle(end, triangle));
+    let sides = [[a, b], [b, c], [c, a]].map(|side| segment_segment(segment, side));
+    let ways = ends.into_iter().chain(sides);
+    ways.fold(ClosestPoints::NONE, ClosestPoints::min).distance()
+}
+
 /// Returns the closest points of the triangles `first` and `second` on features that are not
 /// joined.
 ///

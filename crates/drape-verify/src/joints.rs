@@ -10,9 +10,6 @@ use std::collections::BTreeMap;
 use crate::distance::point_segment;
 use crate::triangle::Vertex;
 
-/// Gap at which a run counts a seam as closed, in m.
-pub(crate) const CLOSED: f64 = 1e-4;
-
 /// Classes of vertices that are joined.
 #[derive(Debug, Clone)]
 pub(crate) struct Joints {
@@ -29,6 +26,8 @@ pub(crate) struct SewnVertices {
     pub(crate) pairs: Vec<[u32; 2]>,
     /// Vertices that are tied to an edge, each with the two ends of the edge.
     pub(crate) ties: Vec<[u32; 3]>,
+    /// Gap at which a run counts a seam as closed, in m.
+    pub(crate) closed_gap: f64,
 }
 
 impl SewnVertices {

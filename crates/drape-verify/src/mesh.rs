@@ -57,7 +57,11 @@ impl Mesh {
         }
 
         let vertex_count = parts.iter().map(|part| part.vertices).sum();
-        let sewn = SewnVertices { pairs: manifest.seam_pairs.clone(), ties: manifest.ties.clone() };
+        let sewn = SewnVertices {
+            pairs: manifest.seam_pairs.clone(),
+            ties: manifest.ties.clone(),
+            closed_gap: manifest.closed_gap,
+        };
         Mesh {
             triangles,
             part,

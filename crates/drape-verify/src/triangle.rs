@@ -24,12 +24,6 @@ impl Triangle {
         Some([self.apex(other)?, other.apex(self)?])
     }
 
-    /// Returns the position of the corner whose vertex has the given `number`, if there is one.
-    pub(crate) fn corner(&self, number: u32) -> Option<[f64; 3]> {
-        let index = self.vertices.iter().position(|vertex| vertex.number == number)?;
-        Some(self.corners[index])
-    }
-
     /// Returns the index of the only corner that is no vertex of `neighbour`.
     fn apex(&self, neighbour: &Triangle) -> Option<usize> {
         let mut unshared =

@@ -6,13 +6,13 @@ use drape_frames::Frame;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::distance::{point_segment, triangle_distance};
+use crate::distance::{penetration, triangle_distance};
 use crate::grid::{Aabb, Grid};
 use crate::inside::{EnclosedPiece, enclosed};
 use crate::intersection::{folded_flat, has_area, segment_intersects, triangles_intersect};
-use crate::joints::{CLOSED, Joints};
+use crate::joints::Joints;
 use crate::mesh::{Mesh, PartNumber};
-use crate::triangle::{EDGES, Triangle, Vertex, joined};
+use crate::triangle::{EDGES, Triangle, joined};
 
 /// Largest number of pairs that a verdict lists.
 const LISTED_MAX: usize = 10;
@@ -45,15 +45,18 @@ pub struct Verdict {
     /// Number of pairs whose bounding boxes overlap. All other pairs are disjoint.
     pub pairs: usize,
     /// Number of pairs that intersect outside their joints. Pairs that touch count, and so do pairs
-    /// from the two sides of a seam that is open by more than 0.1 mm.
+    /// from the two sides of a seam whose gap is wider than
+    /// [`closed_gap`](drape_frames::Manifest::closed_gap).
     pub intersections: usize,
-    /// Number of exempt pairs that intersect. Such a pair is from the two sides of a seam that
-    /// counts as closed, within 0.1 mm, but whose vertices are not one point yet.
+    /// Number of exempt pairs that intersect. Such a pair is from the two sides of a seam that is
+    /// closed, within [`closed_gap`](drape_frames::Manifest::closed_gap), but whose vertices are
+    /// not one point yet.
     #[serde(rename = "exempt_intersections")]
     pub exempt: usize,
-    /// Widest gap of the seams at the exempt pairs, in m. No side is deeper in the other than this
-    /// gap. 0 if there is no exempt pair.
-    pub exempt_depth: f64,
+    /// Largest depth of an exempt intersection, in m: the shortest distance by which an edge of one
+    /// triangle would have to move to leave the other. It is at most the gap of a closed seam, and
+    /// 0 if there is no exempt pair.
+    pub exempt_penetration: f64,
     /// Pieces of cloth that lie wholly inside a body.
     pub enclosed: Vec<EnclosedPiece>,
     /// Number of triangles without an area.
@@ -101,7 +104,7 @@ struct Findings {
     pairs: usize,
     intersections: usize,
     exempt: usize,
-    exempt_depth: f64,
+    exempt_penetration: f64,
     degenerate: usize,
     too_near: usize,
     min_distance: Option<f64>,
@@ -114,7 +117,7 @@ impl Findings {
         self.pairs += other.pairs;
         self.intersections += other.intersections;
         self.exempt += other.exempt;
-        self.exempt_depth = self.exempt_depth.max(other.exempt_depth);
+        self.exempt_penetration = self.exempt_penetration.max(other.exempt_penetration);
         self.degenerate += other.degenerate;
         self.too_near += other.too_near;
         self.min_distance =
@@ -133,9 +136,14 @@ impl Findings {
 }
 
 impl ClosePair {
-    /// Returns the distance over the minimum separation, or the distance if nothing was promised.
+    /// Returns the distance over the minimum separation. Disjoint triangles without a promise come
+    /// after the pairs that break theirs.
     fn relative_distance(&self) -> f64 {
-        if self.min_separation > 0.0 { self.distance / self.min_separation } else { self.distance }
+        match (self.min_separation > 0.0, self.distance > 0.0) {
+            (true, _) => self.distance / self.min_separation,
+            (false, true) => 1.0 + self.distance,
+            (false, false) => 0.0,
+        }
     }
 }
 
@@ -146,7 +154,7 @@ struct TestedFrame<'a> {
     positions: &'a [[f64; 3]],
     /// Joints of the vertices that are one point.
     joints: Joints,
-    /// Joints of the seams that count as closed, whose vertices are merged or will be.
+    /// Joints of the seams that are closed, whose vertices are merged or will be.
     closed: Joints,
     /// Growth fraction of the minimum separation, 0 to 1.
     growth: f64,
@@ -162,7 +170,8 @@ struct PromisedDistances {
 pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
     let Frame { number, file, time, growth_fraction: growth, cloth, bodies, .. } = frame;
     let positions = [cloth, bodies].concat();
-    let [joints, closed] = [0.0, CLOSED].map(|gap| mesh.sewn.joined_within(gap, &positions));
+    let [joints, closed] =
+        [0.0, mesh.sewn.closed_gap].map(|gap| mesh.sewn.joined_within(gap, &positions));
     let enclosed = enclosed(mesh, &joints, &positions);
     let findings = TestedFrame { mesh, positions: &positions, joints, closed, growth }.search();
 
@@ -175,7 +184,7 @@ pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
         pairs: findings.pairs,
         intersections: findings.intersections,
         exempt: findings.exempt,
-        exempt_depth: findings.exempt_depth,
+        exempt_penetration: findings.exempt_penetration,
         enclosed,
         degenerate: findings.degenerate,
         too_near: findings.too_near,
@@ -238,8 +247,8 @@ impl TestedFrame<'_> {
         }
         findings.pairs += 1;
 
-        // The sides of a closing seam are first taken as joined. A pair that intersects only if
-        // they are separate is exempt.
+        // The sides of a closed seam are first taken as joined. A pair that intersects only if they
+        // are separate is exempt, and the run keeps no distance between features that are joined.
         let triangles = self.triangles(pair, &self.closed);
         if intersect(triangles) {
             findings.intersections += 1;
@@ -251,10 +260,11 @@ impl TestedFrame<'_> {
             let is_closing = separate.map(|triangle| triangle.vertices)
                 != triangles.map(|triangle| triangle.vertices);
             if is_closing && intersect(separate) {
+                let depth = depth_of_intersection(separate);
                 findings.exempt += 1;
-                findings.exempt_depth = findings.exempt_depth.max(seam_gap(triangles));
+                findings.exempt_penetration = findings.exempt_penetration.max(depth);
             } else {
-                self.measure(pair, separate, findings);
+                self.measure(pair, triangles, findings);
             }
         }
 
@@ -274,24 +284,17 @@ impl TestedFrame<'_> {
 
         let [first, second] = triangles;
         let closest = triangle_distance(first, second);
-        let distance = closest.distance();
         let parts = pair.map(|triangle| self.mesh.part[triangle] as usize);
         let [a, b] = parts.map(|part| &self.mesh.parts()[part]);
         let mut promised = PromisedDistances {
             activation_distance: a.half_activation_distance + b.half_activation_distance,
             min_separation: a.half_min_separation + b.half_min_separation,
         };
+        if !(closest.distance() < promised.activation_distance) {
+            return;
+        }
         if pair.iter().any(|&triangle| self.mesh.is_body(triangle)) {
             promised.min_separation *= self.mesh.pinch_fraction;
-        }
-
-        let sewn = pair.map(|triangle| self.mesh.sewn_vertices(triangle));
-        if joined(&sewn[0], &sewn[1]) && !joined(&first.vertices, &second.vertices) {
-            // The sides of a seam approach each other until the seam is closed.
-            promised.min_separation = 0.0;
-        }
-        if !(distance < promised.activation_distance) {
-            return;
         }
 
         if parts[0] == parts[1] {
@@ -305,15 +308,28 @@ impl TestedFrame<'_> {
         }
         promised.min_separation *= self.growth;
 
-        let too_near = distance < promised.min_separation * (1.0 - ROUNDING);
+        // The sides of an open seam approach each other until the seam is closed. The promise holds
+        // for the features that the seam does not join.
+        let sewn = [0, 1].map(|k| Triangle {
+            vertices: self.mesh.sewn_vertices(pair[k]),
+            corners: triangles[k].corners,
+        });
+        let kept = triangle_distance(sewn[0], sewn[1]);
+        let too_near = kept.distance() < promised.min_separation * (1.0 - ROUNDING);
+        let (closest, min_separation) = if too_near || kept.distance() <= closest.distance() {
+            (kept, promised.min_separation)
+        } else {
+            (closest, 0.0)
+        };
+
+        let distance = closest.distance();
         findings.too_near += usize::from(too_near);
         if distance < promised.activation_distance || too_near {
             let least = findings.min_distance.map_or(distance, |least| least.min(distance));
             findings.min_distance = Some(least);
             let [p, q] = closest.points;
             let middle = [0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis]));
-            let distances = [distance, promised.min_separation];
-            findings.worst.push(self.close_pair(pair, middle, distances));
+            findings.worst.push(self.close_pair(pair, middle, [distance, min_separation]));
         }
     }
 
@@ -349,38 +365,35 @@ fn intersect([first, second]: [Triangle; 2]) -> bool {
 
 /// Returns whether an edge of `triangle` that is not joined to `other` intersects `other`.
 fn any_edge_intersects(triangle: &Triangle, other: &Triangle) -> bool {
-    EDGES.into_iter().any(|edge| {
-        !joined(&edge.map(|k| triangle.vertices[k]), &other.vertices)
-            && segment_intersects(edge.map(|k| triangle.corners[k]), other.corners)
-    })
+    intersecting_edges(triangle, other).next().is_some()
 }
 
-/// Returns the widest gap of the seams that join the triangles `first` and `second`, in m.
-fn seam_gap([first, second]: [Triangle; 2]) -> f64 {
-    let mut widest: f64 = 0.0;
-    for (triangle, other) in [(&first, &second), (&second, &first)] {
-        for (point, vertex) in triangle.corners.into_iter().zip(triangle.vertices) {
-            if let Some(target) = sewing_target(vertex, other) {
-                widest = widest.max(point_segment(point, target).distance());
-            }
-        }
-    }
-    widest
+/// Returns the edges of `triangle` that intersect `other` and are not joined to it.
+fn intersecting_edges<'a>(
+    triangle: &'a Triangle,
+    other: &'a Triangle,
+) -> impl Iterator<Item = [[f64; 3]; 2]> + 'a {
+    let free = EDGES.into_iter().filter(|edge| {
+        let vertices = edge.map(|k| triangle.vertices[k]);
+        !joined(&vertices, &other.vertices)
+    });
+    let edges = free.map(|edge| edge.map(|k| triangle.corners[k]));
+    edges.filter(|&edge| segment_intersects(edge, other.corners))
 }
 
-/// Returns the corner of `triangle` to which `vertex` is sewn, twice, or the edge of `triangle` to
-/// which it is tied. Returns `None` if `vertex` is not joined to `triangle`.
-fn sewing_target(vertex: Vertex, triangle: &Triangle) -> Option<[[f64; 3]; 2]> {
-    if let Some(corner) = triangle.corner(vertex.number) {
-        return Some([corner; 2]);
-    }
-    let [a, b] = vertex.between?;
-    Some([triangle.corner(a)?, triangle.corner(b)?])
+/// Returns the largest depth of an edge of one of two triangles in the other, in m.
+fn depth_of_intersection([first, second]: [Triangle; 2]) -> f64 {
+    let depths =
+        [(&first, &second), (&second, &first)].into_iter().flat_map(|(triangle, other)| {
+            intersecting_edges(triangle, other).map(|edge| penetration(edge, other.corners))
+        });
+    depths.fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::triangle::Vertex;
 
     #[test]
     fn vertices_tied_to_an_edge_intersect_its_triangle_only_elsewhere() {

@@ -249,10 +249,10 @@ fn sides_of_an_open_seam_that_cross_are_found() {
         |gap: f64| sewn([[0.0, -gap, -0.1 * gap], [0.1, -gap, 0.1 * gap]], [0.05, 0.1, 0.0]);
     let within = across(5e-5);
     assert!(within.holds() && (within.intersections, within.exempt) == (0, 1), "{within:?}");
-    let gap = 5e-5 * 1.0_f64.hypot(0.1);
-    assert!((within.exempt_depth - gap).abs() < 1e-12 * gap, "{within:?}");
+    // The edge rises by a tenth of the gap on both sides of the face.
+    assert!((0.09..0.1001).contains(&(within.exempt_penetration / 5e-5)), "{within:?}");
     let beyond = across(2e-4);
-    assert_eq!((beyond.intersections, beyond.exempt, beyond.exempt_depth), (1, 0, 0.0));
+    assert_eq!((beyond.intersections, beyond.exempt, beyond.exempt_penetration), (1, 0, 0.0));
     assert_eq!(across(0.0).exempt, 0, "its sides are joined");
     // One pair of twins has met, and the other side goes through.
     let verdict = sewn([[0.0, 0.0, 0.0], [0.06, -0.05, -0.01]], [0.05, -0.04, 0.1]);
@@ -260,7 +260,7 @@ fn sides_of_an_open_seam_that_cross_are_found() {
 }
 
 #[test]
-fn a_tied_vertex_beyond_its_edge_is_counted_with_its_distance_from_it() {
+fn a_tied_vertex_beyond_its_edge_is_counted_with_the_depth_of_its_triangle() {
     // The first corner of the second panel comes to lie on the upper edge of the first.
     let first = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, -0.1, 0.0]];
     let tied = |y: f64, z: f64| {
@@ -270,8 +270,10 @@ fn a_tied_vertex_beyond_its_edge_is_counted_with_its_distance_from_it() {
     };
     let behind = tied(-4e-5, -1e-5);
     assert!(behind.holds() && (behind.intersections, behind.exempt) == (0, 1), "{behind:?}");
-    let depth = 4e-5_f64.hypot(1e-5);
-    assert!((behind.exempt_depth - depth).abs() < 1e-9 * depth, "{behind:?}");
+    // The plane of the second rises along (y, z) behind the edge, and passes it at this distance.
+    let [y, z] = [0.1 + 4e-5, 0.05 + 1e-5_f64];
+    let depth = (1e-5 * y - 4e-5 * z).abs() / y.hypot(z);
+    assert!((behind.exempt_penetration - depth).abs() < 1e-9 * depth, "{behind:?}");
     for [y, z] in [[-4e-5, 1e-5], [0.0, 0.0]] {
         assert_eq!((tied(y, z).intersections, tied(y, z).exempt), (0, 0), "{y} {z}");
     }

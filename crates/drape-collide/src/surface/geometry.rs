@@ -26,6 +26,7 @@ pub(crate) use order::{PrimitiveRun, SpatialOrder, WIDTH};
 pub use parts::{ContactDistances, SurfaceParts};
 pub use plain_mesh::PlainMesh;
 pub(crate) use primitives::Primitives;
+pub(crate) use seam_exemptions::SeamExemptions;
 pub(crate) use separations::{
     PinchState, RestProximity, Separations, THINNED_FRACTION, share_vertex,
 };

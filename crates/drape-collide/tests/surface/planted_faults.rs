@@ -189,6 +189,9 @@ fn sides_of_a_seam_cross_where_it_is_open_and_not_where_it_is_closed() {
     assert_eq!(contact.intersections(&positions).unwrap(), []);
 }
 
+/// Gap of a closed seam, in m.
+const CLOSED: f64 = 1e-4;
+
 #[test]
 fn intersections_within_the_gap_of_a_seam_that_counts_as_closed_are_counted_with_their_depth() {
     // The edge of the second goes through the first, at its corners to the front and to the back.
@@ -206,7 +209,7 @@ fn intersections_within_the_gap_of_a_seam_that_counts_as_closed_are_counted_with
         .unwrap();
     let none = SeamIntersections::default();
     assert_eq!(
-        contact.inspect(&across(5e-5)).unwrap().seam_intersections(),
+        contact.inspect(&across(5e-5)).unwrap().seam_intersections(CLOSED),
         Ok(none),
         "they are found by the test"
     );
@@ -216,31 +219,29 @@ fn intersections_within_the_gap_of_a_seam_that_counts_as_closed_are_counted_with
     let start = SurfaceStart { seam_gaps: Some(&closed), ..SurfaceStart::new(&start, &[]) };
     contact.begin(start).unwrap().reject();
     assert_eq!(contact.intersections(&across(5e-5)).unwrap(), []);
-    for gap in [5e-5, 5e-4] {
-        let crossings = contact.inspect(&across(gap)).unwrap().seam_intersections().unwrap();
-        let depth = gap * 1.0_f64.hypot(0.1);
-        assert!(
-            crossings.count > 0 && (crossings.depth - depth).abs() < 1e-9 * depth,
-            "{crossings:?}"
-        );
-    }
+    // The edge rises by a tenth of the gap on both sides of the face.
+    let within = contact.inspect(&across(5e-5)).unwrap().seam_intersections(CLOSED).unwrap();
+    assert!(within.exempt > 0 && within.open == 0, "{within:?}");
+    assert!((0.09..0.1001).contains(&(within.penetration / 5e-5)), "{within:?}");
+    let beyond = contact.inspect(&across(5e-4)).unwrap().seam_intersections(CLOSED).unwrap();
+    assert_eq!((beyond.exempt, beyond.open, beyond.penetration), (0, within.exempt, 0.0));
     assert_eq!(
-        contact.inspect(&across(0.0)).unwrap().seam_intersections(),
+        contact.inspect(&across(0.0)).unwrap().seam_intersections(CLOSED),
         Ok(none),
         "they are one edge"
     );
     contact.setup().unwrap().close_seams();
-    assert_eq!(contact.inspect(&across(5e-5)).unwrap().seam_intersections(), Ok(none));
+    assert_eq!(contact.inspect(&across(5e-5)).unwrap().seam_intersections(CLOSED), Ok(none));
     assert!(
-        contact.inspect(&[f64::NAN; 18]).unwrap().seam_intersections().is_ok(),
+        contact.inspect(&[f64::NAN; 18]).unwrap().seam_intersections(CLOSED).is_ok(),
         "no seam is open"
     );
     contact.setup().unwrap().open_seams(&gaps(0.0), &across(0.0)).unwrap();
-    assert!(contact.inspect(&[f64::NAN; 18]).unwrap().seam_intersections().is_err());
+    assert!(contact.inspect(&[f64::NAN; 18]).unwrap().seam_intersections(CLOSED).is_err());
 }
 
 #[test]
-fn intersections_of_a_tied_vertex_are_as_deep_as_it_is_from_its_edge() {
+fn intersections_of_a_tied_vertex_are_as_deep_as_its_triangle_is_behind_the_edge() {
     // The first corner of the second comes to lie on the upper edge of the first, and is behind it.
     let at = |y: f64, z: f64| {
         let first = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, -0.1, 0.0]];
@@ -251,11 +252,17 @@ fn intersections_of_a_tied_vertex_are_as_deep_as_it_is_from_its_edge() {
     let mut contact = contact(parts, Vec::new());
     let gaps = [f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0, f64::INFINITY, f64::INFINITY];
     contact.setup().unwrap().open_seams(&gaps, &at(1e-3, 0.0)).unwrap();
-    let crossings = contact.inspect(&at(-4e-5, -1e-5)).unwrap().seam_intersections().unwrap();
-    let depth = 4e-5_f64.hypot(1e-5);
-    assert!(crossings.count > 0 && (crossings.depth - depth).abs() < 1e-9 * depth, "{crossings:?}");
+    let crossings = contact.inspect(&at(-4e-5, -1e-5)).unwrap().seam_intersections(CLOSED).unwrap();
+    // The plane of the second rises along (y, z) behind the edge, and passes it at this distance.
+    let [y, z] = [0.1 + 4e-5, 0.05 + 1e-5_f64];
+    let depth = (1e-5 * y - 4e-5 * z).abs() / y.hypot(z);
+    assert!(
+        crossings.exempt > 0 && (crossings.penetration - depth).abs() < 1e-9 * depth,
+        "{crossings:?}"
+    );
+    assert_eq!(crossings.open, 0);
     assert_eq!(
-        contact.inspect(&at(-4e-5, 1e-5)).unwrap().seam_intersections().unwrap().count,
+        contact.inspect(&at(-4e-5, 1e-5)).unwrap().seam_intersections(CLOSED).unwrap().exempt,
         0,
         "before it"
     );

@@ -130,7 +130,7 @@ pub enum Status {
     /// Surfaces that started too near to each other could not part.
     #[serde(rename = "held together")]
     HeldTogether,
-    /// Surfaces intersected after a step, however short.
+    /// Surfaces intersected after a step, however short, or intersect in a state that was accepted.
     #[serde(rename = "certificate failed")]
     Intersecting,
     /// A step could not be solved.
@@ -195,25 +195,31 @@ pub struct Contacts {
     /// Largest number of pairs of primitives, or of particles and bodies, that touched after a
     /// step.
     pub pairs_max: usize,
-    /// Smallest distance of two surfaces after any step, or of a particle from a body at the end,
-    /// in m. `None` if nothing was near.
+    /// Smallest distance of two surfaces at the start and after any step, or of a particle from a
+    /// body at the end, in m. `None` if nothing was near.
     pub min_distance: Option<f64>,
     /// Number of intersections of surfaces at the end, by exact arithmetic, including cloth that
     /// let a body through. Without surfaces, the number of particles inside a body.
     pub intersections: usize,
+    /// Largest number of intersections of surfaces after a step that was accepted: of cloth that
+    /// let a body through, and of the sides of seams that had opened again. A run with such an
+    /// intersection ends with the status [`Intersecting`](Status::Intersecting).
+    pub intersections_max: usize,
     /// Number of intersections that were found after steps, which were then taken back.
     #[serde(rename = "crossings_found")]
     pub intersections_found: usize,
-    /// Number of exempt intersections at the end: intersections of the two sides of a seam that
-    /// counts as closed before its vertices are merged. 0 once a garment is sewn.
+    /// Number of exempt intersections at the end: intersections of the two sides of a seam that is
+    /// closed, within [`CLOSED_GAP`](drape_frames::CLOSED_GAP), before its vertices are merged. 0
+    /// once a garment is sewn.
     #[serde(rename = "exempt_intersections")]
     pub exempt: usize,
     /// Largest number of exempt intersections after a step.
     #[serde(rename = "exempt_intersections_max")]
     pub exempt_max: usize,
-    /// Widest gap of the seams at exempt intersections after any step, in m. No side is deeper
-    /// inside the other.
-    pub exempt_depth_max: f64,
+    /// Largest depth of an exempt intersection after any step, in m: the shortest distance by which
+    /// an edge of one side would have to move to leave a triangle of the other. It is at most the
+    /// gap of a closed seam.
+    pub exempt_penetration_max: f64,
     /// Largest number of particles with reduced distances after a step, because bodies pinched the
     /// cloth.
     pub thinned_max: usize,

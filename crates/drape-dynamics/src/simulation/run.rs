@@ -107,6 +107,9 @@ impl Simulation {
             self.outcome.status = Status::DidNotSettle;
             self.outcome.reason = self.parts.first_slide();
         }
+        if matches!(self.outcome.status, Status::Ok | Status::DidNotSettle) {
+            self.judge_intersections();
+        }
         if self.frame_times.is_empty() {
             self.emit_frame(progress)?;
         }
@@ -164,6 +167,22 @@ impl Simulation {
         }
         self.outcome.status = Status::Interrupted;
         Ok(())
+    }
+
+    /// Ends the run as failed if surfaces intersected in a state that was accepted.
+    fn judge_intersections(&mut self) {
+        let contact = self.statistics.contacts(&self.world);
+        if contact.intersections_max == 0 {
+            return;
+        }
+        let remedy = if contact.released_max > 0 {
+            "where bodies pinched the cloth and were let through; contact.pinch = \"thin\" keeps them apart"
+        } else {
+            "of the sides of seams that had opened again; sew more slowly (sew.seconds), or choose another spacing"
+        };
+        let count = contact.intersections_max;
+        let reason = format!("up to {count} intersections remained after a step, {remedy}");
+        self.end_early(Status::Intersecting, reason);
     }
 
     /// Returns a warning if the run ended before surfaces kept their full distances.

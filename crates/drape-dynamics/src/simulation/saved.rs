@@ -211,7 +211,7 @@ impl Simulation {
 
     /// Restores `world` and `stepping`.
     fn resume_world(&mut self, world: SavedWorld, stepping: SavedStepping) -> Result<(), Error> {
-        let is_sewn = !world.is_sewing && !self.parts.seams.is_empty();
+        let is_sewn = !world.is_sewing() && !self.parts.seams.is_empty();
         let time = stepping.ticks() as f64 * self.stepping.clock().tick();
         self.world.resume(world, time).map_err(unfit)?;
         if is_sewn {

@@ -24,9 +24,23 @@ impl Simulation {
         let positions = &self.world.state.positions;
         match springs.state(positions, self.stepping.time(), self.last.imbalance, narrow) {
             SeamState::Open => Ok(()),
-            SeamState::Closed => self.finish_sewing(&self.merged()),
+            SeamState::Closed { gap, is_late } => self.merge_closed(gap, is_late),
             SeamState::NearlyClosed(gap) => self.merge_nearly_closed(gap),
             SeamState::Failed(gap) => self.sew_stretched(gap),
+        }
+    }
+
+    /// Merges the two sides of every seam. The gap `gap` is the widest, and closed. Merging moves
+    /// the sides by as little, which can bring cloth nearer to a body than the two keep: the
+    /// distances are then shortened, and grow again. If something would intersect, the seams are
+    /// untangled, or pulled harder if `is_late` is set.
+    fn merge_closed(&mut self, gap: WidestGap, is_late: bool) -> Result<(), drape_implicit::Error> {
+        let merged = self.merged();
+        match self.world.sewn_placement(&merged) {
+            Ok(SewnPlacement::Free(ratio)) if ratio >= 1.0 => self.finish_sewing(&merged),
+            Ok(SewnPlacement::Free(_)) => self.place_sewn(&merged),
+            _ if is_late => self.sew_stretched(gap),
+            _ => self.merge_nearly_closed(gap),
         }
     }
 

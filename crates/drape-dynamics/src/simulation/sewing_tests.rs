@@ -1,6 +1,7 @@
 //! Panels that are sewn: their system's forces against its potential, and their weight at the pin.
 
 use drape_cloth::{Cloth, SeamBending, Tie};
+use drape_frames::CLOSED_GAP;
 use drape_implicit::{System, check_system};
 use drape_input::Document;
 use drape_scene::{Pin, Scene, Seam, SeamPairs, Sewing};
@@ -144,17 +145,35 @@ fn contact_of_the_sides_of_a_seam_ends_where_they_may_be_merged() {
     let start = World::new(scene(1)).expect("contact").state.positions;
     let mut springs = ClosingSprings::new(&pairs, &start, 0.5);
     let widest = springs.widest_gap(&start).width;
-    for (time, expected) in [(0.0, widest), (0.25, 0.5 * widest), (0.48, 0.04 * widest), (0.5, 0.0)]
-    {
-        springs.begin(time);
-        let gaps = pairs.pairs.iter().flatten().map(|&particle| springs.gaps()[particle as usize]);
-        let found = gaps.fold(0.0, f64::max);
-        assert!((found - expected).abs() < 1e-12, "{found} and {expected} m after {time} s");
-    }
     let mut closed = start.clone();
     merge(&pairs, &vec![1.0; start.len() / 3], &mut closed);
+    // The last is open by twice the gap of a closed seam, and the one after by half of it.
+    let opened = |gap: f64| {
+        let mut positions = closed.clone();
+        positions[3 * pairs.pairs[0][0] as usize] += gap;
+        positions
+    };
+    let mut widest_after = |positions: &[f64], time: f64| {
+        springs.begin(positions, time);
+        let gaps = pairs.pairs.iter().flatten().map(|&particle| springs.gaps()[particle as usize]);
+        gaps.fold(0.0, f64::max)
+    };
+    for (time, positions, expected) in [
+        (0.0, &start, widest),
+        (0.25, &start, 0.5 * widest),
+        (0.48, &start, 0.04 * widest),
+        // Whatever is prescribed, sides that are not there yet are kept apart.
+        (0.5, &start, CLOSED_GAP),
+        (0.5, &opened(2e-4), CLOSED_GAP),
+        (0.5, &opened(5e-5), 0.0),
+        // Contact cannot begin between sides that may intersect.
+        (0.5, &opened(2e-4), 0.0),
+    ] {
+        let found = widest_after(positions, time);
+        assert!((found - expected).abs() < 1e-12, "{found} and {expected} m after {time} s");
+    }
     let is_closed = |positions: &[f64], time, imbalance| {
-        matches!(springs.state(positions, time, imbalance, 5e-4), SeamState::Closed)
+        matches!(springs.state(positions, time, imbalance, 5e-4), SeamState::Closed { .. })
     };
     assert!(is_closed(&closed, 0.5, 0.2) && is_closed(&closed, 1.0, 5.0));
     assert!(!is_closed(&closed, 0.5, 5.0) && !is_closed(&closed, 0.4, 0.2));

@@ -21,18 +21,23 @@ pub(crate) struct Statistics {
     thinned_max: usize,
     /// Largest number of released particles after a step.
     released_max: usize,
+    /// Largest number of intersections after a step, of steps that were accepted.
+    pub(crate) intersections_max: usize,
     /// Largest number of exempt intersections after a step.
     exempt_max: usize,
     /// Deepest exempt intersection after a step, in m.
-    exempt_depth_max: f64,
-    /// Smallest distance of two surfaces after a step, in m.
+    exempt_penetration_max: f64,
+    /// Smallest distance of two surfaces at the start and after a step, in m.
     min_distance: f64,
     /// Hashes after the steps, where they are asked for.
     pub(crate) hashes: Option<StepHashes>,
 }
 
 impl Statistics {
-    pub(crate) fn new() -> Self {
+    /// Returns the statistics of a run that starts in the state of `world`.
+    pub(crate) fn new(world: &World) -> Self {
+        let surfaces = world.contact.surfaces();
+        let min_distance = surfaces.map(|surfaces| surfaces.contact.pairs().summary().min_distance);
         Self {
             solver: Solver::default(),
             steps: 0,
@@ -40,9 +45,10 @@ impl Statistics {
             pairs_max: 0,
             thinned_max: 0,
             released_max: 0,
+            intersections_max: 0,
             exempt_max: 0,
-            exempt_depth_max: 0.0,
-            min_distance: f64::INFINITY,
+            exempt_penetration_max: 0.0,
+            min_distance: min_distance.unwrap_or(f64::INFINITY),
             hashes: None,
         }
     }
@@ -56,9 +62,16 @@ impl Statistics {
                 let pinched = surfaces.contact.state().pinched_vertices();
                 self.thinned_max = self.thinned_max.max(pinched.thinned);
                 self.released_max = self.released_max.max(pinched.released);
-                let exempt = surfaces.exempt(&world.state.positions);
-                self.exempt_max = self.exempt_max.max(exempt.count);
-                self.exempt_depth_max = self.exempt_depth_max.max(exempt.depth);
+
+                let positions = &world.state.positions;
+                let seams = surfaces.at_seams(positions);
+                self.exempt_max = self.exempt_max.max(seams.exempt);
+                self.exempt_penetration_max = self.exempt_penetration_max.max(seams.penetration);
+                // The step has been tested for all other intersections.
+                if seams.open > 0 || pinched.released > 0 {
+                    let count = surfaces.intersection_count(positions, &seams);
+                    self.intersections_max = self.intersections_max.max(count);
+                }
                 near.touching
             }
             Contact::Particles(bodies) => {
@@ -114,8 +127,9 @@ impl Statistics {
             pairs_max: self.pairs_max,
             thinned_max: self.thinned_max,
             released_max: self.released_max,
+            intersections_max: self.intersections_max,
             exempt_max: self.exempt_max,
-            exempt_depth_max: self.exempt_depth_max,
+            exempt_penetration_max: self.exempt_penetration_max,
             start_growth_fraction: 1.0,
             growth_fraction: world.contact.growth_fraction(),
             ..Contacts::default()
@@ -123,15 +137,12 @@ impl Statistics {
 
         match &world.contact {
             Contact::Surfaces(surfaces) => {
-                let inspection = surfaces.contact.inspect(positions);
-                let intersections =
-                    inspection.and_then(|inspection| inspection.intersections_with_released());
+                let seams = surfaces.at_seams(positions);
                 Contacts {
                     min_distance: Some(self.min_distance).filter(|distance| distance.is_finite()),
-                    intersections: intersections
-                        .map_or(usize::MAX, |intersections| intersections.len()),
+                    intersections: surfaces.intersection_count(positions, &seams),
                     intersections_found: surfaces.intersections_found,
-                    exempt: surfaces.exempt(positions).count,
+                    exempt: seams.exempt,
                     start_growth_fraction: surfaces.start_growth_fraction,
                     ..contacts
                 }

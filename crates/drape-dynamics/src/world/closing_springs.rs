@@ -1,5 +1,6 @@
 //! Springs that close the seams of a garment.
 
+use drape_collide::equivalence_classes;
 use drape_implicit::BlockMatrix;
 use drape_scene::{SeamConstraint, SeamPairs};
 use serde::{Deserialize, Serialize};
@@ -10,11 +11,11 @@ use serde::{Deserialize, Serialize};
 /// solution. At 3e3 N/m trousers closed only after stiffening.
 const STIFFNESS: f64 = 1e4;
 
-/// Widest gap at which the two sides of a seam are merged, in m. Where the prescribed gap is
-/// narrower, primitives that the seam joins are exempt from contact with each other, as in a closed
-/// seam. Contact at so narrow a gap would stall the closing: a T-shirt of 25 506 particles took
-/// 1812 iterations for three steps.
-const CLOSED: f64 = 1e-4;
+/// Widest gap at which the two sides of a seam count as closed and are merged, in m. Where a seam
+/// counts as closed, primitives that it joins are exempt from contact with each other. Contact at
+/// so narrow a gap would stall the closing: a T-shirt of 25 506 particles took 1812 iterations for
+/// three steps.
+const CLOSED: f64 = drape_frames::CLOSED_GAP;
 
 /// Multiple of the sewing time after which seams with a narrow gap may be merged.
 const NEARLY_CLOSED_AFTER: f64 = 1.1;
@@ -49,6 +50,10 @@ pub(crate) struct ClosingSprings {
     seconds: f64,
     /// Fraction of the sewing time that remains at the end of this step.
     remaining: f64,
+    /// Class of the particles that each seam constraint joins: the smallest of them.
+    classes: Vec<u32>,
+    /// Whether the seams of each class count as closed. Once they do, they stay so.
+    closed: Vec<bool>,
     /// Gap that contact must allow at each particle at the end of this step, in m: the prescribed
     /// gap, 0 where the seam counts as closed, and infinite without a seam.
     gaps: Vec<f64>,
@@ -77,11 +82,19 @@ impl StartGap {
 
 /// Increase of the stiffness of closing springs, linear over the sewing time.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct Stiffening {
+struct Stiffening {
     /// Time at which the increase begins, in s.
     start: f64,
     /// Ratio of the stiffness at the end of the increase to the usual stiffness.
     factor: f64,
+}
+
+/// Closing springs between two steps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct SavedSprings {
+    stiffening: Option<Stiffening>,
+    /// Whether the seams of each class count as closed.
+    closed: Vec<bool>,
 }
 
 /// State of the seams while they are closed.
@@ -89,8 +102,13 @@ pub(crate) struct Stiffening {
 pub(crate) enum SeamState {
     /// The sewing time is not over, or the cloth is not calm yet.
     Open,
-    /// All gaps are closed, and the cloth is calm.
-    Closed,
+    /// All gaps are closed, and the cloth is calm or the springs had time enough.
+    Closed {
+        /// The widest gap.
+        gap: WidestGap,
+        /// Whether the springs had time enough.
+        is_late: bool,
+    },
     /// A narrow gap remains open, and the cloth is calm.
     NearlyClosed(WidestGap),
     /// A gap remains open although the springs had time enough.
@@ -114,8 +132,23 @@ impl ClosingSprings {
         let start_gaps = seams
             .iter()
             .map(|seam| StartGap { gap: seam.gap(positions), width: seam.width(positions) });
+        let start_gaps: Vec<StartGap> = start_gaps.collect();
+
+        let particles = positions.len() / 3;
+        let class_of_particle =
+            equivalence_classes(particles, &pairs.pairs).expect("pairs name particles");
+        let joined = seams.iter().map(|seam| class_of_particle[seam.weights[0].particle as usize]);
+        let classes: Vec<u32> = joined.collect();
+        // Sides that start as one point cannot be kept apart.
+        let mut closed = vec![false; particles];
+        for (class, start) in classes.iter().zip(&start_gaps) {
+            closed[*class as usize] |= start.width <= CLOSED;
+        }
+
         Self {
-            start_gaps: start_gaps.collect(),
+            start_gaps,
+            classes,
+            closed,
             gaps: pairs.gaps_at_particles(positions),
             seams,
             seconds,
@@ -135,18 +168,34 @@ impl ClosingSprings {
         pairs.collect()
     }
 
-    /// Prepares a step that ends at `end_time`, in s.
-    pub(crate) fn begin(&mut self, end_time: f64) {
+    /// Prepares a step that begins at `positions`, in m, and ends at `end_time`, in s.
+    pub(crate) fn begin(&mut self, positions: &[f64], end_time: f64) {
         self.remaining = (1.0 - end_time / self.seconds).max(0.0);
+        self.close_classes(positions);
         self.gaps.fill(f64::INFINITY);
-        for (seam, start) in self.seams.iter().zip(&self.start_gaps) {
+        for ((seam, start), class) in self.seams.iter().zip(&self.start_gaps).zip(&self.classes) {
             let gap = start.fraction(self.remaining) * start.width;
-            seam.narrow(if gap <= CLOSED { 0.0 } else { gap }, &mut self.gaps);
+            // Contact keeps the sides of a seam apart until it counts as closed.
+            let is_closed = self.closed[*class as usize];
+            seam.narrow(if is_closed { 0.0 } else { gap.max(CLOSED) }, &mut self.gaps);
         }
 
         if let Some(Stiffening { start, factor }) = self.stiffening {
             let part = ((end_time - start) / self.seconds).clamp(0.0, 1.0);
             self.stiffness = STIFFNESS * (1.0 + part * (factor - 1.0));
+        }
+    }
+
+    /// Counts the classes as closed whose gaps are all prescribed to close in this step, and are
+    /// closed at `positions`, in m.
+    fn close_classes(&mut self, positions: &[f64]) {
+        let mut closes = vec![true; self.closed.len()];
+        for ((seam, start), class) in self.seams.iter().zip(&self.start_gaps).zip(&self.classes) {
+            let prescribed = start.fraction(self.remaining) * start.width;
+            closes[*class as usize] &= prescribed <= CLOSED && seam.width(positions) <= CLOSED;
+        }
+        for (closed, closes) in self.closed.iter_mut().zip(closes) {
+            *closed |= closes;
         }
     }
 
@@ -167,14 +216,23 @@ impl ClosingSprings {
         is_usual
     }
 
-    /// Increase of the stiffness, if there is one.
-    pub(crate) fn stiffening(&self) -> Option<Stiffening> {
-        self.stiffening
+    /// Returns whether the springs are stiffened.
+    pub(crate) fn are_stiffened(&self) -> bool {
+        self.stiffening.is_some()
     }
 
-    /// Returns to an increase of the stiffness, or to none.
-    pub(crate) fn restore(&mut self, stiffening: Option<Stiffening>) {
-        self.stiffening = stiffening;
+    /// Returns the state between two steps, for [`Self::restore`].
+    pub(crate) fn saved(&self) -> SavedSprings {
+        SavedSprings { stiffening: self.stiffening, closed: self.closed.clone() }
+    }
+
+    /// Restores the state `saved`. Returns `false` if it is the state of other seams.
+    pub(crate) fn restore(&mut self, saved: SavedSprings) -> bool {
+        let fits = saved.closed.len() == self.closed.len();
+        if fits {
+            (self.stiffening, self.closed) = (saved.stiffening, saved.closed);
+        }
+        fits
     }
 
     /// Returns the time until the gaps are to be closed, in s.
@@ -202,7 +260,7 @@ impl ClosingSprings {
         let is_calm = imbalance <= TOLERANCE;
         let is_nearly_closed = gap.width <= narrow && elapsed >= NEARLY_CLOSED_AFTER * self.seconds;
         if gap.width <= CLOSED && (is_late || is_calm) {
-            SeamState::Closed
+            SeamState::Closed { gap, is_late }
         } else if is_late {
             SeamState::Failed(gap)
         } else if is_calm && is_nearly_closed {

@@ -14,7 +14,7 @@ use super::contact::{Contact, SavedGrowth, SavedLeads};
 use super::energy_balance::EnergyBalance;
 use super::internal_forces::SavedForces;
 use super::pins::SavedPins;
-use crate::world::closing_springs::{ClosingSprings, Stiffening};
+use crate::world::closing_springs::{ClosingSprings, SavedSprings};
 
 /// State of a world between two steps, on which its next steps depend.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -22,9 +22,8 @@ pub(crate) struct SavedWorld {
     pub(crate) cloth: State,
     forces: SavedForces,
     contact: Option<SavedSurfaces>,
-    /// Whether seams are being closed.
-    pub(crate) is_sewing: bool,
-    stiffening: Option<Stiffening>,
+    /// Springs that close the seams, while a garment is sewn.
+    springs: Option<SavedSprings>,
     /// Whether steps start from rest.
     relaxes: bool,
     /// Time at which gravity begins to grow, in s.
@@ -34,6 +33,13 @@ pub(crate) struct SavedWorld {
     pins: SavedPins,
     balance: Option<EnergyBalance>,
     prescribed: Prescribed,
+}
+
+impl SavedWorld {
+    /// Returns whether seams are being closed.
+    pub(crate) fn is_sewing(&self) -> bool {
+        self.springs.is_some()
+    }
 }
 
 /// Values that a program may prescribe between steps.
@@ -70,7 +76,6 @@ struct SavedSurfaces {
 impl World {
     /// Returns the state on which the next steps depend.
     pub(crate) fn saved(&self) -> SavedWorld {
-        let springs = self.closing_springs();
         let surfaces = self.contact.surfaces();
         SavedWorld {
             cloth: self.state.clone(),
@@ -80,8 +85,7 @@ impl World {
                 intersections_found: surfaces.intersections_found,
                 growth: surfaces.saved_growth(),
             }),
-            is_sewing: springs.is_some(),
-            stiffening: springs.and_then(ClosingSprings::stiffening),
+            springs: self.closing_springs().map(ClosingSprings::saved),
             relaxes: self.relaxes(),
             ramp_start: self.gravity.ramp_start(),
             motion_start: self.clock.start_time(),
@@ -108,10 +112,10 @@ impl World {
 
         // The sewn cloth has other connectors, so the sewing is finished before they are compared.
         let is_sewing = self.closing_springs().is_some();
-        if saved.is_sewing && !is_sewing {
+        if saved.is_sewing() && !is_sewing {
             return Err("there is nothing to sew".into());
         }
-        if !saved.is_sewing && is_sewing {
+        if !saved.is_sewing() && is_sewing {
             self.finish_sewing(0.0, &saved.cloth.positions);
         }
 
@@ -153,8 +157,10 @@ impl World {
         self.air.set_velocity(air_velocity);
         self.external.values = forces;
 
-        if let Some(springs) = &mut self.seams.springs {
-            springs.restore(saved.stiffening);
+        if let (Some(springs), Some(saved)) = (&mut self.seams.springs, saved.springs)
+            && !springs.restore(saved)
+        {
+            return Err("the seams that are closed are others".into());
         }
         self.state = saved.cloth;
         self.set_relaxing(saved.relaxes);

@@ -37,7 +37,7 @@ impl System for World {
         // While a garment is sewn there is no gravity.
         match &mut self.seams.springs {
             Some(springs) => {
-                springs.begin(end_time);
+                springs.begin(start, end_time);
                 self.gravity.begin_without();
             }
             None => self.gravity.begin(end_time),

@@ -52,7 +52,7 @@ const QUANTITIES: &[(&str, &str, Unit)] = &[
     ("crossings_found", "intersections taken back", Bare),
     ("exempt_intersections_max", "most intersections of closing seams", Bare),
     ("exempt_intersections", "intersections of closing seams at the end", Bare),
-    ("exempt_depth_max", "deepest intersection of closing seams", Length),
+    ("exempt_penetration_max", "deepest intersection of closing seams", Length),
     ("thinned_max", "most particles that were pinched", Bare),
     ("released_max", "most particles that were released", Bare),
     ("grown_from", "minimum separation at the start", Percent),

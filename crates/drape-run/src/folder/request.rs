@@ -6,6 +6,7 @@ use drape_input::{Setting, SettingError};
 use serde::{Deserialize, Serialize};
 
 use super::Error;
+use super::verdict::RunVerdict;
 use crate::file;
 
 /// Name of the file of the request.
@@ -93,7 +94,7 @@ impl RunRequest {
     /// Returns whether a `folder` holds a run that was begun and has not ended.
     #[must_use]
     pub fn is_interrupted(folder: &Path) -> bool {
-        let ended = status_of(folder).is_some_and(|status| status != "interrupted");
+        let ended = RunVerdict::read(folder).is_some_and(|verdict| !verdict.is_interrupted());
         folder.join(NAME).is_file() && !ended
     }
 }
@@ -102,14 +103,4 @@ impl RunRequest {
 fn whole_path(scene: &Path) -> PathBuf {
     let whole = std::path::absolute(scene).ok().filter(|_| scene.as_os_str() != STANDARD);
     whole.unwrap_or_else(|| scene.to_owned())
-}
-
-/// Returns the `status` in the summary of the run in `folder`. Returns `None` without a summary.
-pub(super) fn status_of(folder: &Path) -> Option<String> {
-    let path = folder.join("summary.json");
-    // Reading a pipe would wait for ever.
-    let is_file = std::fs::metadata(&path).is_ok_and(|metadata| metadata.is_file());
-    let text = is_file.then(|| std::fs::read(&path).ok())??;
-    let summary: serde_json::Value = serde_json::from_slice(&text).ok()?;
-    Some(summary["status"].as_str()?.to_owned())
 }

@@ -8,7 +8,8 @@ use super::checkpoint_writer::{CheckpointWriter, SavedRun};
 use super::folder_run::{FolderRun, Resumption, prepare_folder};
 use super::lock::Lock;
 use super::options::RunOptions;
-use super::request::{RunRequest, status_of};
+use super::request::RunRequest;
+use super::verdict::RunVerdict;
 use drape_checkpoint::{Checkpoint, Store};
 use drape_input::{Advice, Diagnostic, Remedy};
 use drape_scene::Scene;
@@ -81,7 +82,7 @@ impl ResumableRun {
 
 /// Refuses a run that has ended, unless it is to `extend` an end that was set by time.
 fn refuse_ended(folder: &Path, extend: Option<f64>) -> Result<(), Error> {
-    let Some(status) = status_of(folder) else { return Ok(()) };
+    let Some(RunVerdict { status, .. }) = RunVerdict::read(folder) else { return Ok(()) };
     let folder = folder.to_owned();
     match (&status[..], extend) {
         ("interrupted", _) | ("ok" | "did not settle", Some(_)) => Ok(()),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use drape::frames::{Recording, SurfacePart};
 use drape::input::counted;
+use drape::run::RunVerdict;
 use drape::verify::{ClosePair, PartNumber, Verdict, Verifier};
 use serde_json::{Value, json};
 
@@ -22,20 +23,28 @@ pub(crate) struct VerifiedRuns {
     pub(crate) entries: Vec<Value>,
     /// Files of the frames with intersections or pairs that are too close.
     broken: Vec<PathBuf>,
+    /// The first run that failed, with its folder.
+    failed: Option<(PathBuf, RunVerdict)>,
 }
 
 impl VerifiedRuns {
     /// Fails if a frame has intersections or pairs that are too close, with
-    /// [`Failure::Intersecting`].
+    /// [`Failure::Intersecting`], or if a run failed, as the run did.
     pub(crate) fn outcome(&self) -> Result<(), Failure> {
-        match self.broken.first() {
-            None => Ok(()),
-            Some(first) => Err(Failure::Intersecting(format!(
+        if let Some(first) = self.broken.first() {
+            return Err(Failure::Intersecting(format!(
                 "surfaces intersect or are too close in {}, first in {}",
                 counted(self.broken.len(), "frame", "frames"),
                 first.display()
-            ))),
+            )));
         }
+        let Some((folder, verdict)) = &self.failed else { return Ok(()) };
+        let message = format!("{}: {}", folder.display(), describe_end(verdict));
+        Err(if verdict.is_intersecting() {
+            Failure::Intersecting(message)
+        } else {
+            Failure::Solver(message)
+        })
     }
 }
 
@@ -43,6 +52,7 @@ impl VerifiedRuns {
 /// is printed.
 pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<VerifiedRuns, Failure> {
     let mut broken = Vec::new();
+    let mut failed = None;
     let mut entries = Vec::new();
     for folder in folders {
         let verifier = Verifier::open(folder)?;
@@ -64,15 +74,30 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<VerifiedRuns, F
         }
 
         let holds = verdicts.iter().all(Verdict::holds);
+        let end = RunVerdict::read(folder);
+        for warning in end.iter().flat_map(|end| &end.warnings).filter(|_| !json) {
+            say(format_args!("warning: {warning}"))?;
+        }
         let (guarded, ended) = (recording.manifest().surface_contact, recording.ended());
         entries.push(json!({
             "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
+            "status": end.as_ref().map(|end| &end.status),
+            "reason": end.as_ref().and_then(|end| end.reason.as_ref()),
+            "warnings": end.as_ref().map(|end| &end.warnings),
             "panels": part_names(&recording.manifest().panels),
             "bodies": part_names(&recording.manifest().bodies),
             "frames": verdicts,
         }));
+        let failed_end = end.filter(|end| !end.is_ok() && !end.is_interrupted());
+        failed = failed.or(failed_end.map(|end| (folder.to_path_buf(), end)));
     }
-    Ok(VerifiedRuns { entries, broken })
+    Ok(VerifiedRuns { entries, broken, failed })
+}
+
+/// Describes how a failed run ended.
+fn describe_end(verdict: &RunVerdict) -> String {
+    let reason = verdict.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    format!("the run ended with the status \"{}\"{reason}", verdict.status)
 }
 
 fn part_names(parts: &[SurfacePart]) -> Vec<&str> {
@@ -118,7 +143,7 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         text += &format!(
             ", {} at most {} deep within the gap of a seam that closes",
             counted(verdict.exempt, "intersection", "intersections"),
-            millimetres(verdict.exempt_depth)
+            millimetres(verdict.exempt_penetration)
         );
     }
     if verdict.growth < 1.0 {

@@ -82,7 +82,7 @@ fn exempt(contact: &Contacts) -> String {
     format!(
         "; while seams closed, up to {} of their sides, at most {:.4} mm deep, and {} at the end",
         counted(contact.exempt_max, "intersection", "intersections"),
-        1e3 * contact.exempt_depth_max,
+        1e3 * contact.exempt_penetration_max,
         contact.exempt
     )
 }
@@ -178,6 +178,12 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
              was written",
             summary.reason.unwrap_or_default()
         ))),
+        Status::Intersecting if summary.contact.intersections_max > 0 => {
+            Err(Failure::Intersecting(format!(
+                "{}; the frames were written",
+                summary.reason.unwrap_or_default()
+            )))
+        }
         Status::Intersecting => Err(Failure::Intersecting(format!(
             "the step after {} s makes surfaces intersect, even at its shortest length; the last \
              good state was written",

@@ -6,17 +6,23 @@ use super::pinch::vertices_of;
 use super::surface_contact::SurfaceContact;
 use crate::error::{Error, check_index};
 use crate::surface::exact::{Intersection, encloses, exempt_intersections, intersections};
+use crate::surface::geometry::SeamExemptions;
+use crate::surface::pair::{PairKind, closest, distance};
 use crate::surface::placement::Placement;
-use crate::vector::{Vector, at, cross, norm, subtract};
+use crate::vector::{Vector, at};
 
-/// Exempt intersections: intersections between the two sides of a seam that counts as closed before
-/// its vertices are one point.
+/// Intersections between the two sides of seams that contact took for closed before their vertices
+/// were one point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SeamIntersections {
-    /// Number of edges that meet a triangle.
-    pub count: usize,
-    /// Widest gap of the seams at these intersections, in m. No side is deeper in the other.
-    pub depth: f64,
+    /// Number of edges that meet a triangle to which a closed seam joins them. They are exempt.
+    pub exempt: usize,
+    /// Number of edges that meet a triangle although the gap of their seam is wider than the gap of
+    /// a closed seam.
+    pub open: usize,
+    /// Largest depth of an exempt intersection, in m: the shortest distance by which the edge
+    /// would have to move to leave the triangle. It is at most the gap of a closed seam.
+    pub penetration: f64,
 }
 
 /// Inspection of a [`SurfaceContact`] at the positions that [`inspect`](SurfaceContact::inspect)
@@ -61,23 +67,42 @@ impl<'a> SurfaceInspection<'a> {
         Ok(groups.iter().any(|&group| encloses(surface, group, at(&all, vertex), &all)))
     }
 
-    /// Returns the exempt intersections between the two sides of seams.
+    /// Returns the intersections between the two sides of seams that contact takes for closed. A
+    /// seam is closed where the distance of its vertices from each other, or of a tied vertex from
+    /// its edge, is at most `closed_gap`, in m.
     ///
     /// # Errors
     /// Positions are not finite.
-    pub fn seam_intersections(self) -> Result<SeamIntersections, Error> {
+    pub fn seam_intersections(self, closed_gap: f64) -> Result<SeamIntersections, Error> {
         let mut result = SeamIntersections::default();
         let surface = &self.contact.surface;
         if !surface.separations.seam_gaps.contains(&0.0) {
             return Ok(result);
         }
         let all = self.placed();
-        for intersection in exempt_intersections(surface, &all)? {
-            let [narrowest, widest] = self.gaps_at(intersection, &all);
+        let intersections = exempt_intersections(surface, &all)?;
+        if intersections.is_empty() {
+            return Ok(result);
+        }
+
+        let seams = &surface.primitives().seams;
+        let [met, closed] = [LEAST, closed_gap].map(|gap| seams.within(gap, &all));
+        for intersection in intersections {
+            let vertices = vertices_of(surface, intersection);
+            let are_joined = |seams: &SeamExemptions| {
+                let classes = vertices.map(|vertex| seams.class(vertex));
+                seams.join(&classes[..2], &classes[2..])
+            };
             // Primitives with a common point meet there.
-            if narrowest >= LEAST {
-                result.count += 1;
-                result.depth = result.depth.max(widest);
+            if are_joined(&met) {
+                continue;
+            }
+            if are_joined(&closed) {
+                result.exempt += 1;
+                let depth = penetration(vertices.map(|vertex| at(&all, vertex as usize)));
+                result.penetration = result.penetration.max(depth);
+            } else {
+                result.open += 1;
             }
         }
         Ok(result)
@@ -90,52 +115,14 @@ impl<'a> SurfaceInspection<'a> {
         obstacles.place(self.positions, obstacles.time, &mut all);
         all
     }
+}
 
-    /// Returns the narrowest and the widest gap of the seams that join the edge and the triangle of
-    /// `intersection`, in m. `all` holds the flat positions of all vertices.
-    fn gaps_at(self, intersection: Intersection, all: &[f64]) -> [f64; 2] {
-        let seams = &self.contact.surface.primitives().seams;
-        let vertices = vertices_of(&self.contact.surface, intersection);
-        let classes = vertices.map(|vertex| seams.class(vertex));
-        let (edge, triangle) = vertices.split_at(2);
-        let (edge_classes, triangle_classes) = classes.split_at(2);
-
-        let mut gaps = [f64::INFINITY, 0.0];
-        for class in seams.joints(edge_classes, triangle_classes) {
-            let on_edge = self.point_of_class(edge, class, all);
-            let on_triangle = self.point_of_class(triangle, class, all);
-            let gap = match [on_edge, on_triangle] {
-                [Some(a), Some(b)] => Some(norm(subtract(a, b))),
-                [Some(tied), None] => self.distance_from_ends(tied, class, triangle, all),
-                [None, Some(tied)] => self.distance_from_ends(tied, class, edge, all),
-                [None, None] => None,
-            };
-            if let Some(gap) = gap {
-                gaps = [gaps[0].min(gap), gaps[1].max(gap)];
-            }
-        }
-        gaps
-    }
-
-    /// Returns the position of the first of `vertices` in `class`, in m.
-    fn point_of_class(self, vertices: &[u32], class: u32, all: &[f64]) -> Option<Vector> {
-        let seams = &self.contact.surface.primitives().seams;
-        let vertex = vertices.iter().find(|&&vertex| seams.class(vertex) == class)?;
-        Some(at(all, *vertex as usize))
-    }
-
-    /// Returns the distance of the point `tied` from the line through the two of `vertices` between
-    /// which a seam ties its `class`, in m.
-    fn distance_from_ends(
-        self,
-        tied: Vector,
-        class: u32,
-        vertices: &[u32],
-        all: &[f64],
-    ) -> Option<f64> {
-        let ends = self.contact.surface.primitives().seams.ends(class)?;
-        let [a, b] = ends.map(|end| self.point_of_class(vertices, end, all));
-        let (a, along) = (a?, subtract(b?, a?));
-        Some(norm(cross(along, subtract(tied, a))) / norm(along))
-    }
+/// Returns the shortest distance by which an edge that meets a triangle would have to move to leave
+/// it, in m. `points` are the two ends of the edge and the three corners of the triangle.
+fn penetration([a, b, c, d, e]: [Vector; 5]) -> f64 {
+    // The edge leaves the triangle where one of its ends passes the face, or over a side.
+    let ends = [a, b].map(|end| (PairKind::VertexFace, [end, c, d, e]));
+    let sides = [[c, d], [d, e], [e, c]].map(|[p, q]| (PairKind::EdgeEdge, [a, b, p, q]));
+    let ways = ends.into_iter().chain(sides);
+    ways.map(|(kind, points)| distance(&closest(kind, points))).fold(f64::INFINITY, f64::min)
 }

@@ -1,6 +1,7 @@
 //! Vertices that seams join or tie. Primitives at them are exempt from contact once seams close.
 
 use super::topology::classes;
+use crate::vector::{at, dot, norm, scale, subtract};
 
 /// Class of vertices that a seam ties to a point between two other classes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -18,6 +19,10 @@ pub(crate) struct SeamExemptions {
     moving_class: Vec<u32>,
     /// Ties, sorted.
     ties: Vec<Tie>,
+    /// Pairs of vertices that seams join.
+    seam_pairs: Vec<[u32; 2]>,
+    /// Vertices that seams tie, each with the two ends of its edge.
+    tied_vertices: Vec<[u32; 3]>,
 }
 
 impl SeamExemptions {
@@ -35,15 +40,39 @@ impl SeamExemptions {
         let moving: Vec<[u32; 2]> = seam_pairs.iter().copied().chain(tied).collect();
         let moving_class = classes(vertex_count, &moving);
 
-        let mut ties: Vec<Tie> = ties
+        let mut sorted_ties: Vec<Tie> = ties
             .iter()
             .map(|tie| {
                 let [tied, a, b] = tie.map(|vertex| class[vertex as usize]);
                 Tie { class: tied, ends: [a, b] }
             })
             .collect();
-        ties.sort_unstable();
-        SeamExemptions { class, moving_class, ties }
+        sorted_ties.sort_unstable();
+        SeamExemptions {
+            class,
+            moving_class,
+            ties: sorted_ties,
+            seam_pairs: seam_pairs.to_vec(),
+            tied_vertices: ties.to_vec(),
+        }
+    }
+
+    /// Returns the exemptions at the seams whose vertices are within `gap` of each other, or of
+    /// their edge, at the flat `positions`. Both are in m.
+    pub(crate) fn within(&self, gap: f64, positions: &[f64]) -> SeamExemptions {
+        let point = |vertex: u32| at(positions, vertex as usize);
+        let is_met = |&[a, b]: &[u32; 2]| norm(subtract(point(a), point(b))) <= gap;
+        let is_on_edge = |&[tied, a, b]: &[u32; 3]| {
+            // An edge of length 0 has no direction; the vertex is then compared with its end.
+            let along = subtract(point(b), point(a));
+            let from_end = subtract(point(tied), point(a));
+            let fraction = (dot(from_end, along) / dot(along, along)).clamp(0.0, 1.0);
+            let fraction = if fraction.is_nan() { 0.0 } else { fraction };
+            norm(subtract(from_end, scale(along, fraction))) <= gap
+        };
+        let pairs: Vec<[u32; 2]> = self.seam_pairs.iter().copied().filter(is_met).collect();
+        let ties: Vec<[u32; 3]> = self.tied_vertices.iter().copied().filter(is_on_edge).collect();
+        SeamExemptions::new(self.class.len(), &pairs, &ties)
     }
 
     /// Returns the class of `vertex`: the smallest number among the vertices that seams join to it.

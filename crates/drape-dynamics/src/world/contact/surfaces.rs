@@ -10,6 +10,7 @@ use drape_collide::{
     Body, Error, OpenStep, PairDistance, SeamIntersections, Shape, SurfaceContact, SurfaceStart,
     SurfaceTrial, Triangulation,
 };
+use drape_frames::CLOSED_GAP;
 use drape_implicit::{AllowedStep, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 use serde::{Deserialize, Serialize};
@@ -428,11 +429,20 @@ impl Surfaces {
         }
     }
 
-    /// Returns the exempt intersections at `positions`, in m.
-    pub(crate) fn exempt(&self, positions: &[f64]) -> SeamIntersections {
+    /// Returns the intersections at seams that are being closed, at `positions`, in m.
+    pub(crate) fn at_seams(&self, positions: &[f64]) -> SeamIntersections {
         // Positions that are not finite are reported by the intersection test of the step.
         let inspection = self.contact.inspect(positions);
-        inspection.and_then(|inspection| inspection.seam_intersections()).unwrap_or_default()
+        let found = inspection.and_then(|inspection| inspection.seam_intersections(CLOSED_GAP));
+        found.unwrap_or_default()
+    }
+
+    /// Returns the number of intersections at `positions`, in m, that a step does not reject:
+    /// of cloth that let a body through, and of `seams` that are not closed.
+    pub(crate) fn intersection_count(&self, positions: &[f64], seams: &SeamIntersections) -> usize {
+        let inspection = self.contact.inspect(positions);
+        let found = inspection.and_then(|inspection| inspection.intersections_with_released());
+        found.map_or(usize::MAX, |intersections| intersections.len() + seams.open)
     }
 
     /// Describes where surfaces are closest to their minimum separation, with the particles at
