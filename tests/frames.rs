@@ -5,6 +5,8 @@
 mod export;
 #[path = "frames/picture.rs"]
 mod picture;
+#[path = "frames/verdict.rs"]
+mod verdict;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

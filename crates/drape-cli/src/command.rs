@@ -36,7 +36,7 @@ Exit codes:
   2    usage: arguments that do not fit together, or results that are there already
   3    wrong input: files with mistakes
   4    surfaces intersect
-  5    the solver failed, or the cloth did not come to rest
+  5    the solver failed, the cloth did not come to rest, or the balance of energy does not close
   6    a file could not be read or written
   7    a figure of the validation is beyond its limit
   8    a run came to --max-wall, --max-memory or --max-disk; `drape resume` goes on

@@ -401,8 +401,9 @@ impl Simulation {
         let AcceptedStep { ticks, report } =
             self.stepping.advance(&mut self.world, &mut self.statistics)?;
         let dt = ticks as f64 * self.stepping.clock().tick();
+        let relaxes = self.world.relaxes();
         if let Some(balance) = &mut self.world.balance {
-            balance.add_report(&report);
+            balance.add_report(&report, relaxes);
         }
         self.statistics.add_step(&report, &mut self.world);
 

@@ -296,10 +296,11 @@ impl Stepping {
         };
 
         // A step that failed has accepted parts, which belong to the energy balance.
+        let relaxes = world.relaxes();
         if result.is_err()
             && let (Some(balance), Some(report)) = (&mut world.balance, self.stepper.unfinished())
         {
-            balance.add_report(report);
+            balance.add_report(report, relaxes);
         }
         result
     }

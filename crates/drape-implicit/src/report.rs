@@ -91,6 +91,13 @@ pub struct StepEnergy {
     /// forces have no finite work along such a path, so the numerical dissipation is the difference
     /// of the other entries and proves nothing.
     pub unproved: f64,
+    /// Energy that the sub-steps exchanged, in J: the sum of the absolute changes of kinetic energy
+    /// and potential, the absolute dissipation of the formula, and the absolute work on held
+    /// particles, of each sub-step.
+    pub exchanged: f64,
+    /// Energy exchanged in sampled sub-steps, in J, in which the balance is a proof. In a sub-step
+    /// that exchanges less than the rounding of its potentials resolves, what they resolve counts.
+    pub proved: f64,
 }
 
 impl StepEnergy {
@@ -109,6 +116,8 @@ impl AddAssign for StepEnergy {
         self.work += other.work;
         self.numerical_dissipation += other.numerical_dissipation;
         self.unproved += other.unproved;
+        self.exchanged += other.exchanged;
+        self.proved += other.proved;
     }
 }
 

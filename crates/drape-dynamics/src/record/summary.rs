@@ -133,6 +133,9 @@ pub enum Status {
     /// Surfaces intersected after a step, however short, or intersect in a state that was accepted.
     #[serde(rename = "certificate failed")]
     Intersecting,
+    /// The balance of energy does not close.
+    #[serde(rename = "energy")]
+    Unbalanced,
     /// A step could not be solved.
     #[serde(rename = "solver failed")]
     SolverFailed,

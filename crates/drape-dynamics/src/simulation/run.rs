@@ -16,6 +16,13 @@ use crate::world::Energy;
 /// rolled back when it is cancelled. The copy takes less than a hundredth of the step.
 const LONG_STEP: Duration = Duration::from_millis(200);
 
+/// Fraction of the exchanged energy that may be unaccounted for without a warning. The quadrature
+/// along the steps errs by a fifth of it.
+const UNACCOUNTED: f64 = 1e-6;
+
+/// Fraction of the exchanged energy above which the balance does not close, and the run fails.
+const UNACCOUNTED_MAX: f64 = 1e-3;
+
 /// Watcher of a running simulation. `()` watches nothing.
 pub trait Progress {
     /// Called after each [`Step`], with the time in ticks of the clock
@@ -108,6 +115,7 @@ impl Simulation {
             self.outcome.reason = self.parts.first_slide();
         }
         if matches!(self.outcome.status, Status::Ok | Status::DidNotSettle) {
+            self.judge_energy();
             self.judge_intersections();
         }
         if self.frame_times.is_empty() {
@@ -118,6 +126,7 @@ impl Simulation {
         self.outcome.warnings = self.outcome.events.clone();
         self.outcome.warnings.extend(warnings(&self.parts, &self.world));
         self.outcome.warnings.extend(self.unfinished_growth());
+        self.outcome.warnings.extend(self.energy().as_ref().and_then(doubtful_balance));
         Ok(self.summary())
     }
 
@@ -169,6 +178,21 @@ impl Simulation {
         Ok(())
     }
 
+    /// Ends the run as failed if the balance of energy does not close by far.
+    fn judge_energy(&mut self) {
+        let Some(energy) = self.energy() else { return };
+        let fraction = energy.unaccounted_fraction();
+        // The comparison is written so that NaN fails.
+        if !(fraction <= UNACCOUNTED_MAX) {
+            let reason = format!(
+                "the balance of energy does not close: {:.1e} J are unaccounted for, {fraction:.1e} of what was exchanged \
+                 where it was measured",
+                energy.residual
+            );
+            self.end_early(Status::Unbalanced, reason);
+        }
+    }
+
     /// Ends the run as failed if surfaces intersected in a state that was accepted.
     fn judge_intersections(&mut self) {
         let contact = self.statistics.contacts(&self.world);
@@ -213,4 +237,17 @@ impl Simulation {
         self.frame_times.push(self.time());
         Ok(())
     }
+}
+
+/// Returns a warning about a balance of `energy` that does not close.
+fn doubtful_balance(energy: &Energy) -> Option<String> {
+    let fraction = energy.unaccounted_fraction();
+    // The comparison is written so that NaN is doubtful.
+    (!(fraction <= UNACCOUNTED)).then(|| {
+        format!(
+            "{:.1e} J of energy are unaccounted for, {fraction:.1e} of what was exchanged where it was measured; \
+             up to {UNACCOUNTED:.0e} is usual",
+            energy.residual
+        )
+    })
 }

@@ -6,7 +6,8 @@
 //! velocities, and from the work of all forces along the sub-step, by quadrature. In the other
 //! sub-steps it is the difference of the other entries. The residual of the balance,
 //! [`Energy::residual`], therefore shows whether forces, potentials and works agree. The rotation
-//! entry is the difference between the potential of the internal forces and their memories.
+//! entry is the difference between the potential of the internal forces and their memories. The
+//! residual is judged against the energy exchanged in the proved sub-steps.
 
 use drape_implicit::Report;
 use serde::{Deserialize, Serialize};
@@ -35,8 +36,14 @@ pub struct Energy {
     pub cloth_dissipated: f64,
     /// Energy dissipated by the motion of the cloth relative to the air.
     pub air_dissipated: f64,
+    /// Energy of contact that was set free where bodies pinched cloth that then kept less distance
+    /// from them, or none.
+    pub pinch_released: f64,
     /// Energy dissipated by the formula of the integrator and by the residual of the solver.
     pub numerical_dissipated: f64,
+    /// Part of `numerical_dissipated` and `rotation_dissipated` that steps of quasi-static
+    /// relaxation took. They take energy on purpose: cloth comes to rest without swinging.
+    pub relaxation_dissipated: f64,
     /// Cost of the rotation of the cloth. A step measures curvatures along the normals at its
     /// start, and the memory of the bending friction measures curvatures along the normals at its
     /// end. The entry has either sign. It is some thousandths of the friction at usual steps,
@@ -55,6 +62,28 @@ pub struct Energy {
     /// Energy exchanged in steps whose straight path leads through a body or through other cloth.
     /// The dissipation of the integrator in these steps is the difference of the other entries.
     pub unproved: f64,
+    /// Energy exchanged since the start: the sum over all sub-steps of the absolute changes of
+    /// kinetic energy and potential, of the dissipation of the formula, and of the work on held
+    /// particles. Energy that changes its form and changes back counts twice.
+    pub exchanged: f64,
+    /// Part of `exchanged` in the sub-steps in which every entry is computed independently.
+    pub proved: f64,
+}
+
+impl Energy {
+    /// Returns the energy that is unaccounted for as a fraction of what was exchanged where every
+    /// entry is computed independently. Returns 0 where nothing was.
+    #[must_use]
+    pub fn unaccounted_fraction(&self) -> f64 {
+        if self.proved > 0.0 { self.residual.abs() / self.proved } else { 0.0 }
+    }
+
+    /// Returns the energy that steps in time lost to the integration, in J, without what steps of
+    /// quasi-static relaxation took. It is negative if the integration gained energy.
+    #[must_use]
+    pub fn integration_loss(&self) -> f64 {
+        self.numerical_dissipated + self.rotation_dissipated - self.relaxation_dissipated
+    }
 }
 
 /// Sums of the energy over the steps.
@@ -69,6 +98,10 @@ pub(crate) struct EnergyBalance {
     /// With an energy balance the integrator evaluates it at the start and at the end.
     #[serde(skip)]
     internal: Option<FirstAndLast>,
+    /// Energy of contact without friction at the end of the last step, in J.
+    contact_at_end: Option<f64>,
+    /// Energy that the integration had dissipated at the end of the last step, in J.
+    integrated: f64,
     /// Kinetic energy at the start of the balance, in J.
     kinetic_at_start: f64,
     sums: Energy,
@@ -90,6 +123,8 @@ pub(crate) struct StepEnergy {
     pub(crate) external_work: f64,
     /// Increase of the energy of contact.
     pub(crate) contact: f64,
+    /// Energy of contact without friction at the end of the step.
+    pub(crate) contact_at_end: f64,
     /// Work of the springs of pins, with their forces at the end of the step.
     pub(crate) spring_work: f64,
     /// Decrease of the potential of these springs. The potential jumps with the prescribed
@@ -149,6 +184,12 @@ impl EnergyBalance {
             last - first - (step.stored - self.stored) - step.internal_friction;
         sums.gravity += step.gravity;
         sums.contact += step.contact;
+        // Between two steps contact changes only where the state of pinched cloth does.
+        let before = self.contact.without_friction - self.contact.body_work;
+        let released = self.contact_at_end.map_or(0.0, |end| end - before);
+        self.contact_at_end = Some(step.contact_at_end);
+        sums.contact -= released;
+        sums.pinch_released += released;
         sums.work_in += step.body_work + step.body_friction_work + step.spring_work;
         sums.work_in += step.external_work;
         sums.work_in += step.air.air_work;
@@ -175,13 +216,22 @@ impl EnergyBalance {
         self.sums.work_in -= lost;
     }
 
-    /// Adds the dissipation and the work that the integrator reports in `report`.
-    pub(crate) fn add_report(&mut self, report: &Report) {
+    /// Adds the dissipation and the work that the integrator reports in `report`. `relaxes` says
+    /// whether the step was one of quasi-static relaxation.
+    pub(crate) fn add_report(&mut self, report: &Report, relaxes: bool) {
+        let sums = &mut self.sums;
         if let Some(energy) = &report.energy {
-            self.sums.numerical_dissipated += energy.numerical_dissipation;
-            self.sums.work_in += energy.work;
-            self.sums.unproved += energy.unproved;
+            sums.numerical_dissipated += energy.numerical_dissipation;
+            sums.work_in += energy.work;
+            sums.unproved += energy.unproved;
+            sums.exchanged += energy.exchanged;
+            sums.proved += energy.proved;
         }
+        let integrated = sums.numerical_dissipated + sums.rotation_dissipated;
+        if relaxes {
+            sums.relaxation_dissipated += integrated - self.integrated;
+        }
+        self.integrated = integrated;
     }
 
     /// Returns the balance since the start, in J, with the current kinetic energy `kinetic`.
@@ -191,7 +241,7 @@ impl EnergyBalance {
         let Energy { body_dissipated, cloth_dissipated, .. } = self.sums;
         let stored = kinetic - self.kinetic_at_start + elastic + gravity + contact;
         let rotation = self.sums.rotation_dissipated;
-        let surfaces = body_dissipated + cloth_dissipated;
+        let surfaces = body_dissipated + cloth_dissipated + self.sums.pinch_released;
         let lost = friction_dissipated + surfaces + air_dissipated + rotation;
         let residual = self.sums.work_in - stored - lost - self.sums.numerical_dissipated;
         Energy { kinetic, residual, ..self.sums }

@@ -207,10 +207,12 @@ impl World {
             Contact::Surfaces(surfaces) => {
                 let contact = surfaces.contact.energy(positions).expect(ALL_PARTICLES);
                 let potential = contact.potential();
+                let contact_at_end = contact.without_friction();
                 let friction = contact.friction();
                 let dissipated = friction.dissipated;
                 StepEnergy {
                     contact: potential - dissipated - before.contact + before.body_work,
+                    contact_at_end,
                     body_friction_loss: dissipated,
                     cloth_friction_loss: friction.dissipated_on_cloth,
                     body_friction_potential: dissipated,
@@ -222,6 +224,7 @@ impl World {
                 let potential = friction.contact_potential;
                 StepEnergy {
                     contact: potential - before.contact + before.body_work,
+                    contact_at_end: potential,
                     body_friction_work: friction.body_work,
                     body_friction_loss: friction.loss,
                     body_friction_potential: friction.potential - potential - before.friction,

@@ -26,7 +26,7 @@ const CLOSED: f64 = 2e-7;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Largest number of pieces of a path.
-const MAX_PIECES: usize = 24;
+const MAX_PIECES: usize = 48;
 
 /// Points and weights of the rule of Gauss and Legendre on a piece from 0 to 1.
 const GAUSS: [[f64; 2]; 3] = [
@@ -64,6 +64,12 @@ impl Path<'_> {
     fn tolerance(&self) -> f64 {
         let [before, after] = self.potentials.map(f64::abs);
         (CLOSED * self.exchanged).max(ROUNDING * (before + after))
+    }
+
+    /// Returns the energy, in J, of which the admissible difference is the fraction [`CLOSED`]: the
+    /// energy that the sub-step exchanges, or what the rounding of the potentials resolves.
+    pub(crate) fn resolved_energy(&self) -> f64 {
+        self.tolerance() / CLOSED
     }
 }
 

@@ -276,12 +276,16 @@ impl SubStepper {
             Work { forces, obstacles, unproved: 0.0 }
         };
 
+        let is_proved = opening.is_sampled && work.unproved == 0.0;
+        let proved = if is_proved { path.resolved_energy() } else { 0.0 };
         StepEnergy {
             kinetic,
             potential: -decrease,
             work: ends.held + work.obstacles,
             numerical_dissipation: formula_loss + work.forces - ends.forces - ends.residual,
             unproved: work.unproved,
+            exchanged,
+            proved,
         }
     }
 

@@ -117,17 +117,40 @@ fn grown(contact: &Contacts) -> String {
 
 /// Describes the balance of `energy`, in J.
 fn balance(energy: &Energy) -> String {
-    let integration = energy.numerical_dissipated + energy.rotation_dissipated;
-    let supplied = (-energy.gravity).max(0.0) + energy.work_in.max(0.0);
-    let share = if supplied > 0.0 {
-        format!(", {:.1} % of what came in", 100.0 * integration / supplied)
+    let relaxation = if energy.relaxation_dissipated == 0.0 {
+        String::new()
+    } else {
+        format!(
+            ", to the relaxation, which brings cloth to rest without swinging, {:.4} J",
+            energy.relaxation_dissipated
+        )
+    };
+    let released = if energy.pinch_released == 0.0 {
+        String::new()
+    } else {
+        format!(", from pinched cloth {:.4} J", energy.pinch_released)
+    };
+    let share = if energy.exchanged > 0.0 {
+        format!(
+            ", {:.2} % of what was exchanged",
+            100.0 * energy.integration_loss() / energy.exchanged
+        )
     } else {
         String::new()
     };
+    let unaccounted = if energy.proved > 0.0 {
+        format!(
+            "unaccounted for {:.0e} J, {:.0e} of what was measured",
+            energy.residual,
+            energy.unaccounted_fraction()
+        )
+    } else {
+        "the balance was not measured, because no step was in the sample".to_owned()
+    };
     format!(
         "\nenergy: gravity gave {:.4} J; elastic {:+.4} J, kinetic {:.1e} J; lost in the fabric \
-         {:.4} J, on bodies {:.4} J, of cloth on cloth {:.4} J, to the air {:.4} J, in the integration {:.4} J{share}; \
-         unaccounted for {:.0e} J",
+         {:.4} J, on bodies {:.4} J, of cloth on cloth {:.4} J, to the air {:.4} J{released}{relaxation}, \
+         in the integration {:.4} J{share}; {unaccounted}",
         -energy.gravity,
         energy.elastic + energy.contact,
         energy.kinetic,
@@ -135,8 +158,7 @@ fn balance(energy: &Energy) -> String {
         energy.body_dissipated,
         energy.cloth_dissipated,
         energy.air_dissipated,
-        integration,
-        energy.residual,
+        energy.integration_loss(),
     )
 }
 
@@ -176,6 +198,11 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
         Status::HeldTogether => Err(Failure::Solver(format!(
             "{}; something presses them together, or contact.grow is too short; the last state \
              was written",
+            summary.reason.unwrap_or_default()
+        ))),
+        Status::Unbalanced => Err(Failure::Solver(format!(
+            "{}; the frames were written. This is a mistake of the program unless forces come from elsewhere; \
+             please report it with the scene",
             summary.reason.unwrap_or_default()
         ))),
         Status::Intersecting if summary.contact.intersections_max > 0 => {

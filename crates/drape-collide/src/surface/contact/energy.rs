@@ -32,11 +32,15 @@ impl<'a> SurfaceEnergy<'a> {
     /// NaN if the positions are not finite.
     #[must_use]
     pub fn potential(&self) -> f64 {
+        self.without_friction() + self.friction().potential
+    }
+
+    /// Returns the energy of the contact without friction, in J, like
+    /// [`potential`](Self::potential).
+    #[must_use]
+    pub fn without_friction(&self) -> f64 {
         let SurfaceContact { active, stiffness, .. } = &*self.contact;
-        if active.failure.is_some() {
-            return f64::NAN;
-        }
-        active.energy(*stiffness) + self.friction().potential
+        if active.failure.is_some() { f64::NAN } else { active.energy(*stiffness) }
     }
 
     /// Returns the [`FrictionEnergy`]: the potential of friction, and its part that is dissipated

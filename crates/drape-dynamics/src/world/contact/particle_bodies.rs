@@ -140,7 +140,12 @@ impl ParticleBodies {
 
         let friction = self.contact.friction_potential(step.positions).expect(ALL_PARTICLES);
         let contact = self.contact.potential(step.positions).expect(ALL_PARTICLES) - friction;
-        Some(ContactEnergy { contact, friction, body_work: contact - potential_before })
+        Some(ContactEnergy {
+            contact,
+            without_friction: contact,
+            friction,
+            body_work: contact - potential_before,
+        })
     }
 
     /// Returns the energy exchanged by friction in a step of the length `dt`, in s, from the

@@ -28,8 +28,10 @@ pub(crate) struct ContactStep<'a> {
 /// Energy of contact at the start of a step, in J.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct ContactEnergy {
-    /// Potential of contact without friction.
+    /// Potential of contact, for surfaces with the potential of their friction.
     pub(crate) contact: f64,
+    /// Potential of contact without friction.
+    pub(crate) without_friction: f64,
     /// Potential of the friction with bodies, which have moved since the last step.
     pub(crate) friction: f64,
     /// Work on contact by the motion of bodies in this step. For surfaces, the work of growing

@@ -363,10 +363,15 @@ impl Surfaces {
             growth_increment,
         });
         let mut open_step = opened.expect(ALL_PARTICLES);
-        step.with_energy.then(|| ContactEnergy {
-            contact: open_step.energy(step.positions).expect(ALL_PARTICLES).potential(),
-            friction: 0.0,
-            body_work: open_step.growth_work(),
+        step.with_energy.then(|| {
+            let body_work = open_step.growth_work();
+            let energy = open_step.energy(step.positions).expect(ALL_PARTICLES);
+            ContactEnergy {
+                contact: energy.potential(),
+                without_friction: energy.without_friction(),
+                friction: 0.0,
+                body_work,
+            }
         })
     }
 
