@@ -159,6 +159,50 @@ fn two_hundred_kills_lose_nothing() {
 }
 
 #[test]
+fn a_run_without_a_checkpoint_does_not_go_on_with_another_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(root().join("scenes/slope.toml")).unwrap();
+    let fabrics = root().join("fabrics");
+    let text = text.replace("\"../fabrics", &format!("\"{}", fabrics.display()));
+    let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
+    std::fs::write(&scene, &text).unwrap();
+    let [scene_path, out_path] = [&scene, &out].map(|path| path.to_str().unwrap());
+    let root_path = root().to_str().unwrap();
+    let allowed = ["--allow-path", root_path, "--no-picture"];
+    ran(&[&["run", scene_path, "-o", out_path, "--until", "0.02"], &allowed[..]].concat(), 0);
+
+    // As after a kill in its first minute.
+    let kill = || {
+        std::fs::remove_file(out.join("summary.json")).unwrap();
+        for entry in std::fs::read_dir(&out).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "bin") {
+                std::fs::remove_file(path).unwrap();
+            }
+        }
+    };
+    kill();
+    std::fs::write(&scene, text.replace("friction = 0.501", "friction = 0.4")).unwrap();
+    let resume = [&["resume", out_path], &allowed[..]].concat();
+    let message = ran(&resume, 3);
+    assert!(message.contains("this has changed: the scene"), "{message}");
+    std::fs::write(&scene, &text).unwrap();
+    ran(&resume, 0);
+
+    // A request that was damaged is told, and does not panic.
+    kill();
+    let request = std::fs::read_to_string(out.join("run.json")).unwrap();
+    for every in ["-1", "1e300"] {
+        let damaged = request
+            .replace("\"checkpoint_every\": 60.0", &format!("\"checkpoint_every\": {every}"));
+        assert_ne!(damaged, request);
+        std::fs::write(out.join("run.json"), damaged).unwrap();
+        let message = ran(&resume, 2);
+        assert!(message.contains("is not a time from 0 to 1e9 s"), "{message}");
+    }
+}
+
+#[test]
 fn signals_and_limits_leave_a_run_that_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let case = Case { scene: "scenes/stack.toml", until: "0.06" };

@@ -90,7 +90,8 @@ impl FolderRun {
         check_space(&scene, folder)?;
         let lock = Lock::take(folder)?;
         prepare_folder(folder, options.replace)?;
-        request.write(folder)?;
+        let scene_hash = Some(scene.source.hash.clone());
+        RunRequest { scene_hash, ..request.clone() }.write(folder)?;
         let writer = CheckpointWriter::new(folder, &scene, request.checkpoint_every, options);
         Ok(Self {
             scene,

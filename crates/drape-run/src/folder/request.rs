@@ -30,7 +30,14 @@ pub struct RunRequest {
     /// Keys of the scene that were set beside its file, each as KEY=VALUE.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Hash of the scene and of all files that it names, as the run began; none in folders of older
+    /// versions, and before a run begins.
+    #[serde(default)]
+    pub scene_hash: Option<String>,
 }
+
+/// Longest time between two checkpoints that a request may ask for, in s.
+const CHECKPOINT_EVERY_MAX: f64 = 1e9;
 
 impl RunRequest {
     /// Returns the request of a run of `scene` that ends at `until` and writes a checkpoint every
@@ -38,7 +45,8 @@ impl RunRequest {
     #[must_use]
     pub fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
         let scene = whole_path(scene);
-        Self { scene, until, checkpoint_every, state_hash: false, set: Vec::new() }
+        let (state_hash, set, scene_hash) = (false, Vec::new(), None);
+        Self { scene, until, checkpoint_every, state_hash, set, scene_hash }
     }
 
     /// Returns the keys of the scene that were set, each as a [`Setting`].
@@ -73,7 +81,7 @@ impl RunRequest {
     /// Reads the request of the run in a `folder`.
     ///
     /// # Errors
-    /// No run was begun in the folder.
+    /// No run was begun in the folder, or the file of the request is damaged.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let fail = |reason: String| Error::NotBegun { path: folder.join(NAME), reason };
         // Reading a pipe would wait for ever.
@@ -81,7 +89,13 @@ impl RunRequest {
             return Err(fail("no such file".into()));
         }
         let text = std::fs::read(folder.join(NAME)).map_err(|error| fail(error.to_string()))?;
-        serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
+        let request: Self =
+            serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))?;
+        if !(0.0..=CHECKPOINT_EVERY_MAX).contains(&request.checkpoint_every) {
+            let every = request.checkpoint_every;
+            return Err(fail(format!("checkpoint_every = {every} is not a time from 0 to 1e9 s")));
+        }
+        Ok(request)
     }
 
     /// Returns whether the scene has no file, because it came from standard input (`-`) or

@@ -65,6 +65,7 @@ impl ResumableRun {
             }
             None if extend.is_some() => return Err(Error::NoCheckpoint { folder }),
             None => {
+                check_scene(&request, &scene)?;
                 notes.push("note: there is no checkpoint yet; the run begins anew".into());
                 None
             }
@@ -91,6 +92,23 @@ fn refuse_ended(folder: &Path, extend: Option<f64>) -> Result<(), Error> {
     }
 }
 
+/// Refuses a `scene` that has changed since the run of `request` was begun.
+fn check_scene(request: &RunRequest, scene: &Scene) -> Result<(), Error> {
+    match &request.scene_hash {
+        Some(hash) if *hash != scene.source.hash => {
+            Err(changed(scene, "the scene, or a file that it names"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Returns the error that `what` has changed since the run of `scene` was begun.
+fn changed(scene: &Scene, what: &str) -> Error {
+    let message = format!("since the run was begun this has changed: {what}");
+    let help = Advice::from("undo the change to go on").with(Remedy::RunAnew);
+    Error::Input(Diagnostic::new(&scene.source.file, message).help(help).into())
+}
+
 /// Refuses a `checkpoint` that was written by another program, or from another input.
 fn check_identity(
     writer: &CheckpointWriter,
@@ -98,11 +116,5 @@ fn check_identity(
     scene: &Scene,
 ) -> Result<(), Error> {
     let changes = writer.changes(checkpoint);
-    if changes.is_empty() {
-        return Ok(());
-    }
-    let message = format!("since the run was begun this has changed: {}", changes.join(", "));
-    let help = Advice::from("undo the change to go on").with(Remedy::RunAnew);
-    let mistake = Diagnostic::new(&scene.source.file, message).help(help);
-    Err(Error::Input(mistake.into()))
+    if changes.is_empty() { Ok(()) } else { Err(changed(scene, &changes.join(", "))) }
 }
