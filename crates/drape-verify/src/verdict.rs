@@ -310,11 +310,13 @@ impl TestedFrame<'_> {
 
         // The sides of an open seam approach each other until the seam is closed. The promise holds
         // for the features that the seam does not join.
-        let sewn = [0, 1].map(|k| Triangle {
+        let [first_sewn, second_sewn] = [0, 1].map(|k| Triangle {
             vertices: self.mesh.sewn_vertices(pair[k]),
             corners: triangles[k].corners,
         });
-        let kept = triangle_distance(sewn[0], sewn[1]);
+        let are_closed =
+            [first.vertices, second.vertices] == [first_sewn.vertices, second_sewn.vertices];
+        let kept = if are_closed { closest } else { triangle_distance(first_sewn, second_sewn) };
         let too_near = kept.distance() < promised.min_separation * (1.0 - ROUNDING);
         let (closest, min_separation) = if too_near || kept.distance() <= closest.distance() {
             (kept, promised.min_separation)

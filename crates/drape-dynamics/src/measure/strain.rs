@@ -12,12 +12,12 @@ use crate::world::{ALL_PARTICLES, World};
 /// without a warning.
 const UNMEASURED: f64 = 1e-3;
 
-/// Strain of a woven fabric above which a result is doubtful unless the fabric was measured so far.
-/// The Kawabata system stretches cloth to 500 N/m, where most woven fabrics are below.
+/// Strain above which a result is doubtful if the traction of the fabric was not measured. The
+/// limit is a convention: it was not derived from measurements.
 const STRAIN_MAX: f64 = 0.1;
 
-/// Shear angle above which a result is doubtful unless the fabric was measured so far, in rad.
-/// Yarns of clothing jam before 45 degrees.
+/// Shear angle above which a result is doubtful if the shear of the fabric was not measured, in
+/// rad. The limit is a convention: it was not derived from measurements.
 const SHEAR_MAX: f64 = std::f64::consts::FRAC_PI_4;
 
 /// Deformation of a triangle of the cloth.
@@ -37,7 +37,7 @@ struct RangedLaw {
     deformation: fn(&Deformation) -> f64,
     /// Converts a measured range into a limit of the deformation.
     measured: fn(f64) -> f64,
-    /// Returns the deformation above which a result is doubtful without a measurement.
+    /// Returns the deformation above which a result is doubtful if the law was not measured.
     plausible: fn(&MaterialRanges) -> f64,
     written: fn(f64) -> String,
 }
@@ -141,11 +141,11 @@ pub(crate) fn extrapolated(parts: &GarmentParts, world: &World) -> Vec<String> {
         let of_fabric: Vec<&Deformation> = of_fabric.collect();
         for law in &LAWS {
             let Some(excess) = Excess::new(law, ranges, &of_fabric) else { continue };
-            let corners = triangles[excess.worst.triangle].map(|corner| corner as usize);
-            let points = corners.map(|corner| point_of(&world.state.positions, corner as u32));
+            let corners = triangles[excess.worst.triangle];
+            let points = corners.map(|corner| point_of(&world.state.positions, corner));
             let [x, y, z] =
                 [0, 1, 2].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / 3.0);
-            let panel = parts.panel_of(corners[0]);
+            let panel = parts.panel_of(corners[0] as usize);
             warnings.push(format!(
                 "fabric \"{}\": {} reaches {} in \"{panel}\" near ({x:.4}, {y:.4}, {z:.4}) m, {}; {:.2} % of the cloth \
                  are beyond",
@@ -196,10 +196,9 @@ impl<'a> Excess<'a> {
         let measured = measured.map(law.measured).reduce(f64::max);
         let limit = measured.unwrap_or(plausible);
 
-        let area = |deformation: &&&Deformation| deformation.strain.area;
-        let total: f64 = deformations.iter().map(|deformation| area(&deformation)).sum();
+        let total: f64 = deformations.iter().map(|deformation| deformation.strain.area).sum();
         let beyond = deformations.iter().filter(|deformation| value(deformation) > limit);
-        let fraction = beyond.map(|deformation| area(&deformation)).sum::<f64>() / total;
+        let fraction = beyond.map(|deformation| deformation.strain.area).sum::<f64>() / total;
         let is_large = fraction > UNMEASURED || value(worst) > plausible.max(limit);
         if !(fraction > 0.0 && is_large) {
             return None;

@@ -195,16 +195,15 @@ impl Simulation {
 
     /// Ends the run as failed if surfaces intersected in a state that was accepted.
     fn judge_intersections(&mut self) {
-        let contact = self.statistics.contacts(&self.world);
-        if contact.intersections_max == 0 {
+        let count = self.statistics.intersections_max;
+        if count == 0 {
             return;
         }
-        let remedy = if contact.released_max > 0 {
+        let remedy = if self.statistics.released_max > 0 {
             "where bodies pinched the cloth and were let through; contact.pinch = \"thin\" keeps them apart"
         } else {
             "of the sides of seams that had opened again; sew more slowly (sew.seconds), or choose another spacing"
         };
-        let count = contact.intersections_max;
         let reason = format!("up to {count} intersections remained after a step, {remedy}");
         self.end_early(Status::Intersecting, reason);
     }

@@ -169,8 +169,8 @@ fn contact_of_the_sides_of_a_seam_ends_where_they_may_be_merged() {
         // Contact cannot begin between sides that may intersect.
         (0.5, &opened(2e-4), 0.0),
     ] {
-        let found = widest_after(positions, time);
-        assert!((found - expected).abs() < 1e-12, "{found} and {expected} m after {time} s");
+        let gap = widest_after(positions, time);
+        assert!((gap - expected).abs() < 1e-12, "{gap} and {expected} m after {time} s");
     }
     let is_closed = |positions: &[f64], time, imbalance| {
         matches!(springs.state(positions, time, imbalance, 5e-4), SeamState::Closed { .. })

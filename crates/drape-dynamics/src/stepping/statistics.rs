@@ -20,7 +20,7 @@ pub(crate) struct Statistics {
     /// Largest number of particles with reduced distances after a step.
     thinned_max: usize,
     /// Largest number of released particles after a step.
-    released_max: usize,
+    pub(crate) released_max: usize,
     /// Largest number of intersections after a step, of steps that were accepted.
     pub(crate) intersections_max: usize,
     /// Largest number of exempt intersections after a step.

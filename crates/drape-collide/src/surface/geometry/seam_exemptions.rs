@@ -121,7 +121,7 @@ impl SeamExemptions {
     }
 
     /// Returns the two classes between which `class` is tied, or `None` if it is not tied.
-    pub(crate) fn ends(&self, class: u32) -> Option<[u32; 2]> {
+    fn ends(&self, class: u32) -> Option<[u32; 2]> {
         let index = self.ties.binary_search_by_key(&class, |tie| tie.class).ok()?;
         Some(self.ties[index].ends)
     }

@@ -438,16 +438,16 @@ impl Surfaces {
     pub(crate) fn at_seams(&self, positions: &[f64]) -> SeamIntersections {
         // Positions that are not finite are reported by the intersection test of the step.
         let inspection = self.contact.inspect(positions);
-        let found = inspection.and_then(|inspection| inspection.seam_intersections(CLOSED_GAP));
-        found.unwrap_or_default()
+        let at_seams = inspection.and_then(|inspection| inspection.seam_intersections(CLOSED_GAP));
+        at_seams.unwrap_or_default()
     }
 
     /// Returns the number of intersections at `positions`, in m, that a step does not reject:
     /// of cloth that let a body through, and of `seams` that are not closed.
     pub(crate) fn intersection_count(&self, positions: &[f64], seams: &SeamIntersections) -> usize {
         let inspection = self.contact.inspect(positions);
-        let found = inspection.and_then(|inspection| inspection.intersections_with_released());
-        found.map_or(usize::MAX, |intersections| intersections.len() + seams.open)
+        let others = inspection.and_then(|inspection| inspection.intersections_with_released());
+        others.map_or(usize::MAX, |others| others.len() + seams.open)
     }
 
     /// Describes where surfaces are closest to their minimum separation, with the particles at
