@@ -3,6 +3,8 @@
 
 #[path = "command_line/compare.rs"]
 mod compare;
+#[path = "command_line/damaged.rs"]
+mod damaged;
 #[path = "command_line/file_kinds.rs"]
 mod file_kinds;
 #[path = "command_line/grading.rs"]

@@ -198,7 +198,9 @@ fn sheets_that_are_too_close_start_if_their_minimum_separation_may_grow() {
     let whole: String = text
         .lines()
         .map(|line| match line.split(',').collect::<Vec<_>>()[..] {
-            ["0", time, _, bodies, touched] => format!("0,{time},1.0,{bodies},{touched}\n"),
+            ["0", time, _, bodies, touched, hash] => {
+                format!("0,{time},1.0,{bodies},{touched},{hash}\n")
+            }
             _ => format!("{line}\n"),
         })
         .collect();

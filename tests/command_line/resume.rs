@@ -197,7 +197,7 @@ fn a_run_without_a_checkpoint_does_not_go_on_with_another_scene() {
             .replace("\"checkpoint_every\": 60.0", &format!("\"checkpoint_every\": {every}"));
         assert_ne!(damaged, request);
         std::fs::write(out.join("run.json"), damaged).unwrap();
-        let message = ran(&resume, 2);
+        let message = ran(&resume, 3);
         assert!(message.contains("is not a time from 0 to 1e9 s"), "{message}");
     }
 }

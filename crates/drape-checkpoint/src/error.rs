@@ -22,6 +22,12 @@ pub enum Error {
         /// Message of the system.
         reason: std::io::Error,
     },
+    /// A link, a folder, a pipe or a device has the name of a checkpoint: move it away.
+    #[error("{} is no file that was written as a checkpoint, but a link, a folder, a pipe or a device; move it away", path.display())]
+    Irregular {
+        /// The link, folder, pipe or device.
+        path: PathBuf,
+    },
     /// Failure to encode the value of a section.
     #[error("the section \"{section}\" of a checkpoint cannot be written: {reason}")]
     Encode {

@@ -70,8 +70,9 @@ impl Store {
     /// When the method returns, the checkpoint outlasts a loss of power.
     ///
     /// # Errors
-    /// [`Error::Write`] or [`Error::Read`] if a file or the folder is not accessible. A failure to
-    /// write the checkpoint leaves the earlier checkpoints unchanged.
+    /// [`Error::Write`] or [`Error::Read`] if a file or the folder is not accessible, or
+    /// [`Error::Irregular`]. A failure to write the checkpoint leaves the earlier checkpoints
+    /// unchanged.
     pub fn write(&self, checkpoint: &Checkpoint) -> Result<(), Error> {
         let mut files = self.files()?;
         let number = files.first().map_or(0, |newest| newest.number).saturating_add(1);
@@ -92,7 +93,13 @@ impl Store {
 
     /// Writes `checkpoint` to the file `temporary` and renames this file to `path`.
     fn write_file(&self, checkpoint: &Checkpoint, temporary: &Path, path: &Path) -> io::Result<()> {
-        let mut writer = BufWriter::new(File::create(temporary)?);
+        // An incomplete file is removed and created anew: if a link has its name, the file to which
+        // the link leads stays as it is.
+        match fs::remove_file(temporary) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        let mut writer = BufWriter::new(File::create_new(temporary)?);
         checkpoint.encode(&mut writer)?;
         writer.into_inner().map_err(|error| error.into_error())?.sync_all()?;
         fs::rename(temporary, path)?;
@@ -103,7 +110,7 @@ impl Store {
     /// newer.
     ///
     /// # Errors
-    /// [`Error::Read`] if the folder cannot be read.
+    /// [`Error::Read`] if the folder cannot be read, or [`Error::Irregular`].
     pub fn read(&self) -> Result<StoredCheckpoints, Error> {
         let mut damaged = Vec::new();
         for CheckpointFile { path, .. } in self.files()? {
@@ -128,7 +135,8 @@ impl Store {
     /// Removes all checkpoints, and the temporary file of a checkpoint that was not completed.
     ///
     /// # Errors
-    /// [`Error::Write`] if a file cannot be removed, [`Error::Read`] if the folder cannot be read.
+    /// [`Error::Write`] if a file cannot be removed, [`Error::Read`] if the folder cannot be read,
+    /// or [`Error::Irregular`].
     pub fn clear(&self) -> Result<(), Error> {
         let files = self.files()?.into_iter().map(|file| file.path);
         for path in files.chain([self.folder.join(TEMPORARY)]) {
@@ -143,14 +151,25 @@ impl Store {
     }
 
     /// Returns the files of checkpoints, the newest first. A folder that does not exist has none.
+    ///
+    /// # Errors
+    /// [`Error::Read`] if the folder cannot be read, or [`Error::Irregular`]: reading a pipe would
+    /// wait for ever, and a link leads to a file that no run wrote here.
     fn files(&self) -> Result<Vec<CheckpointFile>, Error> {
         let entries = match fs::read_dir(&self.folder) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
             entries => entries,
         };
-        entries
+        let files = entries
             .and_then(checkpoint_files)
-            .map_err(|reason| Error::Read { path: self.folder.clone(), reason })
+            .map_err(|reason| Error::Read { path: self.folder.clone(), reason })?;
+        let is_irregular = |file: &&CheckpointFile| {
+            fs::symlink_metadata(&file.path).is_ok_and(|metadata| !metadata.is_file())
+        };
+        match files.iter().find(is_irregular) {
+            None => Ok(files),
+            Some(file) => Err(Error::Irregular { path: file.path.clone() }),
+        }
     }
 }
 
@@ -280,14 +299,41 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_in_place_of_a_checkpoint_is_told() {
+    fn what_is_no_file_in_place_of_a_checkpoint_is_refused() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let store = Store::new(folder.path());
         store.write(&numbered(1)).expect("it is written");
-        fs::create_dir(folder.path().join("checkpoint-00000002.bin")).expect("it is made");
-        let found = store.read().expect("the folder is read");
-        assert!(matches!(found.damaged[0].fault, Damage::Unreadable { .. }));
+        let place = folder.path().join("checkpoint-00000002.bin");
+        let is_refused = || {
+            let refused = |error| matches!(error, Error::Irregular { path } if path == place);
+            assert!(store.read().is_err_and(refused) && store.clear().is_err_and(refused));
+            assert!(store.write(&numbered(3)).is_err_and(refused));
+        };
+        fs::create_dir(&place).expect("it is made");
+        is_refused();
+        fs::remove_dir(&place).expect("it is removed");
+        #[cfg(unix)]
+        {
+            // Also a link to an intact checkpoint.
+            let intact = folder.path().join("checkpoint-00000001.bin");
+            std::os::unix::fs::symlink(intact, &place).expect("it is linked");
+            is_refused();
+            fs::remove_file(&place).expect("it is removed");
+        }
         assert_eq!(newest(&store), Some(1));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_with_the_name_of_the_incomplete_file_is_replaced_itself() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let kept = folder.path().join("kept.txt");
+        fs::write(&kept, "theirs").expect("it is written");
+        std::os::unix::fs::symlink(&kept, folder.path().join(TEMPORARY)).expect("it is linked");
+        let store = Store::new(folder.path());
+        store.write(&numbered(1)).expect("it is written");
+        assert_eq!(newest(&store), Some(1));
+        assert_eq!(fs::read_to_string(&kept).expect("it is read"), "theirs");
     }
 
     #[test]
@@ -310,10 +356,10 @@ mod tests {
     }
 
     #[test]
-    fn a_checkpoint_that_cannot_be_removed_is_told() {
+    fn an_incomplete_file_that_cannot_be_removed_is_told() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let store = Store::new(folder.path());
-        let place = folder.path().join("checkpoint-00000001.bin");
+        let place = folder.path().join(TEMPORARY);
         fs::create_dir(&place).expect("it is made");
         assert!(matches!(store.clear(), Err(Error::Write { path, .. }) if path == place));
     }

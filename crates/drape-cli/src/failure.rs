@@ -133,11 +133,6 @@ impl From<drape::frames::Error> for Failure {
                 "{} holds results already; give another folder, or allow it with --force",
                 folder.display()
             )),
-            Error::LostFrames { path, found, frames } => Self::Solver(format!(
-                "{} has {found} frames, of {frames} that the checkpoint counts; run the scene anew \
-                 with --force",
-                path.display()
-            )),
             Error::Write { .. } => Self::Output(error.to_string()),
             _ => Self::Frames(error),
         }
@@ -211,7 +206,9 @@ impl From<drape::run::Error> for Failure {
             Error::Input(mistakes) => Self::Input(mistakes),
             Error::Dynamics(error) => error.into(),
             Error::Frames(error) => error.into(),
-            Error::Folder { .. } | Error::LastFrame { .. } => Self::Output(error.to_string()),
+            Error::Folder { .. } | Error::LastFrame { .. } | Error::Space { .. } => {
+                Self::Output(error.to_string())
+            }
             Error::Locked { folder } => Self::Usage(format!(
                 "another run is writing to {}; wait for its end, or give another folder with -o",
                 folder.display()
@@ -228,6 +225,11 @@ impl From<drape::run::Error> for Failure {
             Error::End { end, step } => {
                 Self::Usage(format!("--until {end}: a step takes {step} s already"))
             }
+            Error::Damaged { path, reason } => Self::Input(
+                Diagnostic::new(path, reason)
+                    .help("the file is not as it was written: restore it, or run the scene anew with drape run --force")
+                    .into(),
+            ),
             Error::NotBegun { path, reason } => Self::Usage(format!(
                 "{}: {reason}; a folder that `drape run` has begun has it",
                 path.display()
@@ -251,10 +253,24 @@ impl From<drape::dynamics::Error> for Failure {
         use drape::dynamics::Error;
         match error {
             Error::Frames(error) => error.into(),
+            Error::Checkpoint(error) => error.into(),
             Error::Unfit { reason } => Self::Solver(format!(
                 "the checkpoint does not fit the scene: {reason}; run the scene anew with --force"
             )),
             error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::checkpoint::Error> for Failure {
+    fn from(error: drape::checkpoint::Error) -> Self {
+        use drape::checkpoint::Error;
+        match &error {
+            Error::Write { .. } | Error::Irregular { .. } => Self::Output(error.to_string()),
+            Error::Read { path, .. } => {
+                Self::Input(Diagnostic::new(path, error.to_string()).into())
+            }
+            _ => Self::Solver(error.to_string()),
         }
     }
 }

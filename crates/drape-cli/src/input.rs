@@ -11,6 +11,9 @@ use std::sync::OnceLock;
 
 use drape::input::{Diagnostic, Diagnostics, Document, FileAccess, Setting, SizeLimit};
 use drape::run::file::FileKind;
+use drape::run::{LostProcess, lost_process};
+
+use crate::console::note;
 
 /// Name of standard input in messages.
 const NAME: &str = "<standard input>";
@@ -76,6 +79,25 @@ pub(crate) fn sheet_file(path: &Path) -> PathBuf {
 /// Refuses a file or folder at `path` whose kind is not in `wanted`.
 pub(crate) fn expect(path: &Path, wanted: &[FileKind]) -> Result<(), Diagnostics> {
     if is_standard(path) { Ok(()) } else { FileKind::expect(path, wanted) }
+}
+
+/// Refuses a `folder` that holds no run, and tells of a run whose process is gone.
+pub(crate) fn expect_run(folder: &Path) -> Result<(), Diagnostics> {
+    expect(folder, &[FileKind::Run])?;
+    tell_lost_process(folder);
+    Ok(())
+}
+
+/// Tells if the process that ran the scene in `folder` is gone although the run has not ended.
+pub(crate) fn tell_lost_process(folder: &Path) {
+    if let Some(LostProcess { number }) = lost_process(folder) {
+        let process = number.map_or(String::new(), |number| format!(" {number}"));
+        note(format_args!(
+            "the process{process} that ran the scene in {place} is gone, and the run has not ended; go on with \
+             `drape resume {place}`",
+            place = folder.display()
+        ));
+    }
 }
 
 /// Reads the file at `path`, or standard input, and applies the settings of [`set_values`]. Refuses

@@ -137,6 +137,15 @@ impl ExpectedArray<'_> {
     }
 }
 
+/// Reads the bytes of the file `path`, which was read as an array before.
+pub(crate) fn content(path: &Path) -> Result<Vec<u8>, Error> {
+    let mut content = Vec::new();
+    open(path)
+        .and_then(|mut file| file.read_to_end(&mut content))
+        .map_err(|error| Error::unreadable(path, &error))?;
+    Ok(content)
+}
+
 /// Reads `row_count` rows of `N` finite coordinates, in m, from the file `path`. `what` is a word
 /// for the rows.
 pub(crate) fn coordinates<const N: usize>(

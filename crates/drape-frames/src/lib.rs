@@ -33,6 +33,7 @@ mod surface;
 
 // Frames.
 mod frame;
+mod frame_hash;
 mod recording;
 mod source;
 

@@ -3,7 +3,7 @@
 pub(crate) mod array_frames;
 pub(crate) mod checked;
 pub(crate) mod folder;
-mod index;
+pub(crate) mod index;
 pub(crate) mod list;
 
 use std::fmt::Debug;

@@ -27,5 +27,6 @@ pub use options::{RunOptions, Watcher};
 pub use request::RunRequest;
 pub use resumable_run::ResumableRun;
 pub use space::describe_needs;
+pub use status::{LostProcess, lost_process};
 pub use stored_spec::scene_document;
 pub use verdict::RunVerdict;

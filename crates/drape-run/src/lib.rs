@@ -11,8 +11,8 @@ mod scene_fabric;
 
 #[cfg(not(target_family = "wasm"))]
 pub use folder::{
-    EndedRun, Error, FolderRun, Goal, Limits, ReachedLimit, ResumableRun, RunOptions, RunRequest,
-    RunVerdict, Watcher, describe_needs, end_at, scene_document,
+    EndedRun, Error, FolderRun, Goal, Limits, LostProcess, ReachedLimit, ResumableRun, RunOptions,
+    RunRequest, RunVerdict, Watcher, describe_needs, end_at, lost_process, scene_document,
 };
 pub use scene_fabric::{
     NamedCurve, PlacedSpec, fabric_of, fit_mistake, read_scene, scene_fabric, scene_of,

@@ -15,7 +15,6 @@ use drape::export::{
     write_usda,
 };
 use drape::frames::Recording;
-use drape::run::file::FileKind;
 
 pub(crate) use self::arguments::ExportArguments;
 use self::arguments::Format;
@@ -43,7 +42,7 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         )));
     }
 
-    input::expect(&arguments.run, &[FileKind::Run])?;
+    input::expect_run(&arguments.run)?;
     let recording = Recording::open(&arguments.run)?;
     let numbers = numbers(arguments, format, recording.frame_count() - 1);
     let requested_count = numbers.clone().count();

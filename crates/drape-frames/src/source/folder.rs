@@ -59,7 +59,7 @@ impl FrameSource for FolderSource {
     }
 
     fn frame(&self, number: usize) -> Result<Frame, Error> {
-        let mut frame = array_frames::read(&self.folder, &self.manifest, self.entries[number])?;
+        let mut frame = array_frames::read(&self.folder, &self.manifest, &self.entries[number])?;
 
         // Older runs stored only the pressures of the last frame.
         let file = self.last_pressures();

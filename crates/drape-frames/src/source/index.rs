@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::text::read_complete_lines;
 
 /// Line of `frames.csv`, which describes one frame.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct IndexEntry {
     /// Number of the frame, from 0.
     pub(crate) number: usize,
@@ -22,6 +22,9 @@ pub(crate) struct IndexEntry {
     /// stored.
     #[serde(default)]
     pub(crate) touched: Option<usize>,
+    /// Hash of the files of the frame, or `None` in folders of older versions.
+    #[serde(default)]
+    pub(crate) hash: Option<String>,
 }
 
 /// Reads the complete lines of the file `path`. The last line may be incomplete if the run was

@@ -10,10 +10,13 @@ use serde::{Deserialize, Serialize};
 use super::file::{write_file, write_json};
 use super::files::{self, ARRAYS, ENERGY, FRAMES, SUMMARY, SURFACES};
 use super::npy;
+use crate::energy_table::EnergyTable;
 use crate::error::Error;
 use crate::frame::Frame;
+use crate::frame_hash::{self, FileHashes};
 use crate::manifest::Manifest;
-use crate::source::check_frame;
+use crate::source::{array_frames, check_frame, index};
+use crate::text::read_text;
 use crate::topology::Topology;
 
 /// Writer of the frames of a run to a folder, which [`Recording`](crate::Recording) reads.
@@ -66,6 +69,8 @@ struct StoredBodies {
     positions: Vec<[f64; 3]>,
     /// Number of the frame with which the bodies were stored.
     frame: usize,
+    /// Hash of their file.
+    hash: [u8; 32],
 }
 
 /// Creates `folder` for a run. If `replace`, the files of an earlier run are removed from it; files
@@ -116,7 +121,7 @@ impl FrameWriter {
 
         let path = folder.join(FRAMES);
         let created = fs::File::create_new(&path).and_then(|mut list| {
-            list.write_all(b"number,time,growth,bodies,touched\n")?;
+            list.write_all(b"number,time,growth,bodies,touched,hash\n")?;
             Ok(list)
         });
         let list = created.map_err(|error| Error::unwritable(&path, &error))?;
@@ -138,24 +143,21 @@ impl FrameWriter {
     /// frames and the summary are removed. `manifest` has the parts of the run.
     ///
     /// # Errors
-    /// [`Error::LostFrames`] if frames that `saved` counts are missing, or [`Error::Write`] if
-    /// files cannot be written.
+    /// [`Error::LostFrames`] if frames that `saved` counts are not listed, an error of reading if
+    /// a frame or a table is damaged, or [`Error::Write`] if files cannot be written.
     pub fn resume(
         folder: &Path,
         manifest: &Manifest,
         saved: SavedWriter,
     ) -> Result<FrameWriter, Error> {
         let SavedWriter { frame_count, last_time, bodies } = saved;
+        check_earlier(folder, manifest, frame_count)?;
         let later = files::frames_from(folder, frame_count as u64);
         let later = later.map_err(|error| Error::unwritable(folder, &error))?;
         let final_files = [SUMMARY, "last.obj"].map(|name| folder.join(name));
         let final_files = final_files.into_iter().filter(|path| path.exists());
 
         let list = reopen(&folder.join(FRAMES), frame_count)?;
-        if list.lines != frame_count {
-            let path = folder.join(FRAMES);
-            return Err(Error::LostFrames { path, found: list.lines, frames: frame_count });
-        }
         let mut energy = None;
         if folder.join(ENERGY).exists() {
             let table = reopen(&folder.join(ENERGY), frame_count)?;
@@ -210,11 +212,12 @@ impl FrameWriter {
         let stored = self.bodies.as_ref();
         let is_stored = stored.is_some_and(|stored| stored.positions == frame.bodies);
         if !frame.bodies.is_empty() && !is_stored {
-            self.write_positions("bodies", number, &frame.bodies)?;
-            self.bodies = Some(StoredBodies { positions: frame.bodies.clone(), frame: number });
+            let hash = self.write_positions("bodies", number, &frame.bodies)?;
+            let positions = frame.bodies.clone();
+            self.bodies = Some(StoredBodies { positions, frame: number, hash });
         }
-        self.write_positions("frame", number, &frame.cloth)?;
-        let touched = self.write_pressures(number, frame.pressures.as_deref())?;
+        let cloth = Some(self.write_positions("frame", number, &frame.cloth)?);
+        let (touched, pressures) = self.write_pressures(number, frame.pressures.as_deref())?;
         if let Some(energy) = energy {
             let path = self.folder.join(ENERGY);
             let written = energy_lines(number, frame.time, energy)
@@ -226,40 +229,75 @@ impl FrameWriter {
         let touched = touched.map_or(String::new(), |count| count.to_string());
         let bodies = self.bodies.as_ref().map_or(String::new(), |stored| stored.frame.to_string());
         let Frame { time, growth_fraction, .. } = frame;
-        let line = format!("{number},{time:?},{growth_fraction:?},{bodies},{touched}\n");
+        let body_hash = self.bodies.as_ref().map(|stored| stored.hash);
+        let hash = FileHashes { cloth, bodies: body_hash, pressures }.text();
+        let line = format!("{number},{time:?},{growth_fraction:?},{bodies},{touched},{hash}\n");
         (self.frame_count, self.last_time) = (number + 1, Some(*time));
         let listed = self.list.write_all(line.as_bytes()).and_then(|()| self.list.sync_data());
         listed.map_err(|error| Error::unwritable(&self.folder.join(FRAMES), &error))
     }
 
-    /// Stores `positions` as the array of `kind` of the frame `number`.
+    /// Stores `positions` as the array of `kind` of the frame `number`. Returns the hash of the
+    /// file.
     fn write_positions(
         &self,
         kind: &str,
         number: usize,
         positions: &[[f64; 3]],
-    ) -> Result<(), Error> {
+    ) -> Result<[u8; 32], Error> {
         let path = self.folder.join(format!("{kind}-{number:05}.npy"));
-        write_file(&path, |to| npy::write(to, positions))
+        write_hashed(&path, |to| npy::write(to, positions))
     }
 
     /// Stores `pressures` of the frame `number` in half precision if any is above zero. Returns the
-    /// number of pressures above zero, or `None` if there are no pressures.
+    /// number of pressures above zero, or `None` if there are no pressures, and the hash of the
+    /// file, if there is one.
     fn write_pressures(
         &self,
         number: usize,
         pressures: Option<&[f64]>,
-    ) -> Result<Option<usize>, Error> {
-        let Some(pressures) = pressures else { return Ok(None) };
+    ) -> Result<(Option<usize>, Option<[u8; 32]>), Error> {
+        let Some(pressures) = pressures else { return Ok((None, None)) };
         let largest = f64::from(f16::MAX);
         let half: Vec<f16> = pressures.iter().map(|p| f16::from_f64(p.min(largest))).collect();
         let touched = half.iter().filter(|pressure| **pressure > f16::ZERO).count();
+        let mut hash = None;
         if touched > 0 {
             let path = self.folder.join(format!("pressure-{number:05}.npy"));
-            write_file(&path, |to| npy::write_half(to, &half))?;
+            hash = Some(write_hashed(&path, |to| npy::write_half(to, &half))?);
         }
-        Ok(Some(touched))
+        Ok((Some(touched), hash))
     }
+}
+
+/// Writes the array that `content` writes to the file `path`. Returns the hash of the file.
+fn write_hashed(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<[u8; 32], Error> {
+    let mut array = Vec::new();
+    content(&mut array).map_err(|error| Error::unwritable(path, &error))?;
+    write_file(path, |to| to.write_all(&array))?;
+    Ok(frame_hash::hash(&array))
+}
+
+/// Refuses a folder in which one of the first `frame_count` frames, or the table of energies, is
+/// missing or damaged, before anything in the folder changes.
+fn check_earlier(folder: &Path, manifest: &Manifest, frame_count: usize) -> Result<(), Error> {
+    let path = folder.join(FRAMES);
+    let entries = index::read(&path)?;
+    if entries.len() < frame_count {
+        return Err(Error::LostFrames { path, found: entries.len(), frames: frame_count });
+    }
+    for entry in &entries[..frame_count] {
+        array_frames::read(folder, manifest, entry)?;
+    }
+
+    let energy = folder.join(ENERGY);
+    if energy.exists() {
+        EnergyTable::read(&energy, entries.len())?;
+    }
+    Ok(())
 }
 
 /// Table that was opened again for appending lines.
@@ -272,7 +310,7 @@ struct Reopened {
 /// Opens the table `path` for appending, with its heading and the complete lines of the first
 /// `frame_count` frames.
 fn reopen(path: &Path, frame_count: usize) -> Result<Reopened, Error> {
-    let text = fs::read_to_string(path).map_err(|error| Error::unreadable(path, &error))?;
+    let text = read_text(path)?;
     let mut lines = text.split_inclusive('\n');
     let heading = lines.next().unwrap_or_default();
     let earlier = lines.filter(|line| {

@@ -48,6 +48,11 @@ impl CheckpointWriter {
         }
     }
 
+    /// Writes to the status that the run goes on.
+    pub(super) fn start(&mut self) {
+        self.status.start();
+    }
+
     /// Takes the progress of a step, `advance`, into account, and checks the limits from time to
     /// time.
     pub(super) fn step(&mut self, advance: Advance) {

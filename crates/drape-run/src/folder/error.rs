@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use drape_input::Diagnostics;
+use drape_input::{Diagnostics, size_in_words};
 
 /// Reason why a run cannot begin, continue or be stored.
 #[derive(Debug, thiserror::Error)]
@@ -40,6 +40,14 @@ pub enum Error {
         end: f64,
         /// Length of a step, in s.
         step: f64,
+    },
+    /// The file of the request is damaged: begin the run anew.
+    #[error("{}: {reason}; the file is not as it was written: restore it, or begin the run anew", path.display())]
+    Damaged {
+        /// File of the request.
+        path: PathBuf,
+        /// Fault, in words.
+        reason: String,
     },
     /// No run was begun in the folder: name another folder.
     #[error("{}: {reason}; a folder in which a run was begun has it", path.display())]
@@ -84,6 +92,22 @@ pub enum Error {
     /// The cloth has come to rest, which ends a run.
     #[error("the cloth is at rest, by which the run is over; there is nothing to extend")]
     AtRest,
+    /// The disk is too full for the frames: name another folder, or write fewer frames.
+    #[error(
+        "the frames take {} of disk, and {} are free in {}; name another folder, or write fewer \
+         frames: a larger output.every or a larger spacing",
+        size_in_words(*needed),
+        size_in_words(*free),
+        folder.display()
+    )]
+    Space {
+        /// The folder.
+        folder: PathBuf,
+        /// Disk that the frames take at least, in bytes.
+        needed: u64,
+        /// Free disk, in bytes.
+        free: u64,
+    },
     /// The folder cannot be created: check space and permissions.
     #[error("cannot write {}: {reason}", folder.display())]
     Folder {

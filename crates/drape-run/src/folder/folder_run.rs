@@ -116,7 +116,10 @@ impl FolderRun {
     /// # Errors
     /// The simulation cannot be set up, or results cannot be written.
     pub fn run(self, watcher: &mut dyn Watcher) -> Result<EndedRun, Error> {
-        let Self { scene, folder, writer, lock, give_up, state_hash, resumption } = self;
+        let Self { scene, folder, mut writer, lock, give_up, state_hash, resumption } = self;
+        if resumption.is_none() {
+            writer.start();
+        }
         let mut simulation = Simulation::new(scene)?;
         simulation.give_up_when(give_up);
         if state_hash {
@@ -132,7 +135,9 @@ impl FolderRun {
                 {
                     return Err(Error::AtRest);
                 }
-                FrameWriter::resume(&folder, &manifest, saved.frames)?
+                let frames = FrameWriter::resume(&folder, &manifest, saved.frames)?;
+                writer.start();
+                frames
             }
         };
 

@@ -55,7 +55,7 @@ impl RunRequest {
     /// A text that sets no key.
     pub fn settings(&self) -> Result<Vec<Setting>, Error> {
         let settings = self.set.iter().map(|text| {
-            let fail = |error: SettingError| Error::NotBegun {
+            let fail = |error: SettingError| Error::Damaged {
                 path: NAME.into(),
                 reason: error.to_string(),
             };
@@ -83,12 +83,15 @@ impl RunRequest {
     /// # Errors
     /// No run was begun in the folder, or the file of the request is damaged.
     pub fn read(folder: &Path) -> Result<Self, Error> {
-        let fail = |reason: String| Error::NotBegun { path: folder.join(NAME), reason };
+        let path = folder.join(NAME);
+        let fail = |reason: String| Error::Damaged { path: path.clone(), reason };
         // Reading a pipe would wait for ever.
-        if !folder.join(NAME).is_file() {
-            return Err(fail("no such file".into()));
+        if !path.is_file() {
+            let is_there = std::fs::symlink_metadata(&path).is_ok();
+            let reason = if is_there { "it is no file" } else { "no such file" };
+            return Err(Error::NotBegun { path, reason: reason.into() });
         }
-        let text = std::fs::read(folder.join(NAME)).map_err(|error| fail(error.to_string()))?;
+        let text = std::fs::read(&path).map_err(|error| fail(error.to_string()))?;
         let request: Self =
             serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))?;
         if !(0.0..=CHECKPOINT_EVERY_MAX).contains(&request.checkpoint_every) {

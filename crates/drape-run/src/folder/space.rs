@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostic, Diagnostics, size_in_words};
+use drape_input::size_in_words;
 use drape_scene::{Needs, Scene};
+
+use super::Error;
 
 /// Returns the `needs` of a run, in words.
 #[must_use]
@@ -18,21 +20,16 @@ pub fn describe_needs(needs: &Needs) -> String {
 }
 
 /// Refuses a run of `scene` whose results do not fit on the disk of `folder`.
-pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostics> {
+///
+/// # Errors
+/// [`Error::Space`].
+pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Error> {
     let Some(free) = free(folder) else { return Ok(()) };
-    let needs = scene.needs();
-    if needs.disk_min() <= free {
+    let needed = scene.needs().disk_min();
+    if needed <= free {
         return Ok(());
     }
-    let message = format!(
-        "the frames take {} of disk, and {} are free in {}",
-        size_in_words(needs.disk_min()),
-        size_in_words(free),
-        folder.display()
-    );
-    let help =
-        "name another folder, or write fewer frames: a larger output.every or a larger spacing";
-    Err(Diagnostic::new(&scene.source.file, message).help(help).into())
+    Err(Error::Space { folder: folder.to_owned(), needed, free })
 }
 
 /// Returns the free space of the disk that has or would have `folder`, in bytes. Returns `None` if

@@ -1,12 +1,25 @@
 //! Status of a run for other programs: `status.json`, written atomically.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use drape_dynamics::PhaseName;
 use serde_json::{Value, json};
 
+use super::lock;
+use super::verdict::RunVerdict;
 use crate::file;
+
+/// Name of the file.
+const NAME: &str = "status.json";
+
+/// State of a run that goes on.
+const RUNNING: &str = "running";
+
+/// Largest file that is read, in bytes.
+const BYTES_MAX: u64 = 1 << 20;
 
 /// Time between two updates.
 const EVERY: Duration = Duration::from_secs(1);
@@ -21,7 +34,8 @@ pub(super) struct Advance {
     pub(super) time: f64,
 }
 
-/// File of the status. If a run panics, the file says so.
+/// File of the status. If a run that has started panics, the file says so. A run that is refused
+/// before leaves the file as it is.
 pub(super) struct StatusFile {
     path: PathBuf,
     begin: Instant,
@@ -29,25 +43,32 @@ pub(super) struct StatusFile {
     updated: Option<Instant>,
     steps: usize,
     last: Option<Advance>,
-    is_over: bool,
+    /// Whether the run has started and not ended.
+    is_running: bool,
 }
 
 impl StatusFile {
     /// Begins the status of a run in a `folder`.
     pub(super) fn new(folder: &Path) -> Self {
         Self {
-            path: folder.join("status.json"),
+            path: folder.join(NAME),
             begin: Instant::now(),
             updated: None,
             steps: 0,
             last: None,
-            is_over: false,
+            is_running: false,
         }
     }
 
     /// Returns the time at which the run began, `begin`.
     pub(super) fn begin(&self) -> Instant {
         self.begin
+    }
+
+    /// Writes that the run goes on.
+    pub(super) fn start(&mut self) {
+        self.is_running = true;
+        self.write(RUNNING, None);
     }
 
     /// Takes the progress of a step, `advance`, into account. Returns whether the file was due for
@@ -58,14 +79,14 @@ impl StatusFile {
         let is_due = self.updated.is_none_or(|updated| updated.elapsed() >= EVERY);
         if is_due {
             self.updated = Some(Instant::now());
-            self.write("running", None);
+            self.write(RUNNING, None);
         }
         is_due
     }
 
     /// Writes the `outcome` of the run, with a `message`.
     pub(super) fn end(&mut self, outcome: &str, message: Option<String>) {
-        self.is_over = true;
+        self.is_running = false;
         self.write(outcome, message);
     }
 
@@ -73,7 +94,7 @@ impl StatusFile {
     fn write(&self, state: &str, message: Option<String>) {
         let seconds = self.begin.elapsed().as_secs_f64();
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
-        let remaining = self.last.filter(|last| last.done > 0.0 && state == "running");
+        let remaining = self.last.filter(|last| last.done > 0.0 && state == RUNNING);
         let remaining = remaining.map(|last| seconds * (1.0 - last.done) / last.done);
 
         let mut status = json!({
@@ -100,9 +121,54 @@ impl StatusFile {
     }
 }
 
+/// Process that ran a scene and is gone, although `status.json` said that the run goes on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LostProcess {
+    /// Number of the process, if the file states it.
+    pub number: Option<u64>,
+}
+
+/// Returns the process that ran the scene in `folder`, if it is gone and the run has not ended. The
+/// file `status.json` then says so too, if it can be written: its `state` becomes `killed`.
+///
+/// A process that is still there holds the lock of the folder.
+#[must_use]
+pub fn lost_process(folder: &Path) -> Option<LostProcess> {
+    let path = folder.join(NAME);
+    let mut status = read(&path).filter(|status| status["state"] == RUNNING)?;
+    if lock::is_held(folder) {
+        return None;
+    }
+
+    // The process may have been ended after its summary.
+    let verdict = RunVerdict::read(folder);
+    let number = status["process"].as_u64();
+    match &verdict {
+        Some(RunVerdict { status: ended, .. }) => status["state"] = json!(ended),
+        None => {
+            status["state"] = json!("killed");
+            status["message"] = json!("the process was ended before the run");
+        }
+    }
+    if let Some(entries) = status.as_object_mut() {
+        entries.remove("expected_end");
+    }
+    let _ = file::write(&path, format!("{status:#}\n"));
+    verdict.is_none().then_some(LostProcess { number })
+}
+
+/// Reads the status in the file `path`. Returns `None` if the file is none that a run writes.
+fn read(path: &Path) -> Option<Value> {
+    // Reading a pipe would wait for ever.
+    std::fs::symlink_metadata(path).ok().filter(std::fs::Metadata::is_file)?;
+    let mut text = Vec::new();
+    File::open(path).ok()?.take(BYTES_MAX).read_to_end(&mut text).ok()?;
+    serde_json::from_slice(&text).ok().filter(Value::is_object)
+}
+
 impl Drop for StatusFile {
     fn drop(&mut self) {
-        if !self.is_over {
+        if self.is_running {
             let panics = std::thread::panicking();
             self.write(if panics { "panicked" } else { "failed" }, None);
         }

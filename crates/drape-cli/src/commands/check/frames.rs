@@ -9,6 +9,7 @@ use drape::verify::{ClosePair, PartNumber, Verdict, Verifier};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
+use crate::input;
 use crate::say::say;
 
 /// Returns whether the folder `path` was written by a run, complete or not.
@@ -55,8 +56,11 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<VerifiedRuns, F
     let mut failed = None;
     let mut entries = Vec::new();
     for folder in folders {
+        input::tell_lost_process(folder);
         let verifier = Verifier::open(folder)?;
         let recording = verifier.recording();
+        // A damaged table of energies is told, although nothing of it is judged here.
+        recording.energy()?;
         if !json {
             say(headline(folder, recording))?;
         }

@@ -34,7 +34,7 @@ pub(crate) struct ResumeArguments {
 pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
     signal::watch();
     let ResumeArguments { run: folder, extend, options, .. } = arguments;
-    input::expect(folder, &[FileKind::Run])?;
+    input::expect_run(folder)?;
     let mut resumed = ResumableRun::open(folder, *extend)?;
     let request = &mut resumed.request;
     let path = arguments.scene.clone().unwrap_or_else(|| request.scene.clone());

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::pages::run_picture::{Direction, PictureSettings, RunPictures};
 use crate::say::say_written;
-use drape::run::file::{self, FileKind};
+use drape::run::file;
 
 /// Duration of one turn of a turntable, in s.
 const TURN_SECONDS: f64 = 6.0;
@@ -76,7 +76,7 @@ impl FromStr for FrameNumber {
 
 /// Executes `drape picture`.
 pub(crate) fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
-    input::expect(&arguments.run, &[FileKind::Run])?;
+    input::expect_run(&arguments.run)?;
     let recording = Recording::open(&arguments.run)?;
     if let Some(count) = arguments.strip {
         return strip(arguments, &recording, count);

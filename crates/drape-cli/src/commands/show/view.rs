@@ -10,7 +10,7 @@ use crate::console::note;
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say_written;
-use drape::run::file::{self, FileKind};
+use drape::run::file;
 
 #[derive(Args)]
 pub(crate) struct ViewArguments {
@@ -33,7 +33,7 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
             arguments.size
         )));
     }
-    arguments.runs.iter().try_for_each(|run| input::expect(run, &[FileKind::Run]))?;
+    arguments.runs.iter().try_for_each(|run| input::expect_run(run))?;
     let recordings =
         arguments.runs.iter().map(Recording::open).collect::<Result<Vec<Recording>, _>>()?;
     let path = arguments.output.clone().unwrap_or_else(|| arguments.runs[0].join("view.html"));

@@ -9,6 +9,7 @@ use drape::report::{ReportedGarment, ReportedGirth};
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
+use crate::input;
 
 /// File of a run that holds the measures.
 const SUMMARY: &str = "summary.json";
@@ -24,6 +25,7 @@ pub(super) fn read(runs: &[PathBuf]) -> Result<Vec<ReportedGarment>, Failure> {
 
 /// Reads the garments of the run in `folder`.
 fn garments_of(folder: &Path) -> Result<Vec<ReportedGarment>, Failure> {
+    input::tell_lost_process(folder);
     let recording = Recording::open(folder)?;
     let girths = read_girths(&folder.join(SUMMARY))?;
 
