@@ -11,6 +11,8 @@ mod file_kinds;
 mod grading;
 #[path = "command_line/material.rs"]
 mod material;
+#[path = "command_line/remedies.rs"]
+mod remedies;
 #[path = "command_line/report.rs"]
 mod report;
 #[path = "command_line/resume.rs"]

@@ -149,7 +149,7 @@ fn cloth_that_bodies_close_on_ends_the_run_or_is_thinned_or_released() {
     assert_eq!(summary["status"], "solver failed");
     // With 0.4 mm more between the balls the run goes on to its end.
     let reason = summary["reason"].as_str().expect("a reason");
-    assert!(reason.contains("leave room where it moves to"), "{reason}");
+    assert!(reason.contains("leave more room between them"), "{reason}");
     assert_eq!(pinched("error", "0.0197", 2).code, Some(0));
     let counts = |summary: &Value| {
         let count = |key: &str| summary["contact"][key].as_u64().expect("a count");

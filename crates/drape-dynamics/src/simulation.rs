@@ -6,7 +6,7 @@
 //! state from which an interrupted run resumes. `coarser_grid.rs` relaxes the cloth on coarser
 //! grids first. `seams.rs` ends the sewing. A program acts between steps in `prescription.rs`,
 //! `body_prescription.rs` and `pin_prescription.rs`. `vertex_buffer.rs` hands out the surface for a
-//! picture. `plan.rs` lists the phases that remain.
+//! picture. `plan.rs` lists the phases that remain, `step_failure.rs` describes a step that failed.
 
 pub(crate) mod body_prescription;
 pub(crate) mod coarser_grid;
@@ -21,6 +21,7 @@ pub(crate) mod saved;
 mod seams;
 #[cfg(test)]
 mod sewing_tests;
+mod step_failure;
 mod vertex_buffer;
 
 use std::collections::VecDeque;
@@ -46,7 +47,7 @@ use crate::stepping::statistics::Statistics;
 use crate::stepping::{
     AcceptedStep, PhaseSteps, ReferenceScheme, RestDetector, Scheme, StepMotion, Stepping,
 };
-use crate::world::{ALL_PARTICLES, Energy, PinLoad, World};
+use crate::world::{ALL_PARTICLES, ClosestPlace, Energy, PinLoad, World};
 
 /// Unit of imbalances, in m/s².
 const GRAVITY: f64 = 9.81;
@@ -547,7 +548,7 @@ impl Simulation {
             let percent = 100.0 * surfaces.growth_fraction();
             let reason = format!(
                 "surfaces came to {percent:.2} % of the distances that they keep{}",
-                self.closest_place()
+                self.closest_place().map(|place| format!("; {place}")).unwrap_or_default()
             );
             self.end_early(Status::HeldTogether, reason);
         }
@@ -561,8 +562,11 @@ impl Simulation {
             }
             _ => Status::SolverFailed,
         };
+        let is_moving =
+            self.phases.begun.last().is_some_and(|phase| phase.name == PhaseName::Simulate);
+        let failure = step_failure::describe(error, self.closest_place().as_ref(), is_moving);
         let open_seam = self.describe_open_seam();
-        self.end_early(status, format!("{error}{}{open_seam}", self.closest_place()));
+        self.end_early(status, format!("{failure}{open_seam}"));
     }
 
     /// Ends the run with `status` and `reason`.
@@ -571,12 +575,9 @@ impl Simulation {
         self.outcome.reason = Some(reason);
     }
 
-    /// Describes where surfaces are closest to their minimum separation, for the end of a message.
-    fn closest_place(&self) -> String {
-        let surfaces = self.world.contact.surfaces();
-        let place =
-            surfaces.and_then(|surfaces| surfaces.describe_closest(&self.world.state.positions));
-        place.map(|place| format!("; {place}")).unwrap_or_default()
+    /// Returns where surfaces are closest to their minimum separation.
+    fn closest_place(&self) -> Option<ClosestPlace> {
+        self.world.contact.surfaces()?.closest_place(&self.world.state.positions)
     }
 
     fn is_at_rest(&self) -> bool {

@@ -52,7 +52,7 @@ use self::pins::{LoadTimes, Pins};
 
 #[cfg(test)]
 pub(crate) use self::contact::Omitted;
-pub(crate) use self::contact::{ALL_PARTICLES, Contact, PlacedSurfaces};
+pub(crate) use self::contact::{ALL_PARTICLES, ClosestPlace, Contact, PlacedSurfaces};
 pub use self::energy_balance::Energy;
 pub(crate) use self::energy_balance::EnergyBalance;
 pub use self::pins::PinLoad;

@@ -142,7 +142,7 @@ impl Stop {
     pub(crate) fn remedy(self) -> &'static str {
         match self {
             Self::Blocked => "slow what moves by prescription, or leave room where it moves to",
-            _ => "shorten the step or allow more halvings",
+            _ => "shorten the step, or raise max_halvings of the settings",
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Garments that fell off their body, or slid from their place on the body.
+//! Garments and single panels that fell off their body, or slid from their place on the body.
 
 use crate::measure::garment_parts::{GarmentParts, HungGarment, VerticalExtent};
 
@@ -10,18 +10,32 @@ const SUNK: f64 = 0.25;
 /// falls onto its body.
 const SLIDE_MIN: f64 = 0.3;
 
-/// Returns a reason to end the run if a garment of `parts` is below all bodies at `positions`, so
-/// that nothing can hold it.
+/// Height, in m, that a single panel falls without bodies before the run ends. Weight that nothing
+/// holds does not come to rest.
+const FREE_FALL: f64 = 0.1;
+
+/// Returns a reason to end the run if a garment or a single panel of `parts` is below all bodies at
+/// `positions`, so that nothing can hold it.
 pub(crate) fn fallen(parts: &GarmentParts, positions: &[f64]) -> Option<String> {
     let ground = parts.ground?;
+    let has_bodies = ground < f64::INFINITY;
     let mut garments = parts.garments.iter();
-    let HungGarment { name, hung, slid, .. } =
-        garments.find(|garment| garment.extent(positions).high < ground)?;
+    let HungGarment { name, is_garment, hung, slid, .. } = garments.find(|garment| {
+        let now = garment.extent(positions).high;
+        // Without bodies a garment may hang from its pins. Single panels that have pins are not in
+        // the list, but a program may hold one.
+        let has_fallen = !garment.is_garment && garment.hung.high - now > FREE_FALL;
+        if has_bodies { now < ground } else { has_fallen }
+    })?;
+    let what = if *is_garment { "garment" } else { "panel" };
+    if !has_bodies {
+        return Some(format!("the {what} \"{name}\" falls: there is neither a body nor a pin"));
+    }
     let top = hung.high;
     let slide =
         slid.map_or(String::new(), |time| format!(", left its place on the body at {time:.1} s"));
     Some(format!(
-        "the garment \"{name}\" fell off: it was up at {top:.2} m{slide}, and is below {ground:.2} m, where the bodies end"
+        "the {what} \"{name}\" fell off: it was up at {top:.2} m{slide}, and is below {ground:.2} m, where the bodies end"
     ))
 }
 
@@ -31,7 +45,8 @@ pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64
     if !parts.has_bodies {
         return Vec::new();
     }
-    let slides = parts.garments.iter_mut().filter_map(|garment| {
+    let garments = parts.garments.iter_mut().filter(|garment| garment.is_garment);
+    let slides = garments.filter_map(|garment| {
         let (top, now) = (garment.hung.high, garment.extent(positions).high);
         let slides = garment.slid.is_none() && has_sunk(garment.hung, now);
         slides.then(|| {
@@ -54,7 +69,8 @@ fn has_sunk(VerticalExtent { low, high: top }: VerticalExtent, now: f64) -> bool
 
 /// Returns a warning for each garment of `parts` that rests at `positions` after sliding.
 pub(crate) fn sunk(parts: &GarmentParts, positions: &[f64]) -> Vec<String> {
-    let sunk = parts.garments.iter().filter_map(|garment| {
+    let garments = parts.garments.iter().filter(|garment| garment.is_garment);
+    let sunk = garments.filter_map(|garment| {
         let (top, now) = (garment.hung.high, garment.extent(positions).high);
         has_sunk(garment.hung, now).then(|| {
             format!(

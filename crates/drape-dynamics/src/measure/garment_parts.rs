@@ -54,10 +54,12 @@ pub(crate) struct PanelSpan {
     pub(crate) particles: Range<usize>,
 }
 
-/// Garment, and its height range when it began to hang.
+/// Garment, or panel that nothing but bodies can hold, and its height range when it began to hang.
 #[derive(Debug, Clone)]
 pub(crate) struct HungGarment {
     pub(crate) name: String,
+    /// Whether it is a garment. A single panel may slide and sink as it likes.
+    pub(crate) is_garment: bool,
     particles: Range<usize>,
     /// Height range when the garment began to hang.
     pub(crate) hung: VerticalExtent,
@@ -91,11 +93,11 @@ impl GarmentParts {
             weft: panel.lattice.grain().weft(),
             particles: panel.particles(),
         });
-        let garments: Vec<HungGarment> = scene
-            .garments
-            .iter()
-            .map(|garment| HungGarment::new(garment, &scene.start.positions))
-            .collect();
+        let start = &scene.start.positions;
+        let garments = scene.garments.iter().map(|Garment { name, particles, .. }| {
+            HungGarment::new(name, true, particles.clone(), start)
+        });
+        let garments: Vec<HungGarment> = garments.chain(free_panels(scene)).collect();
 
         let bodies = scene.bodies.iter().map(|moving| &moving.body);
         let sewing = scene.sewing.as_ref();
@@ -155,10 +157,10 @@ impl MaterialRanges {
 }
 
 impl HungGarment {
-    fn new(garment: &Garment, positions: &[f64]) -> Self {
-        let Garment { name, particles, .. } = garment.clone();
+    fn new(name: &str, is_garment: bool, particles: Range<usize>, positions: &[f64]) -> Self {
         let hung = VerticalExtent { low: 0.0, high: 0.0 };
-        let mut hung_garment = Self { name, particles, hung, slid: None };
+        let name = name.to_owned();
+        let mut hung_garment = Self { name, is_garment, particles, hung, slid: None };
         hung_garment.hang(positions);
         hung_garment
     }
@@ -180,23 +182,47 @@ impl HungGarment {
     }
 }
 
-/// Returns the lowest point of `bodies`, in m, or `None` if a plane below could catch a garment.
+/// Returns the panels of `scene` that nothing but bodies can hold: no pin and no seam has one of
+/// their particles. Without weight no panel needs to be held.
+fn free_panels(scene: &Scene) -> impl Iterator<Item = HungGarment> {
+    let mut held = vec![false; scene.cloth.particle_count()];
+    for garment in &scene.garments {
+        held[garment.particles.clone()].fill(true);
+    }
+    scene.pins.iter().flat_map(|pin| &pin.particles).for_each(|particle| held[*particle] = true);
+    mark_sewn(scene, &mut held);
+
+    let has_weight = scene.environment.gravity[1] < 0.0;
+    scene.panels.iter().filter_map(move |panel| {
+        let particles = panel.particles();
+        let is_free = has_weight && !held[particles.clone()].contains(&true);
+        is_free.then(|| HungGarment::new(&panel.name, false, particles, &scene.start.positions))
+    })
+}
+
+/// Marks the particles of `scene` that are sewn, in `marks`.
+fn mark_sewn(scene: &Scene, marks: &mut [bool]) {
+    for SeamPairs { pairs, ties } in scene.sewing.iter().map(|sewing| &sewing.pairs) {
+        pairs.iter().flatten().for_each(|&particle| marks[particle as usize] = true);
+        ties.iter().for_each(|tie| marks[tie.particle as usize] = true);
+    }
+}
+
+/// Returns the lowest point of `bodies`, in m, infinite without bodies, or `None` if a plane below
+/// could catch a garment.
 fn lowest<'a>(bodies: impl Iterator<Item = &'a Body> + Clone) -> Option<f64> {
     if bodies.clone().any(|body| matches!(body.shape, Shape::Plane)) {
         return None;
     }
     let outlines = bodies.filter_map(|body| body.triangulate().ok());
     let heights = outlines.flat_map(|outline| outline.vertices).map(|[_, height, _]| height);
-    heights.reduce(f64::min)
+    Some(heights.fold(f64::INFINITY, f64::min))
 }
 
 /// Returns the edges of panels of `scene` whose particles between the ends are not sewn.
 fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
     let mut sewn = vec![false; scene.cloth.particle_count()];
-    for SeamPairs { pairs, ties } in scene.sewing.iter().map(|sewing| &sewing.pairs) {
-        pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
-        ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
-    }
+    mark_sewn(scene, &mut sewn);
 
     let edges = scene.panels.iter().flat_map(|panel| {
         panel.edges.iter().map(move |edge| FreeEdge {

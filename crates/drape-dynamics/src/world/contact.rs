@@ -7,6 +7,7 @@
 //! rigid ones (`particle_bodies.rs`). The world asks for forces, potentials and stiffnesses, opens
 //! steps and commits them; only a commit changes the memory of friction.
 
+mod closest_place;
 mod particle_bodies;
 mod step;
 mod stopped_speeds;
@@ -21,6 +22,7 @@ use crate::error::Error;
 
 use self::stopped_speeds::StoppedSpeeds;
 
+pub(crate) use self::closest_place::ClosestPlace;
 pub(crate) use self::particle_bodies::{MovingBody, ParticleBodies};
 pub(crate) use self::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 #[cfg(test)]

@@ -191,7 +191,7 @@ pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
             summary.reason.unwrap_or_default()
         ))),
         Status::FellOff => Err(Failure::Solver(format!(
-            "{}; pin it, take it in, or raise the friction of the body; the last state was \
+            "{}; pin it, take it in, put a body below it, or raise the friction of the body; the last state was \
              written",
             summary.reason.unwrap_or_default()
         ))),

@@ -44,18 +44,21 @@ impl<'a> SurfacePairs<'a> {
         SurfaceSummary::new(self.active.iter())
     }
 
+    /// Returns a [`PairDistance`] for each pair.
+    pub fn iter(self) -> impl Iterator<Item = PairDistance<'a>> {
+        self.active.iter().map(PairDistance::new)
+    }
+
     /// Returns the pair with the smallest ratio of distance to minimum separation, as a
     /// [`PairDistance`].
     #[must_use]
     pub fn closest(self) -> Option<PairDistance<'a>> {
-        let pairs = self.active.iter().map(PairDistance::new);
-        pairs.min_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+        self.iter().min_by(|a, b| a.ratio().total_cmp(&b.ratio()))
     }
 
     /// Returns a [`PairDistance`] for each pair below its minimum separation.
     pub fn below_min_separation(self) -> impl Iterator<Item = PairDistance<'a>> {
-        let pairs = self.active.iter().map(PairDistance::new);
-        pairs.filter(|PairDistance { pair, distance }| !(*distance >= pair.min_separation))
+        self.iter().filter(|PairDistance { pair, distance }| !(*distance >= pair.min_separation))
     }
 
     /// Returns the [`Error`] of the detection, if it failed. Forces at its positions are NaN.

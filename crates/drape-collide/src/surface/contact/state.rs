@@ -55,6 +55,12 @@ impl<'a> SurfaceState<'a> {
         self.contact.growth.fraction
     }
 
+    /// Returns the treatment of cloth that bodies pinch.
+    #[must_use]
+    pub fn pinch_policy(self) -> PinchPolicy {
+        self.contact.pinch.policy
+    }
+
     /// Returns the numbers of free vertices that bodies pinch, as [`PinchedVertices`].
     #[must_use]
     pub fn pinched_vertices(self) -> PinchedVertices {

@@ -7,14 +7,15 @@
 use std::ops::Range;
 
 use drape_collide::{
-    Body, Error, OpenStep, PairDistance, SeamIntersections, Shape, SurfaceContact, SurfaceStart,
-    SurfaceTrial, Triangulation,
+    Body, Error, OpenStep, SeamIntersections, Shape, SurfaceContact, SurfaceStart, SurfaceTrial,
+    Triangulation,
 };
 use drape_frames::CLOSED_GAP;
 use drape_implicit::{AllowedStep, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 use serde::{Deserialize, Serialize};
 
+use super::closest_place::ClosestPlace;
 use super::step::{ALL_PARTICLES, ContactEnergy, ContactStep};
 use super::stopped_speeds::StoppedSpeeds;
 
@@ -450,21 +451,10 @@ impl Surfaces {
         others.map_or(usize::MAX, |others| others.len() + seams.open)
     }
 
-    /// Describes where surfaces are closest to their minimum separation, with the particles at
+    /// Returns where surfaces are closest to their minimum separation, with the particles at
     /// `positions`, in m. Returns `None` if no surfaces are near each other.
-    pub(crate) fn describe_closest(&self, positions: &[f64]) -> Option<String> {
-        let PairDistance { pair, distance } = self.contact.pairs().closest()?;
-        let surface = self.contact.surface();
-        let first_name = &self.names[surface.group(pair.vertices[0]).ok()? as usize];
-        let second_name = &self.names[surface.group(pair.vertices[3]).ok()? as usize];
-        let start = 3 * pair.vertices.into_iter().min()? as usize;
-        let [x, y, z] = positions.get(start..start + 3)?.try_into().ok()?;
-        Some(format!(
-            "surfaces are nearest to what they keep between \"{first_name}\" and \"{second_name}\" near ({x:.4}, {y:.4}, {z:.4}) m, \
-             {:.4} of {:.4} mm",
-            1e3 * distance,
-            1e3 * pair.min_separation
-        ))
+    pub(crate) fn closest_place(&self, positions: &[f64]) -> Option<ClosestPlace> {
+        ClosestPlace::find(&self.contact, &self.names, positions)
     }
 }
 
