@@ -26,6 +26,10 @@ const ENERGY: f64 = 3e-3;
 /// Multiple of the imbalance at rest below which steps minimize their energy fully.
 const NEAR_REST: f64 = 2.0;
 
+/// Sampling of the energy balance in a relaxation, whose steps are few and long: a run of twenty
+/// steps has samples too.
+const ENERGY_SAMPLING: u64 = 8;
+
 /// Accuracy of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Accuracy {
@@ -107,6 +111,7 @@ pub(crate) fn relaxation_scheme(settings: &Settings, accuracy: Accuracy) -> Sche
         energy_forcing: ENERGY_FORCING,
         integrator: Integrator::BackwardEuler,
         begin_at_prediction: true,
+        energy_sampling: settings.energy_sampling.min(ENERGY_SAMPLING),
         ..settings.clone()
     })
 }
