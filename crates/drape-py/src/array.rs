@@ -1,4 +1,5 @@
-//! NumPy arrays of numbers, which nothing writes to: each is a copy of its own.
+//! NumPy arrays of numbers, which nothing writes to: each is a view of a copy of its own. NumPy makes
+//! a view writable only if what it shows is writable, and the copy is not.
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -26,5 +27,5 @@ fn read_only(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     let flags = PyDict::new(array.py());
     flags.set_item("write", false)?;
     array.call_method("setflags", (), Some(&flags))?;
-    Ok(array)
+    array.call_method0("view")
 }
