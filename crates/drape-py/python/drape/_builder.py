@@ -89,7 +89,7 @@ class SceneBuilder:
         else:
             advice = "drape.fit(sheet) fits a sheet, drape.Fabric.read(path) reads a fabric"
             raise refuse("SceneBuilder.fabric", "a Fabric, a Fit or a path", source, advice)
-        fabrics[name] = {"file": file}
+        fabrics[name] = plain({"file": file}, f"fabric.{name}")
         return self
 
     def panel(self, name: str, fabric: str, **keys: Any) -> SceneBuilder:
@@ -101,7 +101,8 @@ class SceneBuilder:
     ) -> SceneBuilder:
         """Adds a garment: the file of a pattern, or the keys of one, and the fabric of its panels."""
         if isinstance(pattern, Mapping):
-            name = str(keys.get("name", "pattern"))
+            name = keys.get("name")
+            name = name if isinstance(name, str) else "pattern"
             held = Held(f"the garment {name!r}", plain(pattern, ""))
             file: str = self._hold("patterns", name, ".toml", held)
         else:

@@ -16,7 +16,19 @@ import numpy.typing as npt
 
 from . import _drape
 from ._errors import InputError, NoEntryError, UsageError
-from ._given import StrPath, array_of, expect, files, flag_of, items_of, number_of, path_of, refuse, text_of
+from ._given import (
+    StrPath,
+    array_of,
+    expect,
+    files,
+    flag_of,
+    items_of,
+    number_of,
+    path_of,
+    refuse,
+    shown,
+    text_of,
+)
 from ._pickled import StoredFit
 from ._toml import dumps
 
@@ -71,17 +83,24 @@ class Curve:
         units = _SI.get(test, ("1", "N/m"))
 
         def axis(column: str, unit: str, size: str, length: float | str | None) -> dict[str, Any]:
-            own = {"column": column, "unit": unit}
-            metres = length if isinstance(length, str) else f"{length} m"
-            return own if length is None else {**own, size: metres}
+            own = {"column": column, "unit": text_of("Curve, a unit,", unit)}
+            if length is None:
+                return own
+            if not isinstance(length, str):
+                number = number_of(size, length, "a length above 0, to 1000 m", 0, 1000, above=True)
+                length = f"{number} m"
+            return {**own, size: length}
 
-        of_length = self.deformation_unit or ("m" if self.gauge is not None else units[0])
+        of_length = self.deformation_unit
+        if of_length is None:
+            of_length = "m" if self.gauge is not None else units[0]
+        of_load = units[1] if self.load_unit is None else self.load_unit
         entry: dict[str, Any] = {"test": test, "direction": self.direction, "file": file}
         entry["deformation"] = axis("deformation", of_length, "gauge", self.gauge)
-        entry["load"] = axis("load", self.load_unit or units[1], "width", self.width)
+        entry["load"] = axis("load", of_load, "width", self.width)
         if self.zero is not None:
             entry["deformation"]["zero"] = self.zero
-        if self.slack:
+        if flag_of("slack", self.slack):
             entry["slack"] = True
         return entry if self.name is None else {"name": self.name, **entry}
 
@@ -277,14 +296,14 @@ class Parameters(Mapping[str, Parameter]):
 
     def __getitem__(self, key: str) -> Parameter:
         if not isinstance(key, str):
-            raise NoEntryError(f"{key!r} is no parameter; give one of {', '.join(self._own)}")
+            raise NoEntryError(f"{shown(key)} is no parameter; give one of {', '.join(self._own)}")
         *direction, symbol = key.rsplit(".", 1)
         whole = ".".join([*direction, _SYMBOLS.get(symbol, symbol)])
         if whole in self._own:
             return self._own[whole]
         found = [self._own[k] for d in ("warp", "weft") if (k := f"{d}.{whole}") in self._own]
         if not found:
-            raise NoEntryError(f"{key!r} is no parameter; give one of {', '.join(self._own)}")
+            raise NoEntryError(f"{shown(key)} is no parameter; give one of {', '.join(self._own)}")
         errors = [p.stderr for p in found]
         squares = [e * e for e in errors if e is not None]
         has_error = len(squares) == len(errors)
@@ -419,7 +438,7 @@ class Fits(Mapping[str, Fit]):
         if isinstance(name, str) and name in self.failures:
             raise self.failures[name]
         if name not in self:
-            raise NoEntryError(f"{name!r} has no fit; give one of {', '.join(self._fits)}")
+            raise NoEntryError(f"{shown(name)} has no fit; give one of {', '.join(self._fits)}")
         return self._fits[name]
 
     def __contains__(self, name: object) -> bool:

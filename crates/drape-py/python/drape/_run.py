@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _drape
 from ._errors import NoFrameError, OutputError, UsageError
 from ._fit import frame
-from ._given import StrPath, expect, files, number_of, path_of, refuse, text_of
+from ._given import StrPath, expect, files, number_of, path_of, refuse, shown, text_of
 
 Array = npt.NDArray[np.float64]
 
@@ -61,7 +61,7 @@ def _number(index: int, count: int) -> int:
     except TypeError:
         raise refuse("a run", "the number of a frame", index, "give a whole number") from None
     if not -count <= number < count:
-        raise NoFrameError(f"frame {number} of {count}")
+        raise NoFrameError(f"frame {shown(number)} of {count}")
     return number % count
 
 
