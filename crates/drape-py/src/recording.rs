@@ -33,9 +33,8 @@ impl Recording {
     }
 
     fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let times: Result<Vec<f64>, _> = compute(py, || {
-            (0..self.0.frame_count()).map(|number| self.0.time(number)).collect()
-        })?;
+        let times: Result<Vec<f64>, _> =
+            compute(py, || (0..self.0.frame_count()).map(|number| self.0.time(number)).collect())?;
         row(py, &times.map_err(of_frames)?)
     }
 

@@ -226,11 +226,7 @@ impl Scene {
     }
 
     /// Returns the scene as it was checked, or reads it again where a run has taken that.
-    pub(crate) fn take(
-        &self,
-        py: Python<'_>,
-        until: Option<f64>,
-    ) -> PyResult<drape::scene::Scene> {
+    pub(crate) fn take(&self, py: Python<'_>, until: Option<f64>) -> PyResult<drape::scene::Scene> {
         let checked = self.checked.lock().unwrap_or_else(PoisonError::into_inner).take();
         let mut scene = match checked {
             Some(scene) => scene,

@@ -49,8 +49,7 @@ impl Mesh {
 
     /// Returns the mesh with the vertices of the frame `number` of `frames` in this format.
     fn frame_to_obj(&self, frames: &MeshFrames, number: usize) -> PyResult<String> {
-        let vertices =
-            frames.0.get(number).ok_or_else(|| failure(Kind::Usage, "no such frame"))?;
+        let vertices = frames.0.get(number).ok_or_else(|| failure(Kind::Usage, "no such frame"))?;
         let triangles = self.0.triangles.clone();
         Ok(Triangulation { vertices: vertices.clone(), triangles }.to_obj())
     }
