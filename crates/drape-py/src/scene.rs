@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
-use drape::dynamics::{self, Energy, Progress, Simulation, Step, Summary};
+use drape::dynamics::{self, Energy, Progress, Simulation, Status, Step, Summary};
 use drape::frames::Frame;
 use drape::input::{Document, FileAccess};
 use drape::run::file::FileKind;
 use drape::run::{
-    FolderRun, Goal, Limits, PlacedSpec, ResumableRun, RunOptions, RunRequest, Watcher, end_at,
-    scene_document,
+    FolderRun, Goal, Limits, PlacedSpec, ReachedLimit, ResumableRun, RunOptions, RunRequest,
+    Watcher, end_at, scene_document,
 };
 use drape::scene::SceneSpec;
 use pyo3::prelude::*;
@@ -140,6 +141,15 @@ impl Watcher for Reporter {
 struct Unkept {
     reporter: Reporter,
     goal: Goal,
+    limits: Limits,
+    begin: Instant,
+}
+
+impl Unkept {
+    /// Returns the limit that the run has reached. No results are stored, so that no folder counts.
+    fn reached(&self) -> Option<ReachedLimit> {
+        self.limits.reached(self.begin, Path::new(""))
+    }
 }
 
 impl Progress for Unkept {
@@ -154,7 +164,7 @@ impl Progress for Unkept {
     }
 
     fn is_interrupted(&self) -> bool {
-        self.reporter.is_interrupted()
+        self.reporter.is_interrupted() || self.reached().is_some()
     }
 }
 
@@ -348,9 +358,14 @@ impl Scene {
             if settings.state_hash {
                 simulation.hash_steps();
             }
-            let goal = Goal::new(&simulation);
+            let (goal, begin) = (Goal::new(&simulation), Instant::now());
             return settings.execute(py, &detached, move |reporter| {
-                Ok(simulation.run(&mut Unkept { reporter, goal })?)
+                let mut unkept = Unkept { reporter, goal, limits: run_options.limits, begin };
+                let mut summary = simulation.run(&mut unkept)?;
+                if summary.status == Status::Interrupted {
+                    summary.reason = unkept.reached().map(|limit| limit.to_string());
+                }
+                Ok(summary)
             });
         };
         let file = match (&self.file, &self.origin) {
