@@ -44,13 +44,15 @@ struct StepFields {
     events: Vec<String>,
 }
 
-/// Motion of a rigid body: a shift, in m, and a turn about x, y and z, in degrees, about a centre.
+/// Motion of a body: a shift, in m, and a turn about x, y and z, in degrees, about a centre.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 struct RigidMotion {
     shift: [f64; 3],
     turn: [f64; 3],
     center: Option<[f64; 3]>,
+    /// Time that the motion takes, in s.
+    seconds: f64,
 }
 
 /// Body: name, vertices, triangles.
@@ -158,16 +160,16 @@ impl Simulation {
         self.read(|simulation| Ok(simulation.next_step()))
     }
 
-    /// Leads a body to positions of its vertices, three numbers each, or by a rigid motion.
+    /// Leads a body to positions of its vertices, three numbers each, or by the shift and the turn
+    /// of `motion`, which says how long it takes.
     fn lead_body(
         &self,
         py: Python<'_>,
         name: &str,
         vertices: Option<PyReadonlyArray1<'_, f64>>,
-        rigid: RigidMotion,
-        seconds: f64,
+        motion: RigidMotion,
     ) -> PyResult<()> {
-        let RigidMotion { shift, turn, center } = rigid;
+        let RigidMotion { shift, turn, center, seconds } = motion;
         let target = match vertices {
             Some(numbers) => BodyTarget::Vertices(numbers.as_slice()?.as_chunks::<3>().0.to_vec()),
             None => BodyTarget::Rigid(Displacement { shift, turn, center }),

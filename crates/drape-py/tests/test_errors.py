@@ -70,7 +70,6 @@ WRONG = {
     "longest float": np.longdouble(1),
     "missing file": Path("/dev/null/x.toml"),
     "folder": Path("."),
-    "device": "/dev/null",
     "slice": slice(None),
 }
 

@@ -104,8 +104,7 @@ class Simulation:
         self,
         name: str,
         vertices: _Array | None,
-        rigid: dict[str, Any],
-        seconds: float,
+        motion: dict[str, Any],
     ) -> None: ...
     def bodies(self) -> list[tuple[str, _Array, _Triangles]]: ...
     @property

@@ -339,16 +339,16 @@ class Simulation:
                 raise UsageError(f"vertices of shape {target.shape}: give (k, 3), in m")
             if not np.isfinite(target).all():
                 raise UsageError("vertices that are not finite: give (k, 3), in m")
-        rigid = {
-            "shift": _triple("shift", shift),
-            "turn": _triple("turn", turn),
-            "center": None if center is None else _triple("center", center),
-        }
         within = self.next_step
         if seconds is not None:
             within = number_of("seconds", seconds, _DURATION, 0, LATEST, above=True)
-        flat = None if target is None else target.ravel()
-        self._inner.lead_body(name, flat, rigid, within)
+        motion = {
+            "shift": _triple("shift", shift),
+            "turn": _triple("turn", turn),
+            "center": None if center is None else _triple("center", center),
+            "seconds": within,
+        }
+        self._inner.lead_body(name, None if target is None else target.ravel(), motion)
 
     @property
     def time(self) -> float:
