@@ -157,8 +157,8 @@ impl Sheet {
         &self.0.source
     }
 
-    fn warnings(&self) -> Vec<String> {
-        self.0.warnings().iter().map(ToString::to_string).collect()
+    fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        compute(py, || self.0.warnings().iter().map(ToString::to_string).collect())
     }
 
     fn readings(&self) -> Vec<String> {

@@ -77,6 +77,18 @@ pub(crate) struct SceneKeys {
     allow: Vec<PathBuf>,
 }
 
+/// Place of the text of a scene.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct TextPlace {
+    /// Path beside which the files are that the text names.
+    path: PathBuf,
+    /// Files and folders elsewhere that the text may name.
+    allow: Vec<PathBuf>,
+    /// Whether the text is that of a file at this path.
+    has_file: bool,
+}
+
 /// Settings of a run.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -261,16 +273,10 @@ impl Scene {
         })?
     }
 
-    /// Makes a scene of the `text` of the file at `path`, beside which its files are. Without
-    /// `has_file` there is no such file.
+    /// Makes a scene of a `text` that belongs to `place`.
     #[staticmethod]
-    fn from_toml(
-        py: Python<'_>,
-        text: String,
-        path: PathBuf,
-        allow: Vec<PathBuf>,
-        has_file: bool,
-    ) -> PyResult<Self> {
+    fn from_toml(py: Python<'_>, text: String, place: TextPlace) -> PyResult<Self> {
+        let TextPlace { path, allow, has_file } = place;
         let document = Document::new(&path, text).allowing(&allow);
         let origin = Origin::Text(Box::new(document));
         compute(py, || Self::new(origin, has_file.then_some(path)))?
@@ -304,8 +310,11 @@ impl Scene {
             (Origin::Text(document), _) => {
                 let path = whole(&document.path().to_owned());
                 let allow = allowing(&document.access().allowed);
-                let state = (document.text(), path, allow, self.file.is_some());
-                Ok((restorer(py, "scene")?, state.into_pyobject(py)?))
+                let place = PyDict::new(py);
+                place.set_item("path", path)?;
+                place.set_item("allow", allow)?;
+                place.set_item("has_file", self.file.is_some())?;
+                Ok((restorer(py, "scene")?, (document.text(), place).into_pyobject(py)?))
             }
             (Origin::Spec(_), Some(SceneKeys { table, held, folder, allow })) => {
                 let keys = PyDict::new(py);
@@ -352,13 +361,17 @@ impl Scene {
         let run_options = settings.run_options(&detached)?;
         let scene = self.take(py, settings.until)?;
         let Some(folder) = &settings.output else {
-            let simulation = detached.threads.compute(py, || Simulation::new(scene))?;
-            let mut simulation = simulation.map_err(of_dynamics)?;
+            let made = detached.threads.compute(py, || {
+                let simulation = Simulation::new(scene)?;
+                let goal = Goal::new(&simulation);
+                Ok((simulation, goal))
+            });
+            let (mut simulation, goal) = made?.map_err(of_dynamics)?;
             simulation.give_up_when(detached.give_up.clone());
             if settings.state_hash {
                 simulation.hash_steps();
             }
-            let (goal, begin) = (Goal::new(&simulation), Instant::now());
+            let begin = Instant::now();
             return settings.execute(py, &detached, move |reporter| {
                 let mut unkept = Unkept { reporter, goal, limits: run_options.limits, begin };
                 let mut summary = simulation.run(&mut unkept)?;

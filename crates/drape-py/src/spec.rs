@@ -16,6 +16,7 @@ use toml::{Table, Value};
 use crate::array::rows;
 use crate::error::{Kind, failure, input};
 use crate::fit::{Fabric, restorer};
+use crate::threads::compute;
 
 /// Surface of a body, copied from arrays.
 #[pyclass(frozen, module = "drape._drape")]
@@ -106,7 +107,8 @@ pub(crate) fn hold(py: Python<'_>, spec: &mut SceneSpec, held: &Held) -> PyResul
         let name = garment.pattern.file().unwrap_or_default().to_owned();
         let Some(value) = held.get(&name) else { continue };
         let keys = document(Path::new(&name), held_as(value.bind(py), "a pattern")?)?;
-        let pattern = Pattern::parse(&keys).map_err(|mistakes| input(&mistakes))?;
+        let pattern = compute(py, || Pattern::parse(&keys))?;
+        let pattern = pattern.map_err(|mistakes| input(&mistakes))?;
         garment.pattern = FileOr::Value(Arc::new(pattern));
     }
     for mesh in &mut spec.collider.mesh {

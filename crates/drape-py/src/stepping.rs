@@ -92,7 +92,7 @@ impl Simulation {
 
 /// Returns the exception of a simulation that cannot go on.
 fn broken() -> PyErr {
-    let message = "a step was interrupted and cannot be taken back; make the simulation anew";
+    let message = "a step ended halfway and cannot be taken back; make the simulation anew";
     failure(Kind::Solver, message)
 }
 

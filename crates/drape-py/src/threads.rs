@@ -1,4 +1,4 @@
-//! Threads of a process. A child of a fork has none of those of its parent, and makes its own.
+//! Threads of a process. A child of a fork has no thread of its parent, and makes new ones.
 //!
 //! All work of the libraries is done on such threads and never on those that rayon shares, for
 //! which a child would wait without end. The bits of results do not depend on the threads.
@@ -51,14 +51,14 @@ impl Threads {
 
     /// Returns the pool of this process, which is made at the first call.
     pub(crate) fn pool(&self, _py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
-        let mut own = self.pool.lock().unwrap_or_else(PoisonError::into_inner);
-        match &*own {
+        let mut kept = self.pool.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
             Some(owned) if owned.process == process::id() => Ok(owned.pool.clone()),
             _ => {
                 let pool = ThreadPoolBuilder::new().num_threads(self.count).build();
                 let pool = pool.map_err(|error| failure(Kind::Usage, format!("threads: {error}")));
                 let pool = Arc::new(pool?);
-                *own = Some(OwnedPool { pool: pool.clone(), process: process::id() });
+                *kept = Some(OwnedPool { pool: pool.clone(), process: process::id() });
                 Ok(pool)
             }
         }

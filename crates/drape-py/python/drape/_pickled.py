@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,9 +16,9 @@ def fabric(text: str) -> _drape.Fabric:
     return _drape.Fabric.from_toml(text)
 
 
-def scene(text: str, path: Path, allow: list[Path], has_file: bool) -> _drape.Scene:
-    """Returns the scene of a text, of a file or beside the place of one."""
-    return _drape.Scene.from_toml(text, path, allow, has_file)
+def scene(text: str, place: dict[str, Any]) -> _drape.Scene:
+    """Returns the scene of a text in its place."""
+    return _drape.Scene.from_toml(text, place)
 
 
 def built_scene(keys: dict[str, Any]) -> _drape.Scene:

@@ -117,7 +117,8 @@ class Scene:
         text = text_of("Scene.from_toml", text)
         allowed = paths_of("Scene.from_toml(allow=)", allow)
         path = path_of("Scene.from_toml(folder=)", folder) / "<text>"
-        return Scene(_drape.Scene.from_toml(text, path, allowed, False))
+        place = {"path": path, "allow": allowed, "has_file": False}
+        return Scene(_drape.Scene.from_toml(text, place))
 
     @property
     def name(self) -> str:
