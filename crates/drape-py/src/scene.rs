@@ -85,7 +85,7 @@ pub(crate) struct TextPlace {
     path: PathBuf,
     /// Files and folders elsewhere that the text may name.
     allow: Vec<PathBuf>,
-    /// Whether the text is that of a file at this path.
+    /// Whether a file with this path has the text.
     has_file: bool,
 }
 
