@@ -10,6 +10,7 @@ use drape::run::reports::VERSION;
 use pyo3::prelude::*;
 
 use crate::error::{Kind, failure, input, mistake};
+use crate::threads::compute;
 
 /// Kinds of files of which a pattern is made.
 const PATTERNS: [FileKind; 2] = [FileKind::Drawing, FileKind::Pattern];
@@ -37,6 +38,15 @@ type NamedText = (String, String);
 /// the files do not contain.
 #[pyfunction]
 pub(crate) fn convert_pattern(
+    py: Python<'_>,
+    path: PathBuf,
+    kind: &str,
+    conversion: Conversion,
+) -> PyResult<(Vec<NamedText>, Vec<String>)> {
+    compute(py, || converted(path, kind, conversion))?
+}
+
+fn converted(
     path: PathBuf,
     kind: &str,
     conversion: Conversion,
@@ -73,8 +83,13 @@ pub(crate) fn convert_pattern(
 /// Drafts the sheet of a folder of exports, for a place beside which its files are named; returns
 /// its text, and the notes on what was taken.
 #[pyfunction]
-pub(crate) fn draft_sheet(folder: PathBuf, beside: PathBuf) -> PyResult<(String, Vec<String>)> {
-    let draft = SheetDraft::of_folder(&folder, &beside).map_err(|error| match error {
+pub(crate) fn draft_sheet(
+    py: Python<'_>,
+    folder: PathBuf,
+    beside: PathBuf,
+) -> PyResult<(String, Vec<String>)> {
+    let draft = compute(py, || SheetDraft::of_folder(&folder, &beside))?;
+    let draft = draft.map_err(|error| match error {
         drape::kes::Error::Input(mistakes) => input(&mistakes),
         other => mistake(Diagnostic::new(&folder, other.to_string())),
     })?;

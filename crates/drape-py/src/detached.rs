@@ -3,16 +3,17 @@
 //! The thread that asked for the work waits for it: it looks for signals, and it alone calls what
 //! is written in Python, so that a callback may draw or print as any other code of its thread.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::error::{Kind, failure};
+use crate::threads::{Threads, fault};
 
 /// Time between two looks for signals.
 const POLL: Duration = Duration::from_millis(50);
@@ -20,17 +21,20 @@ const POLL: Duration = Duration::from_millis(50);
 /// Time after a signal until which the step in hand may end; then it is given up.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Thread pool for work, and the flags that end the work.
+/// Threads for work, and the flags that end the work.
 pub(crate) struct Detached {
-    pool: ThreadPool,
+    pub(crate) threads: Threads,
     /// Whether the work is to end after the step in hand.
-    stop: AtomicBool,
+    pub(crate) stop: Arc<AtomicBool>,
     /// Whether the step in hand is to be given up.
     pub(crate) give_up: Arc<AtomicBool>,
 }
 
+/// Event of the work, and the channel that tells the work that it was taken care of.
+type Letter<E> = (E, mpsc::Sender<()>);
+
 /// Channel from the work to the thread that waits for it.
-pub(crate) struct Outbox<E>(mpsc::Sender<(E, mpsc::Sender<()>)>);
+pub(crate) struct Outbox<E>(mpsc::Sender<Letter<E>>);
 
 impl<E> Outbox<E> {
     /// Hands over an event, and waits until it was taken care of.
@@ -44,24 +48,10 @@ impl<E> Outbox<E> {
 }
 
 impl Detached {
-    /// Makes `threads` threads, or one for each processor of the machine.
+    /// Makes work possible on `threads` threads, or on one for each processor of the machine.
     pub(crate) fn new(threads: Option<usize>) -> PyResult<Self> {
-        if threads == Some(0) {
-            return Err(failure(Kind::Usage, "threads=0: give 1 or more, or None for all"));
-        }
-        let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
-        let pool = pool.map_err(|error| failure(Kind::Usage, format!("threads: {error}")))?;
-        Ok(Self { pool, stop: AtomicBool::new(false), give_up: Arc::default() })
-    }
-
-    /// Returns the result of short work that is done on the threads.
-    pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        self.pool.install(work)
-    }
-
-    /// Returns whether the work is to end.
-    pub(crate) fn is_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        let threads = Threads::new(threads)?;
+        Ok(Self { threads, stop: Arc::default(), give_up: Arc::default() })
     }
 
     /// Runs work that cannot be interrupted. After a signal the call returns at once; the work then
@@ -72,18 +62,22 @@ impl Detached {
         work: impl FnOnce() -> T + Send + 'static,
     ) -> PyResult<T> {
         let (sender, inbox) = mpsc::channel();
-        self.pool.spawn(move || {
+        self.threads.pool(py)?.spawn(move || {
             // Nobody listens any more once a signal has come.
-            let _ = sender.send(work());
+            let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
         });
+        let process = process::id();
         py.detach(move || {
             loop {
                 match inbox.recv_timeout(POLL) {
-                    Ok(result) => return Ok(result),
-                    Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
-                    Err(RecvTimeoutError::Disconnected) => {
-                        return Err(PyRuntimeError::new_err("the work ended without a result"));
+                    Ok(result) => return result.map_err(fault),
+                    Err(RecvTimeoutError::Timeout) => {
+                        Python::attach(|py| py.check_signals())?;
+                        if process::id() != process {
+                            return Err(forked());
+                        }
                     }
+                    Err(RecvTimeoutError::Disconnected) => return Err(lost()),
                 }
             }
         })
@@ -91,51 +85,75 @@ impl Detached {
 
     /// Has work done, and events of it handled; returns its result with what a signal or a handler
     /// raised, after which the work was asked to end.
-    pub(crate) fn run<E: Send, T: Send>(
+    ///
+    /// # Errors
+    /// The work panicked, or this is a child that a handler has forked from the process of the
+    /// work. Then there is no result.
+    pub(crate) fn run<E: Send + 'static, T: Send + 'static>(
         &self,
         py: Python<'_>,
-        work: impl FnOnce(&Outbox<E>) -> T + Send,
+        work: impl FnOnce(Outbox<E>) -> T + Send + 'static,
         mut handle: impl FnMut(Python<'_>, E) -> PyResult<()> + Send,
-    ) -> (T, PyResult<()>) {
+    ) -> PyResult<(T, PyResult<()>)> {
         self.stop.store(false, Ordering::Relaxed);
         self.give_up.store(false, Ordering::Relaxed);
-        py.detach(|| {
-            let mut result = None;
+        let (sender, inbox) = mpsc::channel();
+        let (deliver, result) = mpsc::channel();
+        self.threads.pool(py)?.spawn(move || {
+            let outbox = Outbox(sender.clone());
+            let _ = deliver.send(catch_unwind(AssertUnwindSafe(|| work(outbox))));
+            // The result is there before the inbox closes.
+            drop(sender);
+        });
+
+        let process = process::id();
+        py.detach(move || {
             let mut raised = None;
-            self.pool.in_place_scope(|scope| {
-                let (sender, inbox) = mpsc::channel();
-                let result = &mut result;
-                scope.spawn(move |_| *result = Some(work(&Outbox(sender))));
-                let mut looked = Instant::now();
-                let mut stopped: Option<Instant> = None;
-                loop {
-                    let event = match inbox.recv_timeout(POLL) {
-                        Ok(event) => Some(event),
-                        Err(RecvTimeoutError::Timeout) => None,
-                        Err(RecvTimeoutError::Disconnected) => break,
-                    };
-                    let mut found = Ok(());
-                    if let Some((event, done)) = event {
-                        if raised.is_none() {
-                            found = Python::attach(|py| handle(py, event));
-                        }
-                        let _ = done.send(());
+            let mut looked = Instant::now();
+            let mut stopped: Option<Instant> = None;
+            loop {
+                let event = match inbox.recv_timeout(POLL) {
+                    Ok(event) => Some(event),
+                    Err(RecvTimeoutError::Timeout) => None,
+                    Err(RecvTimeoutError::Disconnected) => break,
+                };
+                let mut found = Ok(());
+                if let Some((event, done)) = event {
+                    if raised.is_none() {
+                        found = Python::attach(|py| handle(py, event));
                     }
-                    if found.is_ok() && raised.is_none() && looked.elapsed() >= POLL {
-                        looked = Instant::now();
-                        found = Python::attach(|py| py.check_signals());
-                    }
-                    if let Err(error) = found {
-                        raised = Some(error);
-                        stopped = Some(Instant::now());
-                        self.stop.store(true, Ordering::Relaxed);
-                    }
-                    if stopped.is_some_and(|since| since.elapsed() >= PATIENCE) {
-                        self.give_up.store(true, Ordering::Relaxed);
-                    }
+                    let _ = done.send(());
                 }
-            });
-            (result.expect("the scope ends after its work"), raised.map_or(Ok(()), Err))
+                if found.is_ok() && raised.is_none() && looked.elapsed() >= POLL {
+                    looked = Instant::now();
+                    found = Python::attach(|py| py.check_signals());
+                }
+                if process::id() != process {
+                    return Err(found.err().unwrap_or_else(forked));
+                }
+                if let Err(error) = found {
+                    raised = Some(error);
+                    stopped = Some(Instant::now());
+                    self.stop.store(true, Ordering::Relaxed);
+                }
+                if stopped.is_some_and(|since| since.elapsed() >= PATIENCE) {
+                    self.give_up.store(true, Ordering::Relaxed);
+                }
+            }
+            let result = result.recv().map_err(|_| lost())?.map_err(fault)?;
+            Ok((result, raised.map_or(Ok(()), Err)))
         })
     }
+}
+
+/// Returns the exception of a call that has returned in a child, which was forked meanwhile.
+fn forked() -> PyErr {
+    let message = "the process was forked during this call, and the work goes on in the parent \
+                   alone; end the child where it was made, with os._exit, or fork after the call";
+    failure(Kind::Usage, message)
+}
+
+/// Returns the exception of work that ended without a result.
+fn lost() -> PyErr {
+    failure(Kind::Fault, "a fault of drape: the work ended without a result; please report it")
 }

@@ -14,6 +14,8 @@ pub(crate) enum Kind {
     Usage,
     Solver,
     Output,
+    /// A fault of a library.
+    Fault,
 }
 
 /// Returns the exception of a failure.
@@ -22,6 +24,7 @@ pub(crate) fn failure(kind: Kind, message: impl ToString) -> PyErr {
         Kind::Usage => "UsageError",
         Kind::Solver => "SolverError",
         Kind::Output => "OutputError",
+        Kind::Fault => "InternalError",
     };
     let message = message.to_string();
     raised(|module| module.getattr(name)?.call1((message,)))

@@ -21,6 +21,7 @@ use pyo3::types::PyDict;
 use crate::array::row;
 use crate::detached::Detached;
 use crate::error::{Kind, failure, input, mistake};
+use crate::threads::compute;
 
 /// Kinds of files that are read as sheets; of exports the reader says what is wrong.
 const SHEETS: [FileKind; 4] =
@@ -115,6 +116,11 @@ fn flatten(key: String, value: toml::Value, to: &mut Vec<(String, f64)>) {
     }
 }
 
+/// Returns the function of `drape._pickled` with the `name`, which makes a thing again.
+pub(crate) fn restorer<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("drape._pickled")?.getattr(name)
+}
+
 fn of_sheet(error: drape::kes::Error, file: &str) -> PyErr {
     match error {
         drape::kes::Error::Input(mistakes) => input(&mistakes),
@@ -126,16 +132,19 @@ fn of_sheet(error: drape::kes::Error, file: &str) -> PyErr {
 impl Sheet {
     #[staticmethod]
     #[pyo3(signature = (path, fabric=None))]
-    fn read(path: PathBuf, fabric: Option<&str>) -> PyResult<Self> {
-        FileKind::expect(&path, &SHEETS).map_err(|mistakes| input(&mistakes))?;
-        let sheet = SheetDraft::sheet(&path, fabric);
+    fn read(py: Python<'_>, path: PathBuf, fabric: Option<&str>) -> PyResult<Self> {
+        let sheet = compute(py, || {
+            FileKind::expect(&path, &SHEETS)?;
+            SheetDraft::sheet(&path, fabric)
+        })?;
         sheet.map(Self).map_err(|error| of_sheet(error, &path.display().to_string()))
     }
 
     #[staticmethod]
-    fn from_toml(text: &str, folder: PathBuf) -> PyResult<Self> {
+    fn from_toml(py: Python<'_>, text: &str, folder: PathBuf) -> PyResult<Self> {
         let document = Document::new(folder.join("<text>"), text);
-        drape::kes::Sheet::from_document(&document).map(Self).map_err(|e| of_sheet(e, "<text>"))
+        let sheet = compute(py, || drape::kes::Sheet::from_document(&document))?;
+        sheet.map(Self).map_err(|error| of_sheet(error, "<text>"))
     }
 
     #[getter]
@@ -148,8 +157,8 @@ impl Sheet {
         &self.0.source
     }
 
-    fn warnings(&self) -> Vec<String> {
-        self.0.warnings().iter().map(ToString::to_string).collect()
+    fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        compute(py, || self.0.warnings().iter().map(ToString::to_string).collect())
     }
 
     fn readings(&self) -> Vec<String> {
@@ -221,16 +230,18 @@ pub(crate) fn fit_all(py: Python<'_>, paths: Vec<PathBuf>, laws: Laws) -> PyResu
 #[pymethods]
 impl Fabric {
     #[staticmethod]
-    fn read(path: PathBuf) -> PyResult<Self> {
-        FileKind::expect(&path, &[FileKind::Fabric]).map_err(|mistakes| input(&mistakes))?;
-        let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
-        let fabric = drape::fabric::Fabric::from_document(&document);
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let fabric = compute(py, || {
+            FileKind::expect(&path, &[FileKind::Fabric])?;
+            drape::fabric::Fabric::from_document(&Document::read(&path)?)
+        })?;
         fabric.map(Self).map_err(|mistakes| input(&mistakes))
     }
 
     #[staticmethod]
-    fn from_toml(text: &str) -> PyResult<Self> {
-        let fabric = drape::fabric::Fabric::from_document(&Document::new("<text>", text));
+    fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let document = Document::new("<text>", text);
+        let fabric = compute(py, || drape::fabric::Fabric::from_document(&document))?;
         fabric.map(Self).map_err(|mistakes| input(&mistakes))
     }
 
@@ -249,8 +260,13 @@ impl Fabric {
         self.0.thickness
     }
 
-    fn to_toml(&self) -> String {
-        self.0.to_toml()
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        compute(py, || self.0.to_toml())
+    }
+
+    /// Pickles the fabric as its text, which has all bits of its numbers.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((restorer(py, "fabric")?, (self.to_toml(py)?,)))
     }
 
     /// Bytes of the fabric as the material of another program, and what its numbers lose.
@@ -259,12 +275,13 @@ impl Fabric {
     /// in s since 1970.
     fn material(
         &self,
+        py: Python<'_>,
         program: &str,
         load: f64,
         modified: f64,
     ) -> PyResult<(Vec<u8>, Vec<String>)> {
-        let material =
-            Material::from_fabric(&self.0, load).map_err(|error| failure(Kind::Usage, error))?;
+        let material = compute(py, || Material::from_fabric(&self.0, load))?;
+        let material = material.map_err(|error| failure(Kind::Usage, error))?;
         let since = Duration::try_from_secs_f64(modified).unwrap_or_default();
         let modified = SystemTime::UNIX_EPOCH + since.min(LATEST);
         let bytes = match program {
@@ -283,13 +300,13 @@ impl Fabric {
     }
 
     /// Numbers of the laws, with their keys in `fabric.toml`.
-    fn numbers(&self) -> Vec<(String, f64)> {
-        let text = self.0.to_toml();
-        let table: toml::Table = text.parse().expect("the text of a fabric is TOML");
+    fn numbers(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
+        let parsed = compute(py, || self.0.to_toml().parse::<toml::Table>())?;
+        let table = parsed.map_err(|error| failure(Kind::Fault, error))?;
         let laws = table.into_iter().filter(|(key, _)| LAWS.contains(&key.as_str()));
         let mut numbers = Vec::new();
         laws.for_each(|(key, value)| flatten(key, value, &mut numbers));
-        numbers
+        Ok(numbers)
     }
 }
 
@@ -308,12 +325,12 @@ impl Fit {
         self.page.warnings.clone()
     }
 
-    fn text(&self) -> PyResult<String> {
-        self.page.to_text().map_err(|error| failure(Kind::Output, error))
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        compute(py, || self.page.to_text())?.map_err(|error| failure(Kind::Output, error))
     }
 
-    fn html(&self) -> PyResult<String> {
-        self.page.to_html().map_err(|error| failure(Kind::Output, error))
+    fn html(&self, py: Python<'_>) -> PyResult<String> {
+        compute(py, || self.page.to_html())?.map_err(|error| failure(Kind::Output, error))
     }
 
     /// Curves with their laws, a dictionary each.

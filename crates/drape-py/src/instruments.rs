@@ -9,6 +9,7 @@ use crate::array::row;
 use crate::detached::Detached;
 use crate::error::{Kind, failure};
 use crate::fit::Fabric;
+use crate::threads::compute;
 
 /// Largest default spacing, in m.
 const SPACING_MAX: f64 = 0.005;
@@ -42,7 +43,7 @@ pub(crate) fn drapemeter<'py>(
     };
     meter.protocol.shake = settings.shake.then_some(Shake::BOUNCE);
     let fabric = &fabric.get().0;
-    let bound = spacing_bound(fabric);
+    let bound = compute(py, || spacing_bound(fabric))?;
     let spacing = settings.spacing.unwrap_or(bound.min(SPACING_MAX));
     if !(spacing > 0.0) {
         return Err(failure(

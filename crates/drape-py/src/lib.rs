@@ -5,7 +5,8 @@
 //! The extension module `drape._drape`, which the Python sources in `python/drape` wrap:
 //!
 //! * `error`: mistakes and failures as exceptions; `remedy`: remedies in the words of Python;
-//! * `detached`: work on other threads, without the lock of the interpreter, which Ctrl-C ends;
+//! * `threads`: threads of a process, which a child of a fork makes anew; `detached`: work on them
+//!   without the lock of the interpreter, which Ctrl-C ends;
 //! * `fit`: sheets, fabrics and their fits; `convert`: patterns and exports of other programs;
 //! * `spec`: specs of scenes made of Python objects; `scene`: scenes and their runs; `stepping`: a
 //!   simulation step by step; `recording`: runs that were stored; `instruments`: drapemeters and
@@ -22,6 +23,7 @@ mod remedy;
 mod scene;
 mod spec;
 mod stepping;
+mod threads;
 
 /// Extension module.
 #[pyo3::pymodule]

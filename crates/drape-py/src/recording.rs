@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::array::{row, rows};
 use crate::error::of_frames;
+use crate::threads::compute;
 
 /// Run in a folder.
 #[pyclass(frozen, module = "drape._drape")]
@@ -16,8 +17,9 @@ pub(crate) struct Recording(drape::frames::Recording);
 #[pymethods]
 impl Recording {
     #[new]
-    fn new(folder: PathBuf) -> PyResult<Self> {
-        drape::frames::Recording::open(folder).map(Self).map_err(of_frames)
+    fn new(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        let recording = compute(py, || drape::frames::Recording::open(folder))?;
+        recording.map(Self).map_err(of_frames)
     }
 
     #[getter]
@@ -31,18 +33,18 @@ impl Recording {
     }
 
     fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let numbers = 0..self.0.frame_count();
-        let times: Result<Vec<f64>, _> = numbers.map(|number| self.0.time(number)).collect();
+        let times: Result<Vec<f64>, _> =
+            compute(py, || (0..self.0.frame_count()).map(|number| self.0.time(number)).collect())?;
         row(py, &times.map_err(of_frames)?)
     }
 
     fn frame<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
-        let frame = py.detach(|| self.0.frame(number)).map_err(of_frames)?;
+        let frame = compute(py, || self.0.frame(number))?.map_err(of_frames)?;
         rows(py, frame.cloth.as_flattened(), 3)
     }
 
     fn bodies<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
-        let frame = py.detach(|| self.0.frame(number)).map_err(of_frames)?;
+        let frame = compute(py, || self.0.frame(number))?.map_err(of_frames)?;
         rows(py, frame.bodies.as_flattened(), 3)
     }
 
@@ -66,7 +68,7 @@ impl Recording {
 
     /// Verdicts on all frames, as JSON.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
-        let verdicts = py.detach(|| {
+        let verdicts = compute(py, || {
             let verifier = Verifier::new(self.0.clone());
             let verdict = |number| {
                 let verdict = verifier.verify(number)?;
@@ -75,7 +77,7 @@ impl Recording {
                 Ok(value)
             };
             (0..self.0.frame_count()).map(verdict).collect::<Result<Vec<_>, drape::verify::Error>>()
-        });
+        })?;
         let verdicts = verdicts.map_err(of_frames)?;
         Ok(serde_json::Value::from(verdicts).to_string())
     }
@@ -89,10 +91,10 @@ pub(crate) fn view_html(
     folders: Vec<PathBuf>,
     megabytes: Option<f64>,
 ) -> PyResult<String> {
-    let page = py.detach(|| {
+    let page = compute(py, || {
         let recordings = folders.iter().map(drape::frames::Recording::open);
         let recordings: Result<Vec<_>, _> = recordings.collect();
         ViewerPage::new(&recordings?, megabytes.unwrap_or(VIEWER_SIZE_MAX))
-    });
+    })?;
     page.map(|page| page.html).map_err(of_frames)
 }

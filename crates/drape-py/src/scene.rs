@@ -1,25 +1,29 @@
 //! Scenes that were read and checked, and their runs.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
-use drape::dynamics::{self, Energy, Progress, Simulation, Step, Summary};
+use drape::dynamics::{self, Energy, Progress, Simulation, Status, Step, Summary};
 use drape::frames::Frame;
 use drape::input::{Document, FileAccess};
 use drape::run::file::FileKind;
 use drape::run::{
-    FolderRun, Goal, Limits, PlacedSpec, ResumableRun, RunOptions, RunRequest, Watcher, end_at,
-    scene_document,
+    FolderRun, Goal, Limits, PlacedSpec, ReachedLimit, ResumableRun, RunOptions, RunRequest,
+    Watcher, end_at, scene_document,
 };
 use drape::scene::SceneSpec;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::rows;
 use crate::detached::{Detached, Outbox};
 use crate::error::{Kind, failure, input, of_dynamics, of_run, of_scene, warn};
+use crate::fit::restorer;
 use crate::remedy;
 use crate::spec::{self, Held};
+use crate::threads::compute;
 
 /// Scene that was read and checked.
 #[pyclass(frozen, module = "drape._drape")]
@@ -31,7 +35,12 @@ pub(crate) struct Scene {
     particles: usize,
     panels: Vec<(String, usize, usize)>,
     notes: Vec<String>,
-    /// The scene as it was checked, until a run takes it.
+    /// Keys that it was made of; a text has none.
+    keys: Option<SceneKeys>,
+    /// Working folder when it was made.
+    working_folder: PathBuf,
+    /// The scene as it was checked, until a run takes it. Only a thread with the lock of the
+    /// interpreter holds this lock, so that a child of a fork never finds it held.
     checked: Mutex<Option<drape::scene::Scene>>,
 }
 
@@ -57,14 +66,27 @@ impl Origin {
 /// Keys of a scene that was built in Python.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct SceneKeys<'py> {
-    /// The keys. Names of `held` in it stand for the things that `held` has.
-    table: Bound<'py, PyDict>,
+pub(crate) struct SceneKeys {
+    /// The keys, which nothing changes any more. Names of `held` in it stand for the things that
+    /// `held` has.
+    table: Py<PyDict>,
     held: Held,
     /// Folder from which files are seen.
     folder: PathBuf,
     /// Files and folders elsewhere that the scene may name.
     allow: Vec<PathBuf>,
+}
+
+/// Place of the text of a scene.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct TextPlace {
+    /// Path beside which the files are that the text names.
+    path: PathBuf,
+    /// Files and folders elsewhere that the text may name.
+    allow: Vec<PathBuf>,
+    /// Whether a file with this path has the text.
+    has_file: bool,
 }
 
 /// Settings of a run.
@@ -92,14 +114,15 @@ enum Event {
 }
 
 /// Reporter of a run: what hands its events over.
-struct Reporter<'a> {
-    outbox: &'a Outbox<Event>,
-    detached: &'a Detached,
+struct Reporter {
+    outbox: Outbox<Event>,
+    /// Whether the run is to end.
+    stop: Arc<AtomicBool>,
     steps: bool,
     frames: bool,
 }
 
-impl Watcher for Reporter<'_> {
+impl Watcher for Reporter {
     fn step(&mut self, step: &Step, done: f64) {
         if self.steps {
             let phase = serde_json::to_value(step.phase).unwrap_or_default();
@@ -122,17 +145,26 @@ impl Watcher for Reporter<'_> {
     }
 
     fn is_interrupted(&self) -> bool {
-        self.detached.is_stopped()
+        self.stop.load(Ordering::Relaxed)
     }
 }
 
 /// Progress of a run that stores nothing.
-struct Unkept<'a> {
-    reporter: Reporter<'a>,
+struct Unkept {
+    reporter: Reporter,
     goal: Goal,
+    limits: Limits,
+    begin: Instant,
 }
 
-impl Progress for Unkept<'_> {
+impl Unkept {
+    /// Returns the limit that the run has reached. No results are stored, so that no folder counts.
+    fn reached(&self) -> Option<ReachedLimit> {
+        self.limits.reached(self.begin, Path::new(""))
+    }
+}
+
+impl Progress for Unkept {
     fn step(&mut self, step: &Step, _ticks: usize) {
         let done = self.goal.done(step);
         self.reporter.step(step, done);
@@ -144,7 +176,7 @@ impl Progress for Unkept<'_> {
     }
 
     fn is_interrupted(&self) -> bool {
-        self.reporter.is_interrupted()
+        self.reporter.is_interrupted() || self.reached().is_some()
     }
 }
 
@@ -169,14 +201,15 @@ impl RunSettings {
         &self,
         py: Python<'_>,
         detached: &Detached,
-        run: impl FnOnce(Reporter<'_>) -> Result<Summary, drape::run::Error> + Send,
+        run: impl FnOnce(Reporter) -> Result<Summary, drape::run::Error> + Send + 'static,
     ) -> PyResult<String> {
         let (steps, frames) = (self.progress.is_some(), self.on_frame.is_some());
-        let work = |outbox: &Outbox<Event>| run(Reporter { outbox, detached, steps, frames });
-        let (summary, raised) = detached.run(py, work, |py, event| self.handle(py, event));
+        let stop = detached.stop.clone();
+        let work = move |outbox| run(Reporter { outbox, stop, steps, frames });
+        let (summary, raised) = detached.run(py, work, |py, event| self.handle(py, event))?;
         raised?;
         let summary = summary.map_err(of_run)?;
-        Ok(serde_json::to_string(&summary).expect("a summary always has a JSON form"))
+        serde_json::to_string(&summary).map_err(|error| failure(Kind::Fault, error))
     }
 
     fn handle(&self, py: Python<'_>, event: Event) -> PyResult<()> {
@@ -206,6 +239,8 @@ impl Scene {
             particles: scene.cloth.particle_count(),
             panels: panels.collect(),
             notes: notes.map(|note| note.in_words(remedy::in_words)).collect(),
+            keys: None,
+            working_folder: std::env::current_dir().unwrap_or_default(),
             checked: Mutex::new(Some(scene)),
             origin,
             file,
@@ -213,11 +248,11 @@ impl Scene {
     }
 
     /// Returns the scene as it was checked, or reads it again where a run has taken that.
-    pub(crate) fn take(&self, until: Option<f64>) -> PyResult<drape::scene::Scene> {
-        let checked = self.checked.lock().ok().and_then(|mut checked| checked.take());
+    pub(crate) fn take(&self, py: Python<'_>, until: Option<f64>) -> PyResult<drape::scene::Scene> {
+        let checked = self.checked.lock().unwrap_or_else(PoisonError::into_inner).take();
         let mut scene = match checked {
             Some(scene) => scene,
-            None => self.origin.check()?,
+            None => compute(py, || self.origin.check())??,
         };
         if let Some(end) = until {
             // A scene that is refused is checked still.
@@ -230,36 +265,67 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[staticmethod]
-    fn read(path: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
-        FileKind::expect(&path, &[FileKind::Scene]).map_err(|mistakes| input(&mistakes))?;
-        let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
-        let document = document.allowing(&allow);
-        Self::new(Origin::Text(Box::new(document)), Some(path))
+    fn read(py: Python<'_>, path: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
+        compute(py, || {
+            FileKind::expect(&path, &[FileKind::Scene]).map_err(|mistakes| input(&mistakes))?;
+            let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
+            Self::new(Origin::Text(Box::new(document.allowing(&allow))), Some(path))
+        })?
     }
 
-    /// Makes a scene of a `text`, whose files are seen from `folder`.
+    /// Makes a scene of a `text` that belongs to `place`.
     #[staticmethod]
-    fn from_toml(
-        py: Python<'_>,
-        text: String,
-        folder: PathBuf,
-        allow: Vec<PathBuf>,
-    ) -> PyResult<Self> {
-        let document = Document::new(folder.join("<text>"), text).allowing(&allow);
-        py.detach(|| Self::new(Origin::Text(Box::new(document)), None))
+    fn from_toml(py: Python<'_>, text: String, place: TextPlace) -> PyResult<Self> {
+        let TextPlace { path, allow, has_file } = place;
+        let document = Document::new(&path, text).allowing(&allow);
+        let origin = Origin::Text(Box::new(document));
+        compute(py, || Self::new(origin, has_file.then_some(path)))?
     }
 
     /// Makes a scene of `keys`.
     #[staticmethod]
-    fn from_keys(py: Python<'_>, keys: SceneKeys<'_>) -> PyResult<Self> {
-        let SceneKeys { table, held, folder, allow: allowed } = keys;
-        let access = FileAccess { allowed, ..FileAccess::default() };
-        let document = spec::document(Path::new(""), &table)?;
-        let decoded = SceneSpec::with_faults(&document);
+    fn from_keys(py: Python<'_>, keys: SceneKeys) -> PyResult<Self> {
+        let access = FileAccess { allowed: keys.allow.clone(), ..FileAccess::default() };
+        let document = spec::document(Path::new(""), keys.table.bind(py))?;
+        let decoded = compute(py, || SceneSpec::with_faults(&document))?;
         let (mut spec, faults) = decoded.map_err(|mistakes| input(&mistakes))?;
-        spec::hold(py, &mut spec, &held)?;
-        let placed = PlacedSpec { spec, faults, folder, access };
-        py.detach(|| Self::new(Origin::Spec(Box::new(placed)), None))
+        spec::hold(py, &mut spec, &keys.held)?;
+        let placed = PlacedSpec { spec, faults, folder: keys.folder.clone(), access };
+        let origin = Origin::Spec(Box::new(placed));
+        let scene = compute(py, || Self::new(origin, None))??;
+        Ok(Self { keys: Some(keys), ..scene })
+    }
+
+    /// Pickles the scene as its text or its keys, with the paths of its files from the root. Files
+    /// that it names are not part of it.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let whole = |path: &PathBuf| self.working_folder.join(path);
+        let allowing = |allow: &[PathBuf]| -> Vec<PathBuf> {
+            allow.iter().map(whole).chain([self.working_folder.clone()]).collect()
+        };
+        match (&self.origin, &self.keys) {
+            (Origin::Text(document), _) => {
+                let path = whole(&document.path().to_owned());
+                let allow = allowing(&document.access().allowed);
+                let place = PyDict::new(py);
+                place.set_item("path", path)?;
+                place.set_item("allow", allow)?;
+                place.set_item("has_file", self.file.is_some())?;
+                Ok((restorer(py, "scene")?, (document.text(), place).into_pyobject(py)?))
+            }
+            (Origin::Spec(_), Some(SceneKeys { table, held, folder, allow })) => {
+                let keys = PyDict::new(py);
+                keys.set_item("table", table)?;
+                keys.set_item("held", held)?;
+                keys.set_item("folder", whole(folder))?;
+                keys.set_item("allow", allowing(allow))?;
+                Ok((restorer(py, "built_scene")?, (keys,).into_pyobject(py)?))
+            }
+            (Origin::Spec(_), None) => Err(failure(Kind::Fault, "a scene without its keys")),
+        }
     }
 
     #[getter]
@@ -280,10 +346,10 @@ impl Scene {
         self.notes.clone()
     }
 
-    fn to_toml(&self) -> PyResult<String> {
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         match &self.origin {
             Origin::Text(document) => Ok(document.text().to_owned()),
-            Origin::Spec(placed) => placed.spec.to_toml().map_err(|error| {
+            Origin::Spec(placed) => compute(py, || placed.spec.to_toml())?.map_err(|error| {
                 failure(Kind::Usage, format!("{error}, with SceneBuilder.save(path)"))
             }),
         }
@@ -293,16 +359,26 @@ impl Scene {
     fn run(&self, py: Python<'_>, settings: RunSettings) -> PyResult<String> {
         let detached = Detached::new(settings.threads)?;
         let run_options = settings.run_options(&detached)?;
-        let scene = self.take(settings.until)?;
+        let scene = self.take(py, settings.until)?;
         let Some(folder) = &settings.output else {
-            let mut simulation = Simulation::new(scene).map_err(of_dynamics)?;
+            let made = detached.threads.compute(py, || {
+                let simulation = Simulation::new(scene)?;
+                let goal = Goal::new(&simulation);
+                Ok((simulation, goal))
+            });
+            let (mut simulation, goal) = made?.map_err(of_dynamics)?;
             simulation.give_up_when(detached.give_up.clone());
             if settings.state_hash {
                 simulation.hash_steps();
             }
-            let goal = Goal::new(&simulation);
-            return settings.execute(py, &detached, |reporter| {
-                Ok(simulation.run(&mut Unkept { reporter, goal })?)
+            let begin = Instant::now();
+            return settings.execute(py, &detached, move |reporter| {
+                let mut unkept = Unkept { reporter, goal, limits: run_options.limits, begin };
+                let mut summary = simulation.run(&mut unkept)?;
+                if summary.status == Status::Interrupted {
+                    summary.reason = unkept.reached().map(|limit| limit.to_string());
+                }
+                Ok(summary)
             });
         };
         let file = match (&self.file, &self.origin) {
@@ -314,10 +390,14 @@ impl Scene {
             state_hash: settings.state_hash,
             ..RunRequest::new(&file, settings.until, settings.checkpoint_every)
         };
-        let run = FolderRun::begin(scene, folder, &request, &run_options).map_err(of_run)?;
-        if let Origin::Spec(placed) = &self.origin {
-            placed.store(folder).map_err(of_run)?;
-        }
+        let begun = detached.threads.compute(py, || {
+            let run = FolderRun::begin(scene, folder, &request, &run_options)?;
+            if let Origin::Spec(placed) = &self.origin {
+                placed.store(folder)?;
+            }
+            Ok(run)
+        });
+        let run = begun?.map_err(of_run)?;
         settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))
     }
 }
@@ -331,21 +411,27 @@ pub(crate) fn resume(
     settings: RunSettings,
 ) -> PyResult<String> {
     let detached = Detached::new(settings.threads)?;
-    let resumed = ResumableRun::open(&folder, settings.extend).map_err(of_run)?;
+    let opened = detached.threads.compute(py, || ResumableRun::open(&folder, settings.extend))?;
+    let resumed = opened.map_err(of_run)?;
     let scene = match scene {
-        Some(scene) => scene.get().take(resumed.request.until)?,
+        Some(scene) => scene.get().take(py, resumed.request.until)?,
         None if resumed.request.has_no_file() => {
             let message = "the scene was a text, which has no file: give it again, with scene=";
             return Err(failure(Kind::Usage, message));
         }
         None => {
             let path = &resumed.request.scene;
-            let document = scene_document(path, &folder).map_err(|mistakes| input(&mistakes))?;
-            let origin = Origin::Text(Box::new(document));
-            Scene::new(origin, Some(path.clone()))?.take(resumed.request.until)?
+            let read = compute(py, || {
+                let document = scene_document(path, &folder);
+                let document = document.map_err(|mistakes| input(&mistakes))?;
+                Scene::new(Origin::Text(Box::new(document)), Some(path.clone()))
+            });
+            read??.take(py, resumed.request.until)?
         }
     };
-    let (run, notes) = resumed.go_on(scene, &settings.run_options(&detached)?).map_err(of_run)?;
+    let run_options = settings.run_options(&detached)?;
+    let gone_on = detached.threads.compute(py, || resumed.go_on(scene, &run_options))?;
+    let (run, notes) = gone_on.map_err(of_run)?;
     for note in &notes {
         warn(py, note)?;
     }

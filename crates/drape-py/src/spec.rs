@@ -9,13 +9,14 @@ use drape::input::Document;
 use drape::pattern::Pattern;
 use drape::scene::{FileOr, MeshMotion, SceneSpec};
 use numpy::PyReadonlyArrayDyn;
-use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
 use toml::{Table, Value};
 
-use crate::error::input;
-use crate::fit::Fabric;
+use crate::array::rows;
+use crate::error::{Kind, failure, input};
+use crate::fit::{Fabric, restorer};
+use crate::threads::compute;
 
 /// Surface of a body, copied from arrays.
 #[pyclass(frozen, module = "drape._drape")]
@@ -24,6 +25,9 @@ pub(crate) struct Mesh(Arc<Triangulation>);
 /// Positions of the vertices of a body from frame to frame, copied from an array.
 #[pyclass(frozen, module = "drape._drape")]
 pub(crate) struct MeshFrames(Arc<Vec<Vec<[f64; 3]>>>);
+
+/// Function that makes a thing again, and its two arguments.
+type Pickled<'py> = (Bound<'py, PyAny>, (Bound<'py, PyAny>, Bound<'py, PyAny>));
 
 #[pymethods]
 impl Mesh {
@@ -46,10 +50,15 @@ impl Mesh {
 
     /// Returns the mesh with the vertices of the frame `number` of `frames` in this format.
     fn frame_to_obj(&self, frames: &MeshFrames, number: usize) -> PyResult<String> {
-        let vertices =
-            frames.0.get(number).ok_or_else(|| PyValueError::new_err("no such frame"))?;
+        let vertices = frames.0.get(number).ok_or_else(|| failure(Kind::Usage, "no such frame"))?;
         let triangles = self.0.triangles.clone();
         Ok(Triangulation { vertices: vertices.clone(), triangles }.to_obj())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Pickled<'py>> {
+        let vertices = rows(py, self.0.vertices.as_flattened(), 3)?;
+        let triangles = rows(py, self.0.triangles.as_flattened(), 3)?;
+        Ok((restorer(py, "mesh")?, (vertices, triangles)))
     }
 }
 
@@ -64,6 +73,13 @@ impl MeshFrames {
 
     fn __len__(&self) -> usize {
         self.0.len()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Pickled<'py>> {
+        let count = self.0.first().map_or(0, Vec::len);
+        let numbers = self.0.concat();
+        let frames = rows(py, numbers.as_flattened(), 3 * count.max(1))?;
+        Ok((restorer(py, "mesh_frames")?, (frames, count.into_pyobject(py)?.into_any())))
     }
 }
 
@@ -84,24 +100,37 @@ pub(crate) fn document(path: &Path, table: &Bound<'_, PyDict>) -> PyResult<Docum
 pub(crate) fn hold(py: Python<'_>, spec: &mut SceneSpec, held: &Held) -> PyResult<()> {
     for fabric in spec.fabric.values_mut() {
         let Some(value) = fabric.file.file().and_then(|name| held.get(name)) else { continue };
-        fabric.file = FileOr::Value(Arc::new(value.bind(py).cast::<Fabric>()?.get().0.clone()));
+        let value = held_as::<Fabric>(value.bind(py), "a fabric")?;
+        fabric.file = FileOr::Value(Arc::new(value.get().0.clone()));
     }
     for garment in &mut spec.garment {
         let name = garment.pattern.file().unwrap_or_default().to_owned();
         let Some(value) = held.get(&name) else { continue };
-        let keys = document(Path::new(&name), value.bind(py).cast::<PyDict>()?)?;
-        let pattern = Pattern::parse(&keys).map_err(|mistakes| input(&mistakes))?;
+        let keys = document(Path::new(&name), held_as(value.bind(py), "a pattern")?)?;
+        let pattern = compute(py, || Pattern::parse(&keys))?;
+        let pattern = pattern.map_err(|mistakes| input(&mistakes))?;
         garment.pattern = FileOr::Value(Arc::new(pattern));
     }
     for mesh in &mut spec.collider.mesh {
         let Some(value) = mesh.file.file().and_then(|name| held.get(name)) else { continue };
-        mesh.file = FileOr::Value(Arc::clone(&value.bind(py).cast::<Mesh>()?.get().0));
+        let value = held_as::<Mesh>(value.bind(py), "a mesh")?;
+        mesh.file = FileOr::Value(Arc::clone(&value.get().0));
         let frames = mesh.frames.as_deref().and_then(|name| held.get(name));
         let Some(frames) = frames else { continue };
-        let frames = Arc::clone(&frames.bind(py).cast::<MeshFrames>()?.get().0);
+        let value = held_as::<MeshFrames>(frames.bind(py), "frames of a mesh")?;
+        let frames = Arc::clone(&value.get().0);
         (mesh.frames, mesh.motion) = (None, Some(MeshMotion::Frames(frames)));
     }
     Ok(())
+}
+
+/// Returns what a scene holds as a `T`. The words `wanted` name it.
+fn held_as<'a, 'py, T: pyo3::PyTypeCheck>(
+    value: &'a Bound<'py, PyAny>,
+    wanted: &str,
+) -> PyResult<&'a Bound<'py, T>> {
+    let of_other_kind = |_| failure(Kind::Usage, format!("{value} stands where {wanted} belongs"));
+    value.cast::<T>().map_err(of_other_kind)
 }
 
 /// Returns a dictionary as a table.
@@ -128,6 +157,6 @@ fn to_value(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     } else if let Ok(dictionary) = value.cast::<PyDict>() {
         to_table(dictionary).map(Value::Table)
     } else {
-        Err(PyTypeError::new_err(format!("{value} is no value of a scene")))
+        Err(failure(Kind::Usage, format!("{value} is no value of a scene")))
     }
 }

@@ -154,6 +154,81 @@ def test_names_of_files_are_told_apart(cupro):
     assert set(builder.scene().panels) == {"one", "two"}
 
 
+def two(cupro):
+    builder = drape.SceneBuilder(spacing=0.02, time=TIME).fabric("cupro", cupro)
+    return builder.panel("towel", "cupro", rectangle=[0.2, 0.3], center=[0, 1, 0])
+
+
+@pytest.mark.parametrize("plain, moving", [("arm_0", "arm"), ("Arm_17", "arm"), ("a.b_1", "a b")])
+def test_a_body_with_the_file_of_a_frame_is_refused(plain, moving, cupro, tmp_path):
+    mesh = ball()
+    frames = np.stack([mesh.vertices, mesh.vertices])
+
+    def still(builder, name=plain):
+        return builder.mesh(name, mesh)
+
+    def moved(builder):
+        return builder.mesh(moving, mesh, frames=frames, rate=25, center=[1, 0, 0])
+
+    for first, second in ((still, moved), (moved, still)):
+        builder = first(two(cupro))
+        before = builder.to_toml()
+        with pytest.raises(drape.UsageError, match="give one of them another name") as caught:
+            second(builder)
+        assert f"the body {plain!r}" in str(caught.value) and f"the body {moving!r}" in str(caught.value)
+        assert builder.to_toml() == before
+    # A letter in place of the number makes another file, and both bodies are saved.
+    builder = still(moved(two(cupro)), f"{moving}_x")
+    builder.save(tmp_path / "scene.toml")
+    read = drape.Simulation(drape.Scene.read(tmp_path / "scene.toml")).bodies
+    assert set(read) == set(drape.Simulation(builder.scene()).bodies) == {moving, f"{moving}_x"}
+
+
+def test_a_file_of_the_disk_is_not_taken_for_one_that_the_builder_holds(cupro, root):
+    mesh = ball()
+    for there, key in (
+        (lambda b: b.fabric("wool", "fabrics/cupro.toml"), "fabric.wool.file"),
+        (lambda b: b.fabric("wool", "fabrics/../fabrics/Cupro.toml"), "fabric.wool.file"),
+        (lambda b: b.body("other", "mesh", file="bodies/own.obj"), "collider.mesh[2].file"),
+        (lambda b: b.body("other", "mesh", file="bodies/moved_3.obj"), "collider.mesh[2].file"),
+        (lambda b: b.garment("patterns/skirt.toml", "cupro"), "garment[1].pattern"),
+        (lambda b: b.set(fabric={"cupro": {"file": "fabrics/cupro.toml"}}), "fabric.cupro.file"),
+    ):
+        builder = two(cupro).mesh("own", mesh).mesh("moved", mesh, frames=[mesh.vertices], rate=1)
+        builder.garment({"panel": []}, "cupro", name="skirt")
+        for check in (there(builder).scene, lambda: builder.save("scene.toml")):
+            with pytest.raises(drape.UsageError, match="which the builder holds") as caught:
+                check()
+            assert key in str(caught.value)
+
+
+def test_names_are_given_once(cupro):
+    with pytest.raises(drape.UsageError, match="there is a fabric 'cupro' already"):
+        two(cupro).fabric("cupro", cupro)
+    for twice, words in (
+        (lambda b: b.panel("towel", "cupro", rectangle=[0.1, 0.1], center=[3, 0, 0]), 'two panels "towel"'),
+        (lambda b: b.mesh("ball", ball()).mesh("ball", ball(), center=[3, 0, 0]), 'two bodies "ball"'),
+        (lambda b: b.mesh("ball", ball()).body("ball", "plane", center=[0, -3, 0]), 'two bodies "ball"'),
+    ):
+        with pytest.raises(drape.InputError, match=words):
+            twice(two(cupro)).scene()
+
+
+def test_frames_of_a_longer_motion_are_not_read_with_a_shorter_one(cupro, tmp_path):
+    mesh = ball()
+
+    def scene(count):
+        frames = [mesh.vertices + [0, 0.001 * number, 0] for number in range(count)]
+        return two(cupro).mesh("ball", mesh, frames=frames, rate=50)
+
+    scene(4).save(tmp_path / "scene.toml")
+    with pytest.raises(drape.UsageError, match=r"ball_2.obj.*ball_3.obj would be read as the frames of the body 'ball'"):
+        scene(2).save(tmp_path / "scene.toml", replace=True)
+    scene(4).scene().run(tmp_path / "own", until=0.01)
+    scene(2).scene().run(tmp_path / "own", until=0.01, replace=True)
+    assert drape.resume(tmp_path / "own", extend=0.01).times[-1] == pytest.approx(0.02)
+
+
 def test_the_name_of_a_body_comes_first_and_the_order_of_before_works():
     new = drape.SceneBuilder().body("ball", "sphere", radius=0.1).body("floor", "plane")
     assert new.to_toml() == drape.SceneBuilder().body("ball", kind="sphere", radius=0.1).body(

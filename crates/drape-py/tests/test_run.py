@@ -61,6 +61,14 @@ def test_callbacks_hear_of_steps_and_frames(towel):
     assert seen[0].positions.shape == (21 * 31, 3) and not seen[0].positions.flags.writeable
 
 
+def test_a_limit_of_time_ends_a_run_with_and_without_a_folder(towel, tmp_path):
+    scene = drape.Scene.read(towel)
+    for output in (None, tmp_path / "own"):
+        run = scene.run(output, until=1000, max_wall=0.3)
+        assert run.status == "interrupted" and "limit of time" in run.summary["reason"]
+        assert 0.3 <= run.summary["wall_seconds"] < 20
+
+
 def test_a_callback_that_fails_ends_the_run(towel):
     def fail(step):
         raise ValueError("enough")

@@ -46,6 +46,34 @@ def test_arrays_have_shapes_and_never_change(towel):
     assert np.array_equal(start, kept)
 
 
+def test_no_array_can_be_made_writable_by_accident(towel, tmp_path):
+    scene = drape.Scene.read(towel)
+    simulation, twin = drape.Simulation(scene), drape.Simulation(scene)
+    told = []
+    run = scene.run(tmp_path / "own", until=0.02, on_frame=lambda frame: told.append(frame.positions))
+    curve = drape.fit(towel.parent / "fabrics/cupro-weave").curves[0]
+    arrays = [simulation.positions, simulation.velocities, simulation.triangles, simulation.coordinates, *told]
+    arrays += [run.frames[0], run.times, run.triangles, run.coordinates, curve["measured"], curve["fitted"]]
+    for array in arrays:
+        kept = array.copy()
+        with pytest.raises(ValueError):
+            array.flags.writeable = True
+        with pytest.raises(ValueError):
+            array.setflags(write=True)
+        with pytest.raises(ValueError):
+            array[...] = 0
+        with pytest.raises(ValueError):
+            np.asarray(array).reshape(-1)[0] = 1
+        assert np.array_equal(array, kept) and array.flags.aligned and array.flags.c_contiguous
+    # What is not the simulation's may be written to, and does not reach it.
+    for forces in simulation.pin_loads():
+        forces[...] = 7
+    for step in range(5):
+        simulation.step()
+        twin.step()
+    assert simulation.state_hash() == twin.state_hash()
+
+
 def test_the_pins_carry_the_weight_of_cloth_at_rest(towel):
     text = towel.read_text().replace("end = 0.1", "end = 20").replace("0.01", "0.02")
     towel.write_text(text + "settle = { speed = 0.002 }\n")
@@ -67,7 +95,7 @@ def test_a_simulation_is_stepped_by_one_thread_at_a_time(towel):
         try:
             for _ in range(10):
                 simulation.step()
-        except RuntimeError as error:
+        except drape.UsageError as error:
             failures.append(error)
 
     threads = [threading.Thread(target=step) for _ in range(4)]
@@ -75,7 +103,7 @@ def test_a_simulation_is_stepped_by_one_thread_at_a_time(towel):
         thread.start()
     for thread in threads:
         thread.join()
-    assert all("borrowed" in str(error) for error in failures)
+    assert all("one thread uses it at a time" in str(error) for error in failures)
     assert np.isfinite(simulation.positions).all()
 
 

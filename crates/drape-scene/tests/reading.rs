@@ -382,3 +382,21 @@ fn schemes_for_comparison_are_no_part_of_a_scene() {
         );
     }
 }
+
+#[test]
+fn two_bodies_of_one_name_are_refused() {
+    let floor = "[[collider.plane]]\ncenter = [0, -3, 0]\n";
+    let ball = |name: &str| {
+        format!("[[collider.sphere]]\nradius = 0.1\ncenter = [0, -1, 0]\nname = \"{name}\"\n")
+    };
+    let scene = |name: &str, other: &str| {
+        read(&format!("{LEAST}{}{}{floor}", ball(name), ball(other).replace("-1, 0", "-2, 0")))
+    };
+    assert_eq!(scene("a", "b").unwrap().bodies.len(), 3);
+    // The second name is that of a body without one.
+    for (name, other, two) in [("a", "a", "a"), ("a", "plane 1", "plane 1")] {
+        let told = scene(name, other).unwrap_err().to_string();
+        assert!(told.contains(&format!("there are two bodies \"{two}\"")), "{told}");
+        assert!(told.contains("give each its own name"), "{told}");
+    }
+}

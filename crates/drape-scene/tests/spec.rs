@@ -165,6 +165,16 @@ fn a_spec_in_memory_is_the_scene_of_its_folder_to_the_bit() {
     assert_eq!(read.source.hash, built.source.hash);
     assert_eq!(read.bodies[0].motion, built.bodies[0].motion);
     assert_eq!(format!("{:?}", read.bodies[0].body), format!("{:?}", built.bodies[0].body));
+
+    // Fewer frames in the same folder are not read with the last ones of before.
+    std::fs::write(folder.path().join("body-1-frame-own.obj"), "").expect("a file of the user");
+    spec.collider.mesh[0].motion =
+        Some(MeshMotion::Frames(Arc::new(vec![moved(0.0), moved(0.03)])));
+    let built = spec.build().expect("a scene");
+    spec.save(folder.path()).expect("it can be written");
+    let read = Scene::read(folder.path().join("scene.toml")).expect("a scene");
+    assert_eq!(read.bodies[0].motion, built.bodies[0].motion);
+    assert!(folder.path().join("body-1-frame-own.obj").exists());
 }
 
 #[test]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import re
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -15,12 +16,29 @@ import numpy.typing as npt
 from . import _drape
 from ._errors import UsageError
 from ._fit import Fabric, Fit
-from ._given import StrPath, path_of, refuse
+from ._given import StrPath, array_of, files, flag_of, path_of, paths_of, refuse, shown, text_of
 from ._scene import Scene
 from ._toml import dumps, plain
 
 # Kinds of bodies.
 _KINDS = ("sphere", "box", "cylinder", "plane", "mesh")
+
+# Keys whose values are names of files.
+_FILES = ("file", "pattern", "frames", "motion")
+
+
+class HeldName(str):
+    """Name of a file that the scene holds; a name of a file of the disk is a `str`."""
+
+
+class Held(NamedTuple):
+    """What a scene holds in place of a file, or of files from frame to frame."""
+
+    owner: str
+    """What it belongs to, as `"the body 'ball'"`."""
+    value: Any
+    mesh: _drape.Mesh | None = None
+    """Mesh whose frames it is."""
 
 
 class SceneBuilder:
@@ -28,7 +46,8 @@ class SceneBuilder:
 
     Keywords are keys of the reference of scenes, whatever they are, and their values are numbers,
     texts, lists, dictionaries and NumPy arrays; a key with the value None is left out. Nothing is
-    checked until `scene()`, which checks it as `Scene.read` does.
+    checked until `scene()`, which checks it as `Scene.read` does. Raises `UsageError` for values
+    that TOML lacks, and for two parts whose files would have one name.
     """
 
     def __init__(
@@ -43,9 +62,9 @@ class SceneBuilder:
             advice = "name={} names the scene; drape.Scene.read(path) reads a file"
             raise refuse("SceneBuilder", "keys of a scene", others[0], advice)
         self._folder = path_of("SceneBuilder(folder=)", folder)
-        self._allow = [Path(path) for path in allow]
+        self._allow = paths_of("SceneBuilder(allow=)", allow)
         self._table: dict[str, Any] = plain(keys, "")
-        self._held: dict[str, Any] = {}
+        self._held: dict[str, Held] = {}
 
     def set(self, **keys: Any) -> SceneBuilder:
         """Sets keys of the scene itself, in place of those that it has."""
@@ -53,17 +72,24 @@ class SceneBuilder:
         return self
 
     def fabric(self, name: str, source: Fabric | Fit | StrPath) -> SceneBuilder:
-        """Adds a fabric: one that was made, a fit, or a `fabric.toml`, a sheet or its folder."""
+        """Adds a fabric: one that was made, a fit, or a `fabric.toml`, a sheet or its folder.
+
+        Raises `UsageError` for a second fabric of one name.
+        """
+        name = text_of("SceneBuilder.fabric", name)
+        fabrics = self._part("fabric", dict)
+        if name in fabrics:
+            raise UsageError(f"there is a fabric {name!r} already, {shown(fabrics[name])}; give another name")
         if isinstance(source, Fit):
             source = source.fabric
         if isinstance(source, Fabric):
-            file = self._hold("fabrics", name, ".toml", source._inner)
+            file: str = self._hold("fabrics", name, ".toml", Held(f"the fabric {name!r}", source._inner))
         elif isinstance(source, str | os.PathLike):
-            file = Path(source).as_posix()
+            file = path_of("SceneBuilder.fabric", source).as_posix()
         else:
             advice = "drape.fit(sheet) fits a sheet, drape.Fabric.read(path) reads a fabric"
             raise refuse("SceneBuilder.fabric", "a Fabric, a Fit or a path", source, advice)
-        self._table.setdefault("fabric", {})[name] = {"file": file}
+        fabrics[name] = plain({"file": file}, f"fabric.{name}")
         return self
 
     def panel(self, name: str, fabric: str, **keys: Any) -> SceneBuilder:
@@ -75,10 +101,12 @@ class SceneBuilder:
     ) -> SceneBuilder:
         """Adds a garment: the file of a pattern, or the keys of one, and the fabric of its panels."""
         if isinstance(pattern, Mapping):
-            held = plain(pattern, "")
-            file = self._hold("patterns", str(keys.get("name", "pattern")), ".toml", held)
+            name = keys.get("name")
+            name = name if isinstance(name, str) else "pattern"
+            held = Held(f"the garment {name!r}", plain(pattern, ""))
+            file: str = self._hold("patterns", name, ".toml", held)
         else:
-            file = Path(pattern).as_posix()
+            file = path_of("SceneBuilder.garment", pattern).as_posix()
         return self._add("garment", {"pattern": file, "fabric": fabric} | keys)
 
     def pin(self, panel: str, **keys: Any) -> SceneBuilder:
@@ -92,20 +120,25 @@ class SceneBuilder:
         and `pin` the name comes first. The order of before, `"sphere", name="ball"`, works with a
         warning. Raises `UsageError` for a body without a kind.
         """
+        for given in (name, kind):
+            if given is not None:
+                text_of("SceneBuilder.body", given)
         if kind is None and name in _KINDS:
-            shown = repr(keys.get("name", "floor" if name == "plane" else "ball"))
-            note = f"the name of a body comes first now: body({shown}, {name!r}, ...)"
+            own = repr(keys.get("name", "floor" if name == "plane" else "ball"))
+            note = f"the name of a body comes first now: body({own}, {name!r}, ...)"
             warnings.warn(note, FutureWarning, stacklevel=2)
             name, kind = keys.pop("name", None), name
         if kind is None or (name in _KINDS and kind not in _KINDS):
-            shown = "'ball'" if name is None or name in _KINDS else repr(name)
+            own = "'ball'" if name is None or name in _KINDS else repr(name)
             kinds = ", ".join(repr(known) for known in _KINDS)
-            raise UsageError(f"a body has a name and a kind: body({shown}, 'sphere', ...); kinds are {kinds}")
+            raise UsageError(f"a body has a name and a kind: body({own}, 'sphere', ...); kinds are {kinds}")
         if name is not None:
             keys = {"name": name} | keys
-        colliders = self._table.setdefault("collider", {})
-        place = f"collider.{kind}[{len(colliders.get(kind, []))}]"
-        colliders.setdefault(kind, []).append(plain(keys, place))
+        colliders = self._part("collider", dict)
+        bodies = colliders.get(kind, [])
+        if not isinstance(bodies, list):
+            raise UsageError(f"collider.{kind} is {shown(bodies)}; set it to a list, or leave it out")
+        colliders[kind] = [*bodies, plain(keys, f"collider.{kind}[{len(bodies)}]")]
         return self
 
     def mesh(
@@ -121,30 +154,37 @@ class SceneBuilder:
 
         In place of both, a mesh of trimesh or anything else with `vertices` and `faces`. The numbers
         of vertices begin at 0. `frames`, (f, k, 3), in m, are its vertices from frame to frame, of
-        which `rate=` says how many a second has. Raises `UsageError` for other shapes.
+        which `rate=` says how many a second has. Raises `UsageError` for other shapes, and for a
+        name whose files are those of another body's frames, such as `"arm_0"` beside the frames of
+        `"arm"`.
         """
+        name = text_of("SceneBuilder.mesh", name)
         if faces is None:
             if not (hasattr(vertices, "vertices") and hasattr(vertices, "faces")):
                 raise UsageError(f"the body {name!r} has no faces; give (m, 3), or a mesh of trimesh")
             vertices, faces = vertices.vertices, vertices.faces
-        places = np.asarray(vertices, dtype=np.float64)
-        corners = np.asarray(faces)
+        places = array_of(f"the vertices of {name!r}", vertices)
+        try:
+            corners = np.asarray(faces)
+        except ValueError:
+            raise UsageError(f"{name!r} has faces of no shape; give (m, 3) numbers of vertices") from None
         if places.ndim != 2 or places.shape[1] != 3:
             raise UsageError(f"{name!r} has vertices of shape {places.shape}; give (k, 3), in m")
         if corners.ndim != 2 or corners.shape[1] != 3 or not np.issubdtype(corners.dtype, np.integer):
             shape = f"of shape {corners.shape} and type {corners.dtype}"
             raise UsageError(f"{name!r} has faces {shape}; give (m, 3) numbers of vertices, from 0")
-        mesh = _drape.Mesh(_rows(places, np.float64), _rows(corners, np.int64))
-        own: dict[str, Any] = {"file": self._hold("bodies", name, ".obj", mesh)}
+        mesh = _drape.Mesh(places, np.require(corners, np.int64, ["C", "A"]))
+        held = [Held(f"the body {name!r}", mesh)]
         if frames is not None:
-            moving = np.asarray(frames, dtype=np.float64)
+            moving = array_of(f"the frames of {name!r}", frames)
             if moving.ndim != 3 or moving.shape[1:] != places.shape:
                 wanted = f"(f, {len(places)}, 3)"
                 raise UsageError(f"{name!r} has frames of shape {moving.shape}; give {wanted}, in m")
-            stem = own["file"].removesuffix(".obj")
-            own["frames"] = f"{stem}_*.obj"
-            held = _drape.MeshFrames(_rows(moving, np.float64), len(places))
-            self._held[own["frames"]] = (mesh, held)
+            poses = _drape.MeshFrames(moving, len(places))
+            held.append(Held(f"the frames of the body {name!r}", poses, mesh))
+        own: dict[str, Any] = {"file": self._hold("bodies", name, ".obj", *held)}
+        if frames is not None:
+            own["frames"] = HeldName(own["file"].removesuffix(".obj") + "_*.obj")
         if self._table.get("length", "m") != "m":
             own["scale"] = 1
         return self.body(name, "mesh", **(own | keys))
@@ -155,58 +195,124 @@ class SceneBuilder:
 
     def scene(self) -> Scene:
         """Checks the scene. Raises `InputError` with all mistakes, each with its key."""
-        held = {
-            file: value[1] if isinstance(value, tuple) else value
-            for file, value in self._held.items()
-        }
-        keys = {"table": self._table, "held": held, "folder": self._folder, "allow": self._allow}
+        self._check_names(self._table, "")
+        # The builder may change; the scene stays as it is.
+        table = copy.deepcopy(self._table)
+        held = {file: one.value for file, one in self._held.items()}
+        keys = {"table": table, "held": held, "folder": self._folder, "allow": self._allow}
         return Scene(_drape.Scene.from_keys(keys))
 
     def save(self, path: StrPath, *, replace: bool = False) -> None:
         """Writes the scene for the command, and its fabrics, patterns and bodies beside it.
 
         Files that it names besides stay where they are: they are seen from the folder of `path`.
-        Raises `UsageError` where files are there already, unless it may `replace` them.
+        Raises `UsageError` where files are there already, unless it may `replace` them, or where files
+        would be read as further frames of a body, and `OutputError` for files that cannot be written.
         """
-        path = Path(path)
+        path, replace = path_of("SceneBuilder.save", path), flag_of("replace", replace)
+        self._check_names(self._table, "")
         texts = {path: self.to_toml()}
-        for name, value in self._held.items():
-            texts |= {path.parent / file: text for file, text in _texts(name, value)}
-        there = [str(file) for file in texts if file.exists()]
-        if there and not replace:
-            raise UsageError(f"{', '.join(there)} exists; save elsewhere, or with replace=True")
-        for file, text in texts.items():
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text, encoding="utf-8", newline="\n")
+        for name, held in self._held.items():
+            texts |= {path.parent / file: text for file, text in _texts(name, held)}
+        with files("SceneBuilder.save"):
+            there = [str(file) for file in texts if file.exists()]
+            if there and not replace:
+                raise UsageError(f"{', '.join(there)} exists; save elsewhere, or with replace=True")
+            for name in self._held:
+                self._check_frames(path.parent, name, texts)
+            for file, text in texts.items():
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(text, encoding="utf-8", newline="\n")
+
+    def _part(self, kind: str, of_type: type[Any]) -> Any:
+        """Returns the table or the list of a kind of part, which is there from then on."""
+        part = self._table.setdefault(kind, of_type())
+        if not isinstance(part, of_type):
+            wanted = "dictionary" if of_type is dict else "list"
+            raise UsageError(f"{kind} is {shown(part)}; set it to a {wanted}, or leave it out")
+        return part
 
     def _add(self, kind: str, keys: Mapping[str, Any]) -> SceneBuilder:
-        entries = self._table.setdefault(kind, [])
+        entries = self._part(kind, list)
         entries.append(plain(keys, f"{kind}[{len(entries)}]"))
         return self
 
-    def _hold(self, folder: str, name: str, ending: str, value: object) -> str:
+    def _hold(self, folder: str, name: str, ending: str, held: Held, frames: Held | None = None) -> HeldName:
+        """Holds a value, and frames of it, as files; returns the name of the first file."""
         stem = re.sub(r"[^\w-]+", "-", name) or "unnamed"
+        taken = {_plain_name(file) for file in self._held}
         file, number = f"{folder}/{stem}{ending}", 2
-        while file in self._held:
+        while _plain_name(file) in taken:
             file, number = f"{folder}/{stem}-{number}{ending}", number + 1
-        self._held[file] = value
-        return file
+        new: dict[str, Held] = {HeldName(file): held}
+        if frames is not None:
+            new[HeldName(f"{file.removesuffix(ending)}_*{ending}")] = frames
+        for own, one in new.items():
+            for other, there in self._held.items():
+                if _overlap(own, other) or _overlap(other, own):
+                    raise UsageError(
+                        f"the file {own} of {one.owner} would be one with {other} of {there.owner}; "
+                        "give one of them another name"
+                    )
+        self._held |= new
+        return HeldName(file)
+
+    def _check_names(self, value: Any, place: str) -> None:
+        """Refuses names of files of the disk that are those of what the scene holds."""
+        if isinstance(value, dict):
+            for key, entry in value.items():
+                self._check_names(entry, f"{place}.{key}".lstrip("."))
+        elif isinstance(value, list):
+            for index, entry in enumerate(value):
+                self._check_names(entry, f"{place}[{index}]")
+        elif isinstance(value, str) and not isinstance(value, HeldName):
+            if place.rpartition(".")[2] not in _FILES:
+                return
+            for name, held in self._held.items():
+                if _plain_name(value) == _plain_name(name) or _overlap(name, value):
+                    raise UsageError(
+                        f"{place} names the file {value}, and so would be called {held.owner}, which the "
+                        "builder holds; move the file, or give the other another name"
+                    )
+
+    def _check_frames(self, folder: Path, name: str, texts: Mapping[Path, str]) -> None:
+        """Refuses to save frames beside files that would be read as further ones of them."""
+        parent = (folder / name).parent
+        if "*" not in name or not parent.is_dir():
+            return
+        within = Path(name).parent
+        others = sorted(
+            str(file)
+            for file in parent.iterdir()
+            if file not in texts and _overlap(name, (within / file.name).as_posix())
+        )
+        if others:
+            owner = self._held[name].owner
+            raise UsageError(f"{', '.join(others)} would be read as {owner}; remove it, or save elsewhere")
 
     def __repr__(self) -> str:
         return f"<drape.SceneBuilder {self._table.get('name', 'unnamed')!r}>"
 
 
-def _rows(array: npt.NDArray[Any], dtype: type[Any]) -> npt.NDArray[Any]:
-    """Returns an array whose rows lie one after the other in memory; the same one if they do."""
-    return np.ascontiguousarray(array, dtype=dtype)
+def _plain_name(file: str) -> str:
+    """Returns the name that a file has on disks that do not tell capital letters apart."""
+    return os.path.normpath(file).replace(os.sep, "/").casefold()
 
 
-def _texts(file: str, value: Any) -> Iterator[tuple[str, str]]:
+def _overlap(pattern: str, file: str) -> bool:
+    """Returns whether a file is one of those of a pattern, whose * stands for a number."""
+    before, star, after = _plain_name(pattern).partition("*")
+    inner = _plain_name(file).removeprefix(before).removesuffix(after)
+    whole = _plain_name(file) == before + inner + after
+    return bool(star) and whole and bool(re.fullmatch("[0-9]+", inner))
+
+
+def _texts(file: str, held: Held) -> Iterator[tuple[str, str]]:
     """Returns the names and the texts of the files of a value that a scene holds."""
-    if isinstance(value, tuple):
-        mesh, frames = value
-        for number in range(len(frames)):
-            yield file.replace("*", str(number)), mesh.frame_to_obj(frames, number)
+    value = held.value
+    if held.mesh is not None:
+        for number in range(len(value)):
+            yield file.replace("*", str(number)), held.mesh.frame_to_obj(value, number)
     elif isinstance(value, _drape.Mesh):
         yield file, value.to_obj()
     elif isinstance(value, Mapping):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from . import _drape
 from ._errors import UsageError
-from ._given import StrPath, path_of
+from ._given import StrPath, files, flag_of, number_of, path_of, text_of
 
 # Name of a sheet in its folder.
 _SHEET = "sheet.toml"
@@ -52,11 +53,22 @@ def convert(
 
     `unit` is that of a drawing that states none, `size` one of a graded DXF; `paper`, such as `"a4"`,
     divides a drawing into pages, and `width`, in mm, is that of a plotter's roll. `replace` lets it
-    replace files. Raises `InputError` with all mistakes, and `UsageError`.
+    replace files. Raises `InputError` with all mistakes, `UsageError`, and `OutputError` for files
+    that cannot be written.
     """
     path = path_of("convert", source)
     target = None if to is None else path_of("convert", to)
-    options = {"unit": unit, "size": size, "paper": paper, "width": width}
+    words = {"unit": unit, "size": size, "paper": paper}
+    texts = {name: word if word is None else text_of(f"convert({name}=)", word) for name, word in words.items()}
+    if width is not None:
+        width = number_of("width", width, "a width in mm from 100 to 100000, such as 900", 100, 1e5)
+    options = {**texts, "width": width}
+    replace = flag_of("replace", replace)
+    with files("convert"):
+        return _converted(path, target, options, replace)
+
+
+def _converted(path: Path, target: Path | None, options: dict[str, Any], replace: bool) -> Converted:
     if path.is_dir():
         return _sheet(path, target, [name for name, value in options.items() if value is not None], replace)
     ending = "" if target is None else target.suffix.lower()
@@ -64,12 +76,12 @@ def convert(
         raise UsageError(f"{target}: patterns are written as *.toml, *.svg or *.dxf")
     kind = _KINDS.get(ending, "pattern")
     style = "" if target is None else target.stem
-    files, notes = _drape.convert_pattern(path, kind, {**options, "style": style})
+    results, notes = _drape.convert_pattern(path, kind, {**options, "style": style})
     written: list[Path] = []
     if target is not None:
-        named = {target.with_stem(target.stem + part): text for part, text in files}
+        named = {target.with_stem(target.stem + part): text for part, text in results}
         written = _write(named, replace)
-    return Converted(kind, files[0][1], written, notes)
+    return Converted(kind, results[0][1], written, notes)
 
 
 def _sheet(folder: Path, to: Path | None, options: list[str], replace: bool) -> Converted:

@@ -40,11 +40,27 @@ class Mistake:
 
 
 class Error(Exception):
-    """Any error of this package."""
+    """Any error of this package.
+
+    What else may come out of a call is of Python or of the caller: a `TypeError` for a wrong number
+    or name of arguments, what a callback or a warning filter raises, `KeyboardInterrupt`, and
+    `MemoryError`. NumPy raises a `ValueError` where its read-only arrays are written to.
+    """
 
 
 class UsageError(Error):
-    """Arguments that do not fit together, or results that are there already."""
+    """Arguments of the wrong kind, that do not fit together, or results that are there already."""
+
+
+class NoFrameError(UsageError, IndexError):
+    """A frame that a run does not have."""
+
+
+class NoEntryError(UsageError, KeyError):
+    """A parameter of a fit, or a fit of many, that there is not."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class SolverError(Error):
@@ -53,6 +69,10 @@ class SolverError(Error):
 
 class OutputError(Error):
     """A file that cannot be read or written."""
+
+
+class InternalError(Error):
+    """A fault of this package, which should be reported."""
 
 
 class RunWarning(UserWarning):

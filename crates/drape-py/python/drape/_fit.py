@@ -12,12 +12,24 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _drape
-from ._errors import InputError, UsageError
-from ._given import StrPath, expect, path_of, refuse
+from ._errors import InputError, NoEntryError, UsageError
+from ._given import (
+    StrPath,
+    array_of,
+    expect,
+    files,
+    flag_of,
+    items_of,
+    number_of,
+    path_of,
+    refuse,
+    shown,
+    text_of,
+)
+from ._pickled import StoredFit
 from ._toml import dumps
 
 # Programs of materials by the endings of their files.
@@ -59,7 +71,8 @@ class Curve:
     """Whether the strip hangs slack at the start."""
 
     def _write(self, folder: Path, number: int) -> dict[str, Any]:
-        points = [np.asarray(a, dtype=np.float64) for a in (self.deformation, self.load)]
+        test = text_of("Curve(test=)", self.test)
+        points = [array_of(f"curve {number}", numbers) for numbers in (self.deformation, self.load)]
         if points[0].ndim != 1 or points[0].shape != points[1].shape:
             shapes = f"{points[0].shape} and {points[1].shape}"
             raise UsageError(f"curve {number} has deformation and load of shapes {shapes}; give (n,)")
@@ -67,20 +80,27 @@ class Curve:
         file = f"curve-{number}.csv"
         lines = ["deformation,load\n", *(f"{x!r},{y!r}\n" for x, y in rows)]
         (folder / file).write_text("".join(lines), encoding="utf-8")
-        units = _SI.get(self.test, ("1", "N/m"))
+        units = _SI.get(test, ("1", "N/m"))
 
         def axis(column: str, unit: str, size: str, length: float | str | None) -> dict[str, Any]:
-            own = {"column": column, "unit": unit}
-            metres = length if isinstance(length, str) else f"{length} m"
-            return own if length is None else {**own, size: metres}
+            own = {"column": column, "unit": text_of("Curve, a unit,", unit)}
+            if length is None:
+                return own
+            if not isinstance(length, str):
+                number = number_of(size, length, "a length above 0, to 1000 m", 0, 1000, above=True)
+                length = f"{number} m"
+            return {**own, size: length}
 
-        of_length = self.deformation_unit or ("m" if self.gauge is not None else units[0])
-        entry: dict[str, Any] = {"test": self.test, "direction": self.direction, "file": file}
+        of_length = self.deformation_unit
+        if of_length is None:
+            of_length = "m" if self.gauge is not None else units[0]
+        of_load = units[1] if self.load_unit is None else self.load_unit
+        entry: dict[str, Any] = {"test": test, "direction": self.direction, "file": file}
         entry["deformation"] = axis("deformation", of_length, "gauge", self.gauge)
-        entry["load"] = axis("load", self.load_unit or units[1], "width", self.width)
+        entry["load"] = axis("load", of_load, "width", self.width)
         if self.zero is not None:
             entry["deformation"]["zero"] = self.zero
-        if self.slack:
+        if flag_of("slack", self.slack):
             entry["slack"] = True
         return entry if self.name is None else {"name": self.name, **entry}
 
@@ -99,15 +119,19 @@ class Sheet:
     ) -> Sheet:
         """Makes a sheet of curves that are arrays, and of KES values as for `Fabric.from_values`.
 
-        They are read as from the files of a sheet, with the same checks. Raises `InputError`.
+        They are read as from the files of a sheet, with the same checks. Raises `InputError`,
+        `UsageError` for what is no curve or no array of numbers, and `OutputError` where no
+        temporary file can be written.
         """
-        with tempfile.TemporaryDirectory() as temporary:
+        own = items_of("Sheet.from_curves", "a list of curves", curves)
+        advice = "drape.Curve(test, direction, deformation, load)"
+        for curve in own:
+            expect("a list of curves", Curve, curve, (advice, advice))
+        if values is not None and not isinstance(values, Mapping):
+            raise refuse("Sheet.from_curves(values=)", "a dictionary", values, 'such as {"W": 12.4}')
+        with files("Sheet.from_curves"), tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary)
-            entries = []
-            for number, curve in enumerate(curves, 1):
-                advice = "drape.Curve(test, direction, deformation, load)"
-                expect("a list of curves", Curve, curve, (advice, advice))
-                entries.append(curve._write(folder, number))
+            entries = [curve._write(folder, number) for number, curve in enumerate(own, 1)]
             text = dumps({"name": name, **(values or {}), "curve": entries})
             try:
                 return Sheet(_drape.Sheet.from_toml(text, folder))
@@ -135,12 +159,15 @@ class Sheet:
         """What each curve, and each value of tables, was taken for; what was assumed or left out."""
         return self._inner.readings()
 
+    def __reduce__(self) -> Any:
+        raise UsageError("a sheet cannot be pickled or copied; pickle its fit, or read it again there")
+
     def __repr__(self) -> str:
         return f"<drape.Sheet {self.name!r}>"
 
 
 class Fabric:
-    """Fabric: its laws, in SI."""
+    """Fabric: its laws, in SI. It can be pickled, with all bits of its numbers."""
 
     def __init__(self, inner: _drape.Fabric) -> None:
         advice = (
@@ -158,14 +185,14 @@ class Fabric:
     @staticmethod
     def from_toml(text: str) -> Fabric:
         """Makes a fabric of the text of a `fabric.toml`. Raises `InputError`."""
-        return Fabric(_drape.Fabric.from_toml(text))
+        return Fabric(_drape.Fabric.from_toml(text_of("Fabric.from_toml", text)))
 
     @staticmethod
     def from_values(name: str, values: Mapping[str, Any]) -> Fabric:
         """Makes a fabric of KES values, in the units of the laboratory.
 
         The keys are those of a sheet: `{"W": 12.4, "warp": {"B": 0.11}, "weft": {"B": 0.08}}`.
-        What they lack is assumed. Raises `InputError`.
+        What they lack is assumed. Raises as `Sheet.from_curves`.
         """
         return fit(Sheet.from_curves(name, [], values)).fabric
 
@@ -202,19 +229,28 @@ class Fabric:
         ending: `*.py`, `*.toml`, `*.csv`, `*.u3m`, `*.u3ma`. The stretch is read at a `load`, in N/m.
         Returns what the numbers lose, which stands in the file too. Raises `UsageError` for a program
         that is not known, a load that the fabric never carries, and a file that is there already,
-        unless it may `replace` it.
+        unless it may `replace` it, and `OutputError` for a file that cannot be written.
         """
         path = path_of("Fabric.export", path)
+        if program is not None:
+            program = text_of("Fabric.export(program=)", program)
+        load = number_of("load", load, "a load from 0.1 to 10000 N/m", 0.1, 1e4)
+        replace = flag_of("replace", replace)
         chosen = program or _PROGRAMS.get(path.suffix.lower())
         if chosen is None:
             known = ", ".join(_PROGRAMS.values())
             raise UsageError(f"{path}: the ending names no program; give program=, one of {known}")
-        if path.exists() and not replace:
-            raise UsageError(f"{path} exists; write elsewhere, or with replace=True")
-        content, losses = self._inner.material(chosen, load, time.time())
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
+        with files("Fabric.export"):
+            if path.exists() and not replace:
+                raise UsageError(f"{path} exists; write elsewhere, or with replace=True")
+            content, losses = self._inner.material(chosen, load, time.time())
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
         return losses
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Fabric:
+        """Returns the fabric itself, which nothing changes."""
+        return self
 
     def __repr__(self) -> str:
         return f"<drape.Fabric {self.name!r}>"
@@ -251,20 +287,23 @@ class Parameters(Mapping[str, Parameter]):
 
     `B` and `G` stand for the bending rigidity and the shear stiffness. A key without its direction,
     as in `params["B"]`, gives the mean over both directions, with the error of that mean; with it,
-    as in `params["warp.B"]`, the parameter of that direction.
+    as in `params["warp.B"]`, the parameter of that direction. Raises `NoEntryError`, a `KeyError`
+    too, for a parameter that there is not.
     """
 
     def __init__(self, own: dict[str, Parameter]) -> None:
         self._own = own
 
     def __getitem__(self, key: str) -> Parameter:
+        if not isinstance(key, str):
+            raise NoEntryError(f"{shown(key)} is no parameter; give one of {', '.join(self._own)}")
         *direction, symbol = key.rsplit(".", 1)
         whole = ".".join([*direction, _SYMBOLS.get(symbol, symbol)])
         if whole in self._own:
             return self._own[whole]
         found = [self._own[k] for d in ("warp", "weft") if (k := f"{d}.{whole}") in self._own]
         if not found:
-            raise KeyError(f"{key!r} is no parameter; give one of {', '.join(self._own)}")
+            raise NoEntryError(f"{shown(key)} is no parameter; give one of {', '.join(self._own)}")
         errors = [p.stderr for p in found]
         squares = [e * e for e in errors if e is not None]
         has_error = len(squares) == len(errors)
@@ -285,12 +324,12 @@ class Parameters(Mapping[str, Parameter]):
 
 
 class Fit:
-    """Fit of a fabric to a sheet."""
+    """Fit of a fabric to a sheet. It can be pickled, with its curves and its report."""
 
     def __init__(self, inner: _drape.Fit) -> None:
         advice = ("drape.fit({}) fits the sheet of a file", "drape.fit(sheet) makes a fit")
         expect("Fit", _drape.Fit, inner, advice)
-        self._inner = inner
+        self._inner: _drape.Fit | StoredFit = inner
         self.curves: list[dict[str, Any]] = inner.curves()
         """Curves with their laws: `name`, `test`, `direction`, `model`, `misfit` (a ratio),
         `r_squared`, and `deformation`, `measured`, `fitted`, `band`: arrays (n,), in SI."""
@@ -363,6 +402,9 @@ class Fit:
             axes.legend()
         return figure
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_inner": StoredFit.of(self._inner)}
+
     def __repr__(self) -> str:
         return f"<drape.Fit of {self.fabric.name!r}: {len(self.curves)} curves>"
 
@@ -373,23 +415,34 @@ def read_sheet(path: StrPath, *, fabric: str | None = None) -> Sheet:
     Tables are a workbook (`.xlsx`, `.xls`, `.xlsm`, `.ods`), a `.csv` or another table of text, a `.zip`, or
     a folder of exports. `fabric` is the name of one fabric where they hold several. Raises `InputError`.
     """
-    return Sheet(_drape.Sheet.read(path_of("read_sheet", path), fabric))
+    named = None if fabric is None else text_of("read_sheet(fabric=)", fabric)
+    return Sheet(_drape.Sheet.read(path_of("read_sheet", path), named))
 
 
 class Fits(Mapping[str, Fit]):
-    """Fits of many sheets by their names, those of their folders, as `drape fit` calls them."""
+    """Fits of many sheets by their names, those of their folders, as `drape fit` calls them.
+
+    Raises the exception of a sheet that has no fit, and `NoEntryError`, a `KeyError` too, for a
+    name that there is not.
+    """
 
     def __init__(self, fits: dict[str, Fit], failures: dict[str, Exception]) -> None:
-        advice = "drape.fit_all({}) fits the sheets of a folder"
-        expect("Fits", dict, fits, (advice, "drape.fit_all(sheets) makes fits"))
+        advice = ("drape.fit_all({}) fits the sheets of a folder", "drape.fit_all(sheets) makes fits")
+        expect("Fits", dict, fits, advice)
+        expect("Fits", dict, failures, advice)
         self._fits = fits
         self.failures = failures
         """Sheets that have no fit, each with its exception."""
 
     def __getitem__(self, name: str) -> Fit:
-        if name in self.failures:
+        if isinstance(name, str) and name in self.failures:
             raise self.failures[name]
+        if name not in self:
+            raise NoEntryError(f"{shown(name)} has no fit; give one of {', '.join(self._fits)}")
         return self._fits[name]
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name in self._fits
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._fits)
@@ -419,12 +472,16 @@ def fit(
     `"exponential"`, `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`,
     `"two-elements"`, `"second-order"`, `"varying"` or `"piecewise"`. A former name of a law is
     accepted with a `FutureWarning`. `profile` takes intervals from the profile of the residuals.
-    Ctrl-C returns at once; the work then ends by itself. Raises `InputError`, and `UsageError` for
-    a law that is not known and a folder of many sheets, which are for `fit_all`.
+    Ctrl-C returns at once; the work then ends by itself. Raises `InputError`, `UsageError` for a
+    law that is not known and a folder of many sheets, which are for `fit_all`, and `OutputError` for
+    a folder that cannot be read.
     """
+    laws = _laws(traction, bending, shear, profile)
     if isinstance(sheet, str | os.PathLike):
-        path = Path(sheet)
-        if path.is_dir() and not (path / _SHEET).exists() and (below := _sheets_below(path)):
+        path = path_of("fit", sheet)
+        with files("fit"):
+            below = _sheets_below(path) if path.is_dir() and not (path / _SHEET).exists() else []
+        if below:
             advice = f"fit them with drape.fit_all({str(path)!r})"
             raise UsageError(f"{path} holds {len(below)} sheets in its folders; {advice}")
         sheet = read_sheet(path, fabric=fabric)
@@ -435,7 +492,7 @@ def fit(
     else:
         advice = "drape.read_sheet(path) reads a sheet, drape.Curve(...) holds arrays"
         raise refuse("fit", "a Sheet, a path or a list of Curves", sheet, advice)
-    return Fit(own._inner.fit(_laws(traction, bending, shear, profile)))
+    return Fit(own._inner.fit(laws))
 
 
 def fit_all(
@@ -451,20 +508,22 @@ def fit_all(
     A file may be a workbook or another table of one fabric.
 
     The keywords are those of `fit`. A sheet that has no fit does not stop the others: it is in
-    `failures`. Raises `UsageError` for a folder without sheets.
+    `failures`. Raises `UsageError` for a folder without sheets, and `OutputError` for one that cannot
+    be read.
     """
     paths: list[Path] = []
     if not isinstance(sheets, str | os.PathLike | Iterable):
         raise refuse("fit_all", "paths", sheets, "give a folder of sheets, or a list of sheets")
-    given = [sheets] if isinstance(sheets, str | os.PathLike) else sheets
-    for path in (path_of("fit_all", one) for one in given):
-        if not path.is_dir() or (path / _SHEET).exists():
-            paths.append(path)
-        elif below := _sheets_below(path):
-            paths += below
-        else:
+    given = [sheets] if isinstance(sheets, str | os.PathLike) else items_of("fit_all", "paths", sheets)
+    laws = _laws(traction, bending, shear, profile)
+    for path in [path_of("fit_all", one) for one in given]:
+        with files("fit_all"):
+            is_sheet = not path.is_dir() or (path / _SHEET).exists()
+            below = [path] if is_sheet else _sheets_below(path)
+        if not below:
             raise UsageError(f"{path} holds no {_SHEET}; name a folder of sheets, or a sheet")
-    found = _drape.fit_all(paths, _laws(traction, bending, shear, profile))
+        paths += below
+    found = _drape.fit_all(paths, laws)
     fits: dict[str, Fit] = {}
     failures: dict[str, Exception] = {}
     for path, result in zip(paths, found):
@@ -501,7 +560,9 @@ def _laws(
     shear: str | None = None,
     profile: bool = False,
 ) -> dict[str, Any]:
-    return {"traction": traction, "bending": bending, "shear": shear, "profile": profile}
+    names = {"traction": traction, "bending": bending, "shear": shear}
+    laws = {test: law if law is None else text_of(f"{test}=", law) for test, law in names.items()}
+    return {**laws, "profile": flag_of("profile", profile)}
 
 
 def frame(page: str, height: int) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import _drape
 from ._fit import Fabric
-from ._given import expect
+from ._given import expect, flag_of, items_of, number_of, text_of, whole_of
 
 
 def drapemeter(
@@ -28,7 +28,11 @@ def drapemeter(
     """
     advice = ("read it first, drape.Fabric.read({})", "give a fabric, of a fit its .fabric")
     expect("drapemeter", Fabric, fabric, advice)
-    settings = {"meter": meter, "starts": starts, "spacing": spacing, "shake": shake}
+    settings = {"meter": text_of("drapemeter(meter=)", meter), "shake": flag_of("shake", shake)}
+    settings["starts"] = whole_of("starts", starts, "a whole number from 2 to 10000", 0, 10_000)
+    settings["spacing"] = None
+    if spacing is not None:
+        settings["spacing"] = number_of("spacing", spacing, "a length above 0, to 1 m", 0, 1, above=True)
     return _drape.drapemeter(fabric._inner, settings)
 
 
@@ -46,4 +50,5 @@ def validate(names: Iterable[str] | None = None) -> list[dict[str, Any]]:
     if isinstance(names, str):
         names = [names]
     chosen = [n for n, is_long in _drape.case_names() if not is_long] if names is None else names
-    return [json.loads(_drape.validate(name)) for name in chosen]
+    wanted = items_of("validate", "a list of names", chosen)
+    return [json.loads(_drape.validate(text_of("validate", name))) for name in wanted]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -12,15 +13,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _drape
-from ._errors import UsageError
+from ._errors import NoFrameError, OutputError, UsageError
 from ._fit import frame
-from ._given import StrPath, expect, path_of, refuse
+from ._given import StrPath, expect, files, number_of, path_of, refuse, shown, text_of
 
 Array = npt.NDArray[np.float64]
 
 
 class Frames(Sequence[Array]):
-    """Frames of a run, each read when it is asked for: positions, (n, 3), in m; read-only."""
+    """Frames of a run, each read when it is asked for: positions, (n, 3), in m; read-only.
+
+    Raises `NoFrameError`, an `IndexError` too, for a frame that there is not, and `OutputError` for
+    one that cannot be read.
+    """
 
     def __init__(self, recording: _drape.Recording) -> None:
         advice = ("drape.open({}).frames are those of a folder", "drape.open(folder).frames has them")
@@ -38,24 +43,41 @@ class Frames(Sequence[Array]):
 
     def __getitem__(self, index: int | slice) -> Array | list[Array]:
         if isinstance(index, slice):
-            return [self._recording.frame(i) for i in range(*index.indices(len(self)))]
-        if not -len(self) <= index < len(self):
-            raise IndexError(f"frame {index} of {len(self)}")
-        return self._recording.frame(index % len(self))
+            try:
+                numbers = range(*index.indices(len(self)))
+            except (TypeError, ValueError) as error:
+                raise refuse("Frames", "a part", index, str(error)) from None
+            return [self._recording.frame(number) for number in numbers]
+        return self._recording.frame(_number(index, len(self)))
 
     def __iter__(self) -> Iterator[Array]:
         return (self[index] for index in range(len(self)))
 
 
+def _number(index: int, count: int) -> int:
+    """Returns the number of a frame, from 0, of so many; those below 0 count from the last."""
+    try:
+        number = operator.index(index)
+    except TypeError:
+        raise refuse("a run", "the number of a frame", index, "give a whole number") from None
+    if not -count <= number < count:
+        raise NoFrameError(f"frame {shown(number)} of {count}")
+    return number % count
+
+
 class Run:
-    """Run of a scene: its summary, and its frames where it has a folder."""
+    """Run of a scene: its summary, and its frames where it has a folder.
+
+    All that it reads raises `OutputError` where the files of the folder cannot be read, and
+    `UsageError` where it has none.
+    """
 
     def __init__(self, summary: dict[str, Any], folder: Path | None) -> None:
         advice = ("drape.open({}) opens a stored run", "Scene.run makes one, drape.open(folder) opens one")
         expect("Run", dict, summary, advice)
         self.summary = summary
         """Summary, as in `summary.json`; empty while another process runs the scene."""
-        self.folder = folder
+        self.folder = None if folder is None else path_of("Run", folder)
         """Folder of the results, if they were stored."""
 
     @cached_property
@@ -95,8 +117,8 @@ class Run:
         return {name: range(start, end) for name, start, end in self._recording.panels()}
 
     def bodies(self, index: int) -> Array:
-        """Returns the vertices of all bodies in a frame, (k, 3), in m."""
-        return self._recording.bodies(index % len(self.frames))
+        """Returns the vertices of all bodies in a frame, (k, 3), in m. Raises `NoFrameError`."""
+        return self._recording.bodies(_number(index, len(self.frames)))
 
     def check(self) -> list[dict[str, Any]]:
         """Verifies every frame with code of its own: intersections, distances, bodies.
@@ -105,6 +127,10 @@ class Run:
         """
         verdicts: list[dict[str, Any]] = json.loads(self._recording.check())
         return verdicts
+
+    def __reduce__(self) -> Any:
+        """Pickles the summary and the folder, without what was read of it."""
+        return Run, (self.summary, self.folder)
 
     def __repr__(self) -> str:
         return f"<drape.Run {str(self.folder) if self.folder else 'without a folder'}: {self.status}>"
@@ -116,12 +142,14 @@ class View:
     def __init__(self, html: str) -> None:
         if not isinstance(html, str) or "<" not in html:
             raise refuse("View", "a page", html, "drape.view(run) makes one of runs or their folders")
-        self.html = html
+        self.html = text_of("View", html)
         """The page, which needs nothing else."""
 
     def save(self, path: StrPath) -> None:
-        """Writes the page."""
-        Path(path).write_text(self.html, encoding="utf-8")
+        """Writes the page. Raises `OutputError`."""
+        path = path_of("View.save", path)
+        with files("View.save"):
+            path.write_text(self.html, encoding="utf-8")
 
     def _repr_html_(self) -> str:
         return frame(self.html, 640)
@@ -131,14 +159,25 @@ def open(folder: StrPath) -> Run:
     """Opens a stored run, of this package or of `drape run`. Raises `OutputError`."""
     folder = path_of("open", folder)
     path = folder / "summary.json"
-    summary = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    try:
+        with files("open"):
+            summary = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    except (ValueError, RecursionError) as error:
+        raise OutputError(f"{path} is no JSON: {error}") from None
+    if not isinstance(summary, dict):
+        raise OutputError(f"{path} is no summary; run the scene anew with replace=True")
     run = Run(summary, folder)
     run._recording  # noqa: B018 - opens the folder, and fails where it holds no run
     return run
 
 
 def view(*runs: Run | StrPath, megabytes: float | None = None) -> View:
-    """Returns runs side by side as a page, of at most so many megabytes (20)."""
+    """Returns runs side by side as a page, of at most so many megabytes (20).
+
+    Raises `UsageError`, and `OutputError` for runs that cannot be read.
+    """
+    if megabytes is not None:
+        megabytes = number_of("megabytes", megabytes, "a number above 0, to 1e4", 0, 1e4, above=True)
     folders = [run.folder if isinstance(run, Run) else path_of("view", run) for run in runs]
     if not folders or None in folders:
         raise UsageError("view() shows stored runs; give them a folder: scene.run(output=...)")

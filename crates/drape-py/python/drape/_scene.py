@@ -13,7 +13,19 @@ import numpy.typing as npt
 
 from . import _drape
 from ._errors import UsageError
-from ._given import StrPath, expect, path_of, refuse
+from ._given import (
+    LATEST,
+    StrPath,
+    array_of,
+    expect,
+    flag_of,
+    number_of,
+    path_of,
+    paths_of,
+    refuse,
+    text_of,
+    threads_of,
+)
 from ._run import Run
 
 Array = npt.NDArray[np.float64]
@@ -68,8 +80,16 @@ class Step:
     """Warnings about what happened in the step."""
 
 
+# Words of numbers that are refused.
+_DURATION = f"a time above 0 s, to {LATEST:g} s"
+
+
 class Scene:
-    """Scene that was read and checked; `SceneBuilder` makes one without a file."""
+    """Scene that was read and checked; `SceneBuilder` makes one without a file.
+
+    It can be pickled: with its text or its keys and with what a builder gave it, but without the
+    files that it names, which are read again from where they were.
+    """
 
     def __init__(self, inner: _drape.Scene) -> None:
         advice = (
@@ -86,14 +106,19 @@ class Scene:
         `allow` are files or folders that the scene may name beside those in its own folder and in
         the working folder. Raises `InputError` with all mistakes.
         """
-        return Scene(_drape.Scene.read(path_of("Scene.read", path), [Path(p) for p in allow]))
+        allowed = paths_of("Scene.read(allow=)", allow)
+        return Scene(_drape.Scene.read(path_of("Scene.read", path), allowed))
 
     @staticmethod
     def from_toml(text: str, folder: StrPath = ".", *, allow: Iterable[StrPath] = ()) -> Scene:
         """Makes a scene of a text; its relative paths are seen from a folder. Raises `InputError`."""
         if not isinstance(text, str):
             raise refuse("Scene.from_toml", "a text", text, "drape.Scene.read(path) reads a file")
-        return Scene(_drape.Scene.from_toml(text, Path(folder), [Path(p) for p in allow]))
+        text = text_of("Scene.from_toml", text)
+        allowed = paths_of("Scene.from_toml(allow=)", allow)
+        path = path_of("Scene.from_toml(folder=)", folder) / "<text>"
+        place = {"path": path, "allow": allowed, "has_file": False}
+        return Scene(_drape.Scene.from_toml(text, place))
 
     @property
     def name(self) -> str:
@@ -140,14 +165,23 @@ class Scene:
         that called this. `replace` lets it replace earlier results; `checkpoint_every` is in s;
         `state_hash` hashes the state after each step; `max_wall` ends the run after so many seconds.
 
-        A run that ends badly has a summary that says so. Raises `UsageError`, `SolverError` and
-        `OutputError`.
+        A run that ends badly has a summary that says so. Raises `UsageError`, `SolverError`,
+        `OutputError`, `InputError` where files that the scene names have changed, and what a
+        callback raises.
         """
-        settings = _settings(output, until, threads, replace)
-        settings |= {"checkpoint_every": checkpoint_every, "state_hash": state_hash}
-        settings |= {"max_wall": max_wall} | _callbacks(progress, on_frame)
-        summary = json.loads(self._inner.run(settings))
-        return Run(summary, None if output is None else Path(output))
+        folder = None if output is None else path_of("Scene.run(output=)", output)
+        settings = _settings(threads, max_wall, progress, on_frame)
+        settings |= {"output": folder, "replace": flag_of("replace", replace)}
+        settings["state_hash"] = flag_of("state_hash", state_hash)
+        seconds = "a time from 0 to 1e9 s"
+        settings["checkpoint_every"] = number_of("checkpoint_every", checkpoint_every, seconds, 0, 1e9)
+        if until is not None:
+            settings["until"] = number_of("until", until, _DURATION, 0, LATEST, above=True)
+        return Run(json.loads(self._inner.run(settings)), folder)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Scene:
+        """Returns the scene itself, which nothing changes."""
+        return self
 
     def __repr__(self) -> str:
         return f"<drape.Scene {self.name!r}: {self.particles} particles>"
@@ -168,15 +202,17 @@ def resume(
 
     A run goes on where it was begun: the command cannot go on with a run of this package, nor this
     package with one of the command. `scene` is needed for a run of `Scene.from_toml`. Raises as
-    `Scene.run`, and `InputError` for a scene that has changed.
+    `Scene.run`, `UsageError` for an `extend` that is no time above 0, to 1e5 s, and `InputError` for
+    a scene that has changed.
     """
     if isinstance(run, Run):
         if run.folder is None:
             raise UsageError("the run stored nothing; give it a folder: scene.run(output=...)")
         run = run.folder
     folder = path_of("resume", run)
-    settings = _settings(None, None, threads, True)
-    settings |= {"extend": extend, "max_wall": max_wall} | _callbacks(progress, on_frame)
+    settings = _settings(threads, max_wall, progress, on_frame)
+    if extend is not None:
+        settings["extend"] = number_of("extend", extend, _DURATION, 0, LATEST, above=True)
     if scene is not None:
         advice = ("read it first, drape.Scene.read({})", "drape.Scene.read(path) reads one")
         expect("resume(scene=)", Scene, scene, advice)
@@ -185,36 +221,35 @@ def resume(
 
 
 def _triple(key: str, value: npt.ArrayLike | None) -> list[float]:
-    numbers = np.zeros(3) if value is None else np.asarray(value, dtype=np.float64)
-    if numbers.shape != (3,):
-        raise UsageError(f"{key} of shape {numbers.shape}: give 3 numbers")
+    numbers = np.zeros(3) if value is None else array_of(f"move_body({key}=)", value)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise UsageError(f"{key} of shape {numbers.shape}: give 3 finite numbers")
     return [float(number) for number in numbers]
 
 
 def _settings(
-    output: StrPath | None, until: float | None, threads: int | None, replace: bool
+    threads: int | None,
+    max_wall: float | None,
+    progress: Callable[[Progress], object] | None,
+    on_frame: Callable[[Frame], object] | None,
 ) -> dict[str, Any]:
+    for name, callback in (("progress", progress), ("on_frame", on_frame)):
+        if callback is not None and not callable(callback):
+            raise refuse(f"{name}=", "a function", callback, "give one of one argument")
+    if max_wall is not None:
+        max_wall = number_of("max_wall", max_wall, "a time above 0 s, to 1e9 s", 0, 1e9, above=True)
     return {
-        "output": None if output is None else Path(output),
-        "until": until,
-        "threads": threads,
-        "replace": replace,
+        "output": None,
+        "until": None,
+        "threads": threads_of(threads),
+        "replace": True,
         "checkpoint_every": 60.0,
         "state_hash": False,
-        "max_wall": None,
+        "max_wall": max_wall,
         "extend": None,
         "program": Path(_drape.__file__),
-        "progress": None,
-        "on_frame": None,
-    }
-
-
-def _callbacks(
-    progress: Callable[[Progress], object] | None, on_frame: Callable[[Frame], object] | None
-) -> dict[str, Any]:
-    return {
-        "progress": progress and (lambda *fields: progress(Progress(*fields))),
-        "on_frame": on_frame and (lambda *fields: on_frame(Frame(*fields))),
+        "progress": None if progress is None else lambda *fields: progress(Progress(*fields)),
+        "on_frame": None if on_frame is None else lambda *fields: on_frame(Frame(*fields)),
     }
 
 
@@ -223,7 +258,10 @@ class Simulation:
 
     Positions and velocities are copies, made once after each step when they are asked for: a step
     writes to its own memory without the lock of the interpreter, and a view of that could be read
-    while it changes. An array that was given out never changes.
+    while it changes. An array that was given out never changes, and is read-only.
+
+    One thread uses a simulation at a time; another one gets a `UsageError`. In a child of a fork it
+    goes on from where it was, apart from that of the parent. It cannot be pickled: its scene can.
     """
 
     def __init__(self, scene: Scene, *, threads: int | None = None) -> None:
@@ -233,7 +271,7 @@ class Simulation:
             "drape.Scene.read(path) reads one, drape.SceneBuilder(...).scene() makes one",
         )
         expect("Simulation", Scene, scene, advice)
-        self._inner = _drape.Simulation(scene._inner, threads)
+        self._inner = _drape.Simulation(scene._inner, threads_of(threads))
         self.panels: dict[str, range] = scene.panels
         """Particles of each panel, by its name."""
         self.triangles: npt.NDArray[np.uint32] = self._inner.triangles()
@@ -254,7 +292,7 @@ class Simulation:
         shape or without an end.
         """
         if forces is not None or self._pushed:
-            pushed = np.zeros((0, 3)) if forces is None else np.asarray(forces, dtype=np.float64)
+            pushed = np.zeros((0, 3)) if forces is None else array_of("step(forces=)", forces)
             n = len(self.coordinates)
             if forces is not None and pushed.shape != (n, 3):
                 raise UsageError(f"forces of shape {pushed.shape}: give ({n}, 3), in N")
@@ -266,7 +304,7 @@ class Simulation:
     @property
     def next_step(self) -> float:
         """Length of the next step, in s, unless `time.error` makes it shorter."""
-        return self._inner.next_step()
+        return float(self._inner.next_step())
 
     @property
     def bodies(self) -> dict[str, tuple[Array, npt.NDArray[np.uint32]]]:
@@ -292,21 +330,26 @@ class Simulation:
         `UsageError` for a body that there is not, another shape, and a speed at which contact does
         not keep the fabrics apart.
         """
+        name = text_of("move_body", name)
         if (vertices is None) == (shift is None and turn is None):
             raise UsageError("move_body: give either vertices, or shift and turn")
         target = None
         if vertices is not None:
-            target = np.asarray(vertices, dtype=np.float64)
+            target = array_of("move_body(vertices=)", vertices)
             if target.ndim != 2 or target.shape[1] != 3:
                 raise UsageError(f"vertices of shape {target.shape}: give (k, 3), in m")
-        rigid = {
+            if not np.isfinite(target).all():
+                raise UsageError("vertices that are not finite: give (k, 3), in m")
+        within = self.next_step
+        if seconds is not None:
+            within = number_of("seconds", seconds, _DURATION, 0, LATEST, above=True)
+        motion = {
             "shift": _triple("shift", shift),
             "turn": _triple("turn", turn),
             "center": None if center is None else _triple("center", center),
+            "seconds": within,
         }
-        within = self.next_step if seconds is None else seconds
-        flat = None if target is None else target.ravel()
-        self._inner.lead_body(name, flat, rigid, within)
+        self._inner.lead_body(name, None if target is None else target.ravel(), motion)
 
     @property
     def time(self) -> float:
@@ -347,3 +390,6 @@ class Simulation:
     def state_hash(self) -> str:
         """Returns the hash of positions, velocities and memories to the last bit."""
         return self._inner.state_hash()
+
+    def __reduce__(self) -> Any:
+        raise UsageError("a simulation cannot be pickled or copied; pickle its scene, and simulate it there")

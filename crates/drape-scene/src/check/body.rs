@@ -3,15 +3,16 @@
 pub(crate) mod mesh_remedy;
 mod shape_files;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use drape_collide::{Body, Mesh, Pose, Shape};
-use drape_input::{Remedy, figure};
+use drape_input::{Remedy, excerpt, figure};
 
 use crate::check::checker::Checker;
 use crate::check::motion::rigid_motion;
 use crate::scene::motion::{BodyMotion, rotate, rotate_pose};
-use crate::spec::body::{CommonKeys, CylinderSpec, MeshSpec};
+use crate::spec::body::{BoxSpec, CommonKeys, CylinderSpec, MeshSpec, PlaneSpec, SphereSpec};
 use crate::spec::file_or::FileOr;
 
 use self::mesh_remedy::{is_repaired, repaired_file};
@@ -72,6 +73,7 @@ struct Entry<'a> {
 
 /// Checks the bodies of a scene.
 pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
+    check_names(checker);
     let colliders = &checker.spec.collider;
     let mut bodies = Vec::new();
     for (index, sphere) in colliders.sphere.iter().enumerate() {
@@ -117,6 +119,37 @@ pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
     bodies
 }
 
+/// Returns the name of a body: the one in the file, or its kind and number.
+fn body_name(kind: &str, index: usize, given: Option<&str>) -> String {
+    given.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
+}
+
+/// Checks that no two bodies have one name.
+fn check_names(checker: &mut Checker<'_>) {
+    let colliders = &checker.spec.collider;
+    let spheres = colliders.sphere.iter().map(SphereSpec::common).enumerate();
+    let boxes = colliders.boxes.iter().map(BoxSpec::common).enumerate();
+    let cylinders = colliders.cylinder.iter().map(CylinderSpec::common).enumerate();
+    let planes = colliders.plane.iter().map(PlaneSpec::common).enumerate();
+    let meshes = colliders.mesh.iter().map(MeshSpec::common).enumerate();
+    let all = (spheres.map(|entry| ("sphere", entry)))
+        .chain(boxes.map(|entry| ("box", entry)))
+        .chain(cylinders.map(|entry| ("cylinder", entry)))
+        .chain(planes.map(|entry| ("plane", entry)))
+        .chain(meshes.map(|entry| ("mesh", entry)));
+
+    let mut known = BTreeSet::new();
+    for (kind, (index, common)) in all {
+        let name = body_name(kind, index, common.name);
+        if known.contains(&name) {
+            let key = format!("collider.{kind}[{index}].name");
+            let message = format!("there are two bodies \"{}\"", excerpt(&name));
+            checker.fail(&key, message, "give each its own name");
+        }
+        known.insert(name);
+    }
+}
+
 /// Checks that the `edge_radius` of a body, whose table has the key path `key`, is at most `most`,
 /// in m.
 fn check_edge_radius(checker: &mut Checker<'_>, key: &str, edge_radius: f64, most: f64) {
@@ -141,7 +174,7 @@ fn check_common(checker: &mut Checker<'_>, key: &str, common: &CommonKeys<'_>) {
 fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> CheckedBody {
     let Entry { kind, index, common } = entry;
     check_common(checker, &format!("collider.{kind}[{index}]"), common);
-    let name = common.name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned);
+    let name = body_name(kind, *index, common.name);
     let center = common.center;
     let key = format!("collider.{kind}[{index}].motion");
     let motion = common.motion.and_then(|motion| rigid_motion(checker, &key, motion, center));
@@ -305,7 +338,7 @@ fn changing_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshSpec) -> Op
     match read_shapes(file, checker, Sampling { rate, start }, place) {
         Ok(shapes) => {
             check_size(checker, index, longest(&shapes.mesh));
-            let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);
+            let name = body_name("mesh", index, common.name);
             let body = Body::new(name, Shape::Mesh(shapes.mesh), Pose::default());
             let motion = Some(BodyMotion::Shapes(shapes.motion));
             let file = MeshFile::new(checker, file);

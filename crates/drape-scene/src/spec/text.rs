@@ -202,10 +202,11 @@ impl SceneSpec {
     /// [`Scene::read`](crate::Scene::read) reads an equal scene from there: the positions of meshes
     /// and of their motions have the same bits.
     ///
-    /// Files that the spec names are named relative to its old folder; they are not copied.
+    /// Files that the spec names are named relative to its old folder; they are not copied. Frames
+    /// of a body with which an earlier spec was saved are removed from `folder`.
     ///
     /// # Errors
-    /// [`SaveError::File`] if a file cannot be written.
+    /// [`SaveError::File`] if a file cannot be written or removed.
     pub fn save(&self, folder: impl AsRef<Path>) -> Result<(), SaveError> {
         let folder = folder.as_ref();
         let mut spec = self.in_metres();
@@ -236,6 +237,8 @@ impl SceneSpec {
             write(&name, &outline.to_obj())?;
             mesh.file = name.into();
             if let Some(MeshMotion::Frames(frames)) = &mesh.motion {
+                remove_frames(folder, number + 1)
+                    .map_err(|source| SaveError::File { path: folder.to_owned(), source })?;
                 for (frame, vertices) in frames.iter().enumerate() {
                     let name = format!("body-{}-frame-{frame:05}.obj", number + 1);
                     let triangles = outline.triangles.clone();
@@ -313,6 +316,22 @@ impl SceneSpec {
             .and_then(|value| toml::to_string(&value).ok())
             .unwrap_or_default()
     }
+}
+
+/// Removes the frames of the body with the `number` from `folder`, which would be read as frames of
+/// the one that is saved.
+fn remove_frames(folder: &Path, number: usize) -> std::io::Result<()> {
+    let before = format!("body-{number}-frame-");
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let frame = name.strip_prefix(&before).and_then(|rest| rest.strip_suffix(".obj"));
+        if frame.is_some_and(|frame| frame.parse::<u64>().is_ok()) {
+            std::fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 /// Returns the path of the file `name`, which is seen from `folder`, from the root of the file
