@@ -121,7 +121,19 @@ pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
             ),
         ),
         Error::Frames(error) => of_frames(error),
+        Error::Checkpoint(error) => of_checkpoint(error),
         Error::Unsuited { reason } => failure(Kind::Usage, reason),
+        error => failure(Kind::Solver, error),
+    }
+}
+
+/// Returns the exception of a checkpoint that cannot be written or read.
+fn of_checkpoint(error: drape::checkpoint::Error) -> PyErr {
+    use drape::checkpoint::Error;
+    match error {
+        Error::Write { .. } | Error::Read { .. } | Error::Irregular { .. } => {
+            failure(Kind::Output, error)
+        }
         error => failure(Kind::Solver, error),
     }
 }
@@ -133,8 +145,12 @@ pub(crate) fn of_run(error: drape::run::Error) -> PyErr {
         Error::Input(mistakes) => return input(&mistakes),
         Error::Dynamics(error) => return of_dynamics(error),
         Error::Frames(error) => return of_frames(error),
-        Error::File(_) | Error::Folder { .. } | Error::LastFrame { .. } => {
+        Error::File(_) | Error::Folder { .. } | Error::LastFrame { .. } | Error::Space { .. } => {
             return failure(Kind::Output, error);
+        }
+        Error::Damaged { path, reason } => {
+            let help = "the file is not as it was written: restore it, or run the scene anew with replace=True";
+            return mistake(Diagnostic::new(path, reason).help(help));
         }
         Error::Locked { folder } => format!(
             "another run is writing to {}; wait for its end, or give another folder",

@@ -28,7 +28,7 @@ const NEAR_REST: f64 = 2.0;
 
 /// Sampling of the energy balance in a relaxation, whose steps are few and long: a run of twenty
 /// steps has samples too.
-const ENERGY_SAMPLING: u64 = 8;
+const ENERGY_SAMPLING: u64 = 12;
 
 /// Accuracy of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
