@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use crate::readers;
 
 /// Exit codes that the help lists.
-const CODES: [i32; 8] = [0, 2, 3, 4, 5, 6, 7, 8];
+pub const CODES: [i32; 8] = [0, 2, 3, 4, 5, 6, 7, 8];
 
 const TIME_MAX: Duration = Duration::from_secs(10);
 

@@ -3,6 +3,8 @@
 //!
 //! A sample runs by default; `FAULTS=full cargo test --release --test faults` runs all of them.
 
+#[cfg(target_os = "linux")]
+mod command;
 mod files;
 mod guard;
 #[cfg(target_os = "linux")]
