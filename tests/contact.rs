@@ -3,6 +3,8 @@
 
 #![allow(clippy::print_stdout, reason = "studies print their figures")]
 
+#[path = "contact/hard.rs"]
+mod hard;
 #[path = "contact/impacts.rs"]
 mod impacts;
 #[path = "contact/soak.rs"]

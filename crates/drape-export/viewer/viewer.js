@@ -564,6 +564,13 @@ async function start() {
   times = [...new Set(runs.flatMap((run) => run.frames.map((frame) => frame.time)))].sort((a, b) => a - b);
   element('title').textContent = runs.map((run) => run.name).join(' | ');
   element('note').textContent = runs.map((run) => run.note).join(' | ');
+  for (const run of runs) {
+    for (const warning of run.warnings) {
+      const item = document.createElement('li');
+      item.textContent = runs.length > 1 ? `${run.name}: ${warning}` : warning;
+      element('warnings').append(item);
+    }
+  }
   element('scrub').max = times.length - 1;
   option(element('field'), '', 'fabric');
   const seen = new Set();

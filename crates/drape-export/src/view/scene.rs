@@ -233,7 +233,7 @@ fn meta(
     let summary = run.recording.folder().map(|folder| folder.join("summary.json"));
     let summary = summary.filter(|path| path.is_file());
     let summary = summary.and_then(|path| std::fs::read_to_string(path).ok());
-    let summary = summary.and_then(|text| serde_json::from_str(&text).ok());
+    let summary = summary.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(Value::Null);
     Ok(json!({
         "name": run.name,
         "note": note(run.recording, frames, &content.bounds),
@@ -244,9 +244,22 @@ fn meta(
         "bodies": bodies,
         "frames": frame_entries,
         "fields": fields.iter().map(|shown| field_entry(shown, frames.len())).collect::<Vec<_>>(),
-        "measures": tables(&summary.unwrap_or(Value::Null)),
+        "measures": tables(&summary),
+        "warnings": warnings(&summary),
         "energy": energy,
     }))
+}
+
+/// Returns what a reader of the results must know, from the `summary` of the run: a status that is
+/// not `ok`, with its reason, and the warnings.
+fn warnings(summary: &Value) -> Vec<String> {
+    let status = summary["status"].as_str().filter(|status| *status != "ok");
+    let end = status.map(|status| match summary["reason"].as_str() {
+        Some(reason) => format!("the run ended with the status \"{status}\": {reason}"),
+        None => format!("the run ended with the status \"{status}\""),
+    });
+    let warnings = summary["warnings"].as_array().into_iter().flatten();
+    end.into_iter().chain(warnings.filter_map(|text| text.as_str().map(str::to_owned))).collect()
 }
 
 /// Returns how many frames are shown, and how exactly.
@@ -265,6 +278,16 @@ fn note(recording: &Recording, frames: &[&Frame], bounds: &Bounds) -> String {
 mod tests {
     use super::*;
     use crate::example;
+
+    #[test]
+    fn a_page_tells_how_a_run_ended_if_it_did_not_end_well() {
+        let told = |summary: Value| warnings(&summary);
+        assert!(told(json!({ "status": "ok", "warnings": [] })).is_empty());
+        assert!(told(Value::Null).is_empty());
+        let end = json!({ "status": "seams open", "reason": "side is open", "warnings": ["thin"] });
+        let words = ["the run ended with the status \"seams open\": side is open", "thin"];
+        assert_eq!(told(end), words);
+    }
 
     #[test]
     fn bodies_have_a_new_state_where_they_have_moved() {
