@@ -48,6 +48,21 @@ fn a_stray_cell_in_the_last_row_and_column_takes_nothing_away() {
 }
 
 #[test]
+fn rows_that_end_far_to_the_right_count_in_all_sheets_of_a_workbook() {
+    // Each sheet alone is below the limit: 200 rows of up to 16384 cells.
+    let mut wide = sheets(&[("Results", RESULTS), ("Second", RESULTS)]);
+    for index in 0..2 {
+        let sheet = wide.worksheet_from_index(index).expect("a sheet");
+        for row in 10..210 {
+            sheet.write(row, 16_383, "stray").expect("written");
+        }
+    }
+    let bytes = wide.save_to_buffer().expect("a workbook");
+    let error = SheetDraft::from_bytes("results.xlsx", &bytes).expect_err("too many");
+    assert!(error.to_string().contains("\"Second\": it has more than 4000000 cells"), "{error}");
+}
+
+#[test]
 fn a_workbook_that_unpacks_to_too_much_is_refused() {
     use std::io::Write;
 

@@ -4,6 +4,8 @@ mod chain;
 pub(crate) mod partition;
 pub(crate) mod seam;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::ease::MAX_EASE;
 use crate::edge::{Edge, distance};
 use crate::mistake::Mistake;
@@ -33,6 +35,9 @@ pub struct Pattern {
     notes: Vec<PatternNote>,
 }
 
+/// Edges that are sewn, each with the name of the first seam that names it.
+type SewnEdges<'a> = BTreeMap<EdgeId, &'a str>;
+
 impl Pattern {
     /// Returns a pattern of `panels` and `seams`, with a seam for each dart whose legs no seam
     /// names.
@@ -44,13 +49,15 @@ impl Pattern {
         pattern.sew_darts();
         let mut mistakes = Vec::new();
 
-        for (index, panel) in pattern.panels.iter().enumerate() {
-            if pattern.panels[..index].iter().any(|p| p.name() == panel.name()) {
+        let mut names = BTreeSet::new();
+        for panel in &pattern.panels {
+            if !names.insert(panel.name()) {
                 mistakes.push(Mistake::SamePanel { panel: panel.name().into() });
             }
         }
-        for index in 0..pattern.seams.len() {
-            mistakes.extend(pattern.mistakes(index));
+        let mut sewn = SewnEdges::new();
+        for seam in &pattern.seams {
+            mistakes.extend(pattern.mistakes(seam, &mut sewn));
         }
         if !mistakes.is_empty() {
             return Err(mistakes);
@@ -134,6 +141,8 @@ impl Pattern {
 
     /// Adds a seam for each dart whose legs no seam names.
     fn sew_darts(&mut self) {
+        let ids = self.seams.iter().flat_map(|seam| seam.sides.iter().flatten());
+        let mut sewn: BTreeSet<EdgeId> = ids.copied().collect();
         for (number, panel) in self.panels.iter().enumerate() {
             for dart in panel.darts() {
                 let [Some(left), Some(right)] =
@@ -141,10 +150,10 @@ impl Pattern {
                 else {
                     continue;
                 };
-                let mut sewn = self.seams.iter().flat_map(|seam| seam.sides.iter().flatten());
-                if sewn.any(|id| left.contains(id) || right.contains(id)) {
+                if left.iter().chain(&right).any(|id| sewn.contains(id)) {
                     continue;
                 }
+                sewn.extend(left.iter().chain(&right));
                 let name = format!("{}.{}", panel.name(), dart.name);
                 self.seams.push(Seam::for_dart(name, [left, right]));
             }
@@ -161,13 +170,23 @@ impl Pattern {
             })
     }
 
-    /// Returns the mistakes of the seam with the number `index`.
-    fn mistakes(&self, index: usize) -> Vec<Mistake> {
-        let seam = &self.seams[index];
+    /// Returns the mistakes of `seam`, and adds its edges to `sewn`, the edges of the seams before
+    /// it.
+    fn mistakes<'a>(&'a self, seam: &'a Seam, sewn: &mut SewnEdges<'a>) -> Vec<Mistake> {
+        let mistakes = self.mistakes_of_sides(seam);
+        if mistakes.is_empty() {
+            return self.mistakes_of_edges(seam, sewn);
+        }
+        for &id in seam.sides.iter().flatten() {
+            sewn.entry(id).or_insert(&seam.name);
+        }
+        mistakes
+    }
+
+    /// Returns the mistakes of `seam` that leave its edges unknown.
+    fn mistakes_of_sides(&self, seam: &Seam) -> Vec<Mistake> {
         let name = || seam.name.clone();
         let mut mistakes = Vec::new();
-
-        // The checks below need edges that exist.
         if !(1.0..=MAX_EASE).contains(&seam.max_ease) {
             mistakes.push(Mistake::MaxEase { seam: name(), max_ease: seam.max_ease });
         }
@@ -180,17 +199,16 @@ impl Pattern {
         if seam.sides.iter().any(Vec::is_empty) {
             mistakes.push(Mistake::EmptySide { seam: name() });
         }
-        if !mistakes.is_empty() {
-            return mistakes;
-        }
+        mistakes
+    }
 
-        // An edge takes part in one seam, once.
-        let mut sewn: Vec<(EdgeId, &str)> = Vec::new();
-        for earlier in &self.seams[..index] {
-            sewn.extend(earlier.sides.iter().flatten().map(|&id| (id, earlier.name.as_str())));
-        }
+    /// Returns the mistakes of `seam`, whose edges exist, and adds its edges to `sewn`, the edges
+    /// of the seams before it. An edge takes part in one seam, once.
+    fn mistakes_of_edges<'a>(&'a self, seam: &'a Seam, sewn: &mut SewnEdges<'a>) -> Vec<Mistake> {
+        let name = || seam.name.clone();
+        let mut mistakes = Vec::new();
         for &id in seam.sides.iter().flatten() {
-            if let Some((_, first)) = sewn.iter().find(|(earlier, _)| *earlier == id) {
+            if let Some(first) = sewn.get(&id) {
                 mistakes.push(Mistake::SewnTwice {
                     panel: self.panels[id.panel].name().into(),
                     edge: self.edge(id).name.clone(),
@@ -205,7 +223,7 @@ impl Pattern {
                     seam: name(),
                 });
             }
-            sewn.push((id, &seam.name));
+            sewn.entry(id).or_insert(&seam.name);
         }
 
         mistakes.extend(self.ease_mistake(seam));

@@ -251,6 +251,16 @@ impl Scene {
         of_garment.map(|(number, _)| number).collect()
     }
 
+    /// Returns the triangles of `panel`, as particle numbers. The triangles of a cloth are in the
+    /// order of its panels.
+    pub(crate) fn triangles_of(&self, panel: &Panel) -> &[[u32; 3]] {
+        let triangles = self.cloth.triangles();
+        let particles = panel.particles();
+        let [start, end] = [particles.start, particles.end]
+            .map(|first| triangles.partition_point(|triangle| (triangle[0] as usize) < first));
+        &triangles[start..end]
+    }
+
     /// Returns the contact of the particles with the bodies at the start.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Builder of the connectors of seams from the triangles beside them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Dahl, Fabric, Piecewise};
 
@@ -124,6 +124,7 @@ impl SeamBuilder {
     ) -> Result<(), SeamProblem> {
         self.check(seam)?;
         // Triangles on both sides of each segment, `None` where nothing bends.
+        let breaks: BTreeSet<usize> = seam.breaks.iter().copied().collect();
         let mut ties = seam.ties.iter().peekable();
         let mut segments = Vec::new();
         for (pair, ends) in seam.pairs.windows(2).enumerate() {
@@ -139,7 +140,7 @@ impl SeamBuilder {
             // Over the mouth of a dart one side has one particle at both pairs, and the other
             // jumps. Where darts meet, and between edges that are apart, both sides jump.
             let stays = [0, 1].iter().any(|&side| ends[0][side] == ends[1][side]);
-            let is_broken = stays || seam.breaks.contains(&pair);
+            let is_broken = stays || breaks.contains(&pair);
             segments.push(if is_broken {
                 None
             } else {

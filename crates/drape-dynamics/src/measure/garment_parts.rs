@@ -133,8 +133,8 @@ impl GarmentParts {
 
     /// Returns the name of the panel of `particle`, or an empty name.
     pub(crate) fn panel_of(&self, particle: usize) -> &str {
-        let mut panels = self.panels.iter();
-        panels.find(|panel| panel.particles.contains(&particle)).map_or("", |panel| &panel.name)
+        let number = self.panels.partition_point(|panel| panel.particles.end <= particle);
+        self.panels.get(number).map_or("", |panel| &panel.name)
     }
 }
 

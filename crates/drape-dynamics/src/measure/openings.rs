@@ -1,6 +1,8 @@
 //! Openings of garments, such as a waist or a hem: their lengths, their ease and the number of
 //! their folds.
 
+use std::collections::BTreeMap;
+
 use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 use drape_collide::{Shape, equivalence_classes};
 use serde_json::{Value, json};
@@ -65,20 +67,33 @@ pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
 /// folds, in which the curve is deeper than [`HOLLOW`] inside its convex hull.
 fn folds(ring: &[[f64; 2]]) -> usize {
     let hull = convex_hull(ring.to_vec());
-    let is_hollow: Vec<bool> = ring.iter().map(|&point| depth(point, &hull) > HOLLOW).collect();
+    // A side near one point is often the side near the next.
+    let mut near = 0;
+    let is_hollow: Vec<bool> = ring
+        .iter()
+        .map(|&point| match shallow_side(point, &hull, near) {
+            Some(side) => {
+                near = side;
+                false
+            }
+            None => true,
+        })
+        .collect();
     let previous = is_hollow.iter().cycle().skip(is_hollow.len().saturating_sub(1));
     is_hollow.iter().zip(previous).filter(|(current, previous)| **current && !**previous).count()
 }
 
-/// Returns the distance of a point inside the convex `hull` to its nearest side, in m.
-fn depth([x, y]: [f64; 2], hull: &[[f64; 2]]) -> f64 {
-    let sides = hull.iter().zip(hull.iter().cycle().skip(1));
-    let distances = sides.map(|([ax, ay], [bx, by])| {
+/// Returns the number of a side of the convex `hull` from which a point inside the hull is at most
+/// [`HOLLOW`] away, or `None` if the point is deeper. The search begins at the side `near`.
+fn shallow_side([x, y]: [f64; 2], hull: &[[f64; 2]], near: usize) -> Option<usize> {
+    let is_shallow = |side: usize| {
+        let ([ax, ay], [bx, by]) = (hull[side], hull[(side + 1) % hull.len()]);
         let (u, v) = (bx - ax, by - ay);
         // The hull runs anticlockwise, so its inside is on the left.
-        (u * (y - ay) - v * (x - ax)) / u.hypot(v)
-    });
-    distances.fold(f64::INFINITY, f64::min)
+        (u * (y - ay) - v * (x - ax)) / u.hypot(v) <= HOLLOW
+    };
+    let sides = (near..hull.len()).chain(0..near.min(hull.len()));
+    sides.into_iter().find(|&side| is_shallow(side))
 }
 
 /// Returns the closed rows of free edges of `parts`.
@@ -86,10 +101,9 @@ fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
     let classes = equivalence_classes(world.cloth.particle_count(), &parts.seams.pairs)
         .expect("pairs name particles");
     let coordinates = world.cloth.coordinates();
-    let mut remaining: Vec<&FreeEdge> = parts.free_edges.iter().collect();
+    let mut edges = RemainingEdges::new(&parts.free_edges, &classes);
     let mut openings = Vec::new();
-    while !remaining.is_empty() {
-        let first = remaining.remove(0);
+    while let Some(first) = edges.take_first() {
         let [start, mut end] = ends(first, &classes);
         let mut opening = Opening {
             edges: vec![first.name.clone()],
@@ -99,10 +113,8 @@ fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
 
         // Edges are appended, reversed where necessary, until the row is closed.
         while end != start
-            && let Some(next) =
-                remaining.iter().position(|edge| ends(edge, &classes).contains(&end))
+            && let Some(edge) = edges.take_at(end)
         {
-            let edge = remaining.remove(next);
             let [edge_start, edge_end] = ends(edge, &classes);
             let is_forward = edge_start == end;
             end = if is_forward { edge_end } else { edge_start };
@@ -121,6 +133,53 @@ fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
         }
     }
     openings
+}
+
+/// Free edges that belong to no opening yet.
+struct RemainingEdges<'a> {
+    edges: &'a [FreeEdge],
+    is_taken: Vec<bool>,
+    /// Number of the first edge that may remain.
+    first: usize,
+    /// Numbers of the edges at each class of particles, the last edge first.
+    at_class: BTreeMap<u32, Vec<usize>>,
+}
+
+impl<'a> RemainingEdges<'a> {
+    /// Returns all `edges`, whose particles have `classes`.
+    fn new(edges: &'a [FreeEdge], classes: &[u32]) -> Self {
+        let mut at_class: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (number, edge) in edges.iter().enumerate().rev() {
+            for end in ends(edge, classes) {
+                at_class.entry(end).or_default().push(number);
+            }
+        }
+        Self { edges, is_taken: vec![false; edges.len()], first: 0, at_class }
+    }
+
+    /// Takes the first edge that remains.
+    fn take_first(&mut self) -> Option<&'a FreeEdge> {
+        while *self.is_taken.get(self.first)? {
+            self.first += 1;
+        }
+        self.take(self.first)
+    }
+
+    /// Takes the first edge that remains and has an end in `class`.
+    fn take_at(&mut self, class: u32) -> Option<&'a FreeEdge> {
+        loop {
+            let number = self.at_class.get_mut(&class)?.pop()?;
+            if !self.is_taken[number] {
+                return self.take(number);
+            }
+        }
+    }
+
+    /// Takes the edge with a `number`.
+    fn take(&mut self, number: usize) -> Option<&'a FreeEdge> {
+        self.is_taken[number] = true;
+        self.edges.get(number)
+    }
 }
 
 /// Returns the first and the last particle of `edge`, each as the class of `classes` that it is

@@ -135,8 +135,8 @@ pub(crate) fn extrapolated(parts: &GarmentParts, world: &World) -> Vec<String> {
     for ranges in &parts.materials {
         let of_fabric = deformations.iter().filter(|deformation| {
             let first = triangles[deformation.triangle][0] as usize;
-            let mut panels = parts.panels.iter();
-            panels.any(|panel| panel.fabric == ranges.name && panel.particles.contains(&first))
+            let number = parts.panels.partition_point(|panel| panel.particles.end <= first);
+            parts.panels.get(number).is_some_and(|panel| panel.fabric == ranges.name)
         });
         let of_fabric: Vec<&Deformation> = of_fabric.collect();
         for law in &LAWS {

@@ -27,12 +27,14 @@ pub(crate) fn manifest(world: &World, parts: &GarmentParts) -> Manifest {
 
     // The groups of the surface are the panels and then the bodies.
     let panels = parts.panels.iter().enumerate().map(|(group, panel)| {
-        let first_corners = cloth.triangles().iter().map(|triangle| triangle[0] as usize);
-        let triangles = first_corners.filter(|corner| panel.particles.contains(corner)).count();
+        // The triangles of a cloth are in the order of its panels.
+        let [start, end] = [panel.particles.start, panel.particles.end].map(|first| {
+            cloth.triangles().partition_point(|triangle| (triangle[0] as usize) < first)
+        });
         let part = SurfacePart {
             name: panel.name.clone(),
             vertices: panel.particles.len(),
-            triangles,
+            triangles: end - start,
             fabric: panel.fabric.clone(),
             fabric_colour: panel.colour,
             weft: panel.weft,

@@ -1,5 +1,7 @@
 //! Pins that a program leads between steps, and particles that it holds and releases.
 
+use std::collections::BTreeSet;
+
 use drape_collide::equivalence_classes;
 
 use super::Simulation;
@@ -162,7 +164,8 @@ impl Simulation {
         if !seams.is_empty() {
             let count = self.world.cloth.particle_count();
             let classes = equivalence_classes(count, &seams.pairs).expect("pairs name particles");
-            let given: Vec<u32> = particles.iter().map(|&particle| classes[particle]).collect();
+            let given: BTreeSet<u32> =
+                particles.iter().map(|&particle| classes[particle]).collect();
             let merged = classes.iter().enumerate().filter(|(_, class)| given.contains(class));
             sewn.extend(merged.map(|(particle, _)| particle));
             let gathered = seams

@@ -10,7 +10,7 @@ use encoding_rs::Encoding;
 
 use crate::tables::channel_rows;
 use crate::tables::encoding;
-use crate::tables::grid::{Grid, Separator, separator};
+use crate::tables::grid::{CELLS_MAX, Grid, Separator, separator};
 use crate::tables::layout::Layout;
 use crate::tables::spreadsheet;
 
@@ -98,6 +98,10 @@ fn parse_rows(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, D
         None => text,
     };
 
+    if Separator::may_exceed_cells(&text) {
+        let message = format!("it has more than {CELLS_MAX} cells");
+        return Err(Diagnostic::new(path, message).help("save the results alone").into());
+    }
     let taken = layout.separator.unwrap_or_else(|| separator(&text));
     if layout.separator.is_none() && taken != Separator::Comma {
         let words = match taken {

@@ -4,6 +4,10 @@ use crate::tables::number::scattered::scattered;
 use crate::tables::number::{self, Decimal, Evidence};
 use drape_input::is_unit;
 
+/// Largest number of cells of a table, or of all sheets of a spreadsheet, the empty ones to the left
+/// of others included. Larger tables are no results of a laboratory.
+pub(crate) const CELLS_MAX: usize = 4_000_000;
+
 /// Cell of a table.
 #[cfg_attr(not(feature = "spreadsheets"), expect(dead_code, reason = "cells of text only"))]
 #[derive(Clone, Debug, PartialEq)]
@@ -175,6 +179,14 @@ impl Separator {
             Self::Bar => "|",
             Self::Space => "space",
         }
+    }
+
+    /// Returns whether `text` may have more than [`CELLS_MAX`] cells, with whichever separator.
+    pub(crate) fn may_exceed_cells(text: &str) -> bool {
+        // A cell and its separator have one letter or more.
+        text.len() > CELLS_MAX
+            && (['\t', ';', ',', '|'].iter().any(|sign| text.matches(*sign).count() > CELLS_MAX)
+                || text.split_whitespace().count() > CELLS_MAX)
     }
 
     /// Splits `text` into rows, without empty lines and comments. `Err` holds the line that cannot

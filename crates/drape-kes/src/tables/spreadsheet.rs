@@ -1,7 +1,14 @@
 //! Sheets of a spreadsheet file: `.xlsx`, `.xlsm`, `.xlsb`, `.xls`, `.ods`.
 
+#[cfg(feature = "spreadsheets")]
+mod open_document;
+#[cfg(feature = "spreadsheets")]
+mod placed_cells;
+
 use std::path::Path;
 
+#[cfg(feature = "spreadsheets")]
+use self::placed_cells::{PlacedCell, PlacedCells};
 use crate::tables::grid::Grid;
 
 /// Endings of the names of spreadsheets.
@@ -18,33 +25,30 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
     zip || compound || (named && !ending.eq_ignore_ascii_case("xls"))
 }
 
-/// Largest number of cells of a sheet, the empty ones to the left of others included. Larger tables
-/// are no results of a laboratory.
-#[cfg(feature = "spreadsheets")]
-const CELLS_MAX: usize = 4_000_000;
-
 /// Largest size of a spreadsheet once it is unpacked, in bytes.
 #[cfg(feature = "spreadsheets")]
 const UNPACKED_MAX: u64 = 500_000_000;
 
-/// Cell with its row and its column, both from 0.
-#[cfg(feature = "spreadsheets")]
-struct PlacedCell {
-    row: u32,
-    column: u32,
-    cell: crate::tables::grid::Cell,
-}
-
 /// Reads the sheets of a spreadsheet from its `bytes`. `Err` holds the reason why the spreadsheet
 /// cannot be read.
 ///
-/// Only `.xlsx` files tell which numbers are displayed in percent. A date is read as a text,
+/// Only `.xlsx` and `.ods` files tell which numbers are displayed in percent. A date is read as a text,
 /// because it is no number of a test.
 #[cfg(feature = "spreadsheets")]
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
     use calamine::{Reader, SheetType};
 
     check_unpacked_size(bytes)?;
+    let mut placed = PlacedCells::default();
+    let mut grids = Vec::new();
+    if open_document::is_open_document(bytes) {
+        for open_document::OpenSheet { name, cells } in open_document::sheets(bytes, &mut placed)? {
+            let rows = placed.rows(cells).map_err(|reason| in_sheet(&name, &reason))?;
+            grids.push(Grid { sheet: name, rows, ..Grid::default() });
+        }
+        return Ok(grids);
+    }
+
     let cursor = std::io::Cursor::new(bytes);
     let mut book =
         calamine::open_workbook_auto_from_rs(cursor).map_err(|error| error.to_string())?;
@@ -55,14 +59,19 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
         .filter(|sheet| sheet.typ == SheetType::WorkSheet)
         .map(|sheet| sheet.name.clone())
         .collect();
-    let mut grids = Vec::new();
     for sheet in names {
-        let rows = placed_cells(&mut book, &sheet)
-            .and_then(rows_of)
-            .map_err(|reason| format!("the sheet \"{sheet}\": {reason}"))?;
+        let rows = placed_cells(&mut book, &sheet, &mut placed)
+            .and_then(|cells| placed.rows(cells))
+            .map_err(|reason| in_sheet(&sheet, &reason))?;
         grids.push(Grid { sheet, rows, ..Grid::default() });
     }
     Ok(grids)
+}
+
+/// Returns the `reason` why the sheet called `name` cannot be read, with the sheet.
+#[cfg(feature = "spreadsheets")]
+fn in_sheet(name: &str, reason: &str) -> String {
+    format!("the sheet \"{name}\": {reason}")
 }
 
 /// Checks that a packed spreadsheet with these `bytes` does not unpack to more than
@@ -85,11 +94,13 @@ fn check_unpacked_size(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the cells of a `sheet` of `book` that are not empty.
+/// Returns the cells of a `sheet` of `book` that are not empty. `placed` limits the cells of all
+/// sheets.
 #[cfg(feature = "spreadsheets")]
 fn placed_cells<R: std::io::Read + std::io::Seek>(
     book: &mut calamine::Sheets<R>,
     sheet: &str,
+    placed: &mut PlacedCells,
 ) -> Result<Vec<PlacedCell>, String> {
     use calamine::{Data, Reader, Sheets};
 
@@ -115,7 +126,7 @@ fn placed_cells<R: std::io::Read + std::io::Seek>(
                 let (row, column) = read.get_position();
                 let is_percent = shows_percent.get(style).copied().unwrap_or(false);
                 let cell = cell(&Data::from(read.get_value().clone()), is_percent);
-                place(&mut cells, PlacedCell { row, column, cell })?;
+                placed.place(&mut cells, PlacedCell { row, column, cell })?;
             }
         }
         Sheets::Xlsb(book) => {
@@ -124,7 +135,7 @@ fn placed_cells<R: std::io::Read + std::io::Seek>(
             while let Some(read) = reader.next_cell().map_err(|error| error.to_string())? {
                 let (row, column) = read.get_position();
                 let cell = cell(&Data::from(read.get_value().clone()), false);
-                place(&mut cells, PlacedCell { row, column, cell })?;
+                placed.place(&mut cells, PlacedCell { row, column, cell })?;
             }
         }
         book => {
@@ -132,58 +143,11 @@ fn placed_cells<R: std::io::Read + std::io::Seek>(
             let (first_row, first_column) = range.start().unwrap_or((0, 0));
             for (row, column, data) in range.used_cells() {
                 let (row, column) = (first_row + row as u32, first_column + column as u32);
-                place(&mut cells, PlacedCell { row, column, cell: cell(data, false) })?;
+                placed.place(&mut cells, PlacedCell { row, column, cell: cell(data, false) })?;
             }
         }
     }
     Ok(cells)
-}
-
-/// Appends `placed` to `cells`, if it is not empty.
-#[cfg(feature = "spreadsheets")]
-fn place(cells: &mut Vec<PlacedCell>, placed: PlacedCell) -> Result<(), String> {
-    if cells.len() == CELLS_MAX {
-        return Err(too_many_cells());
-    }
-    if !placed.cell.is_empty() {
-        cells.push(placed);
-    }
-    Ok(())
-}
-
-/// Returns the reason for which a sheet with too many cells is refused.
-#[cfg(feature = "spreadsheets")]
-fn too_many_cells() -> String {
-    format!("it has more than {CELLS_MAX} cells: delete the stray ones, or save the results alone")
-}
-
-/// Returns the rows of `cells`. All rows are as wide as the sheet, unless that takes more than
-/// [`CELLS_MAX`] cells: then each row ends with its last cell.
-#[cfg(feature = "spreadsheets")]
-fn rows_of(mut cells: Vec<PlacedCell>) -> Result<Vec<crate::tables::grid::Row>, String> {
-    use crate::tables::grid::{Cell, Row};
-
-    // Of two cells at one place the later one counts.
-    cells.sort_by_key(|placed| (placed.row, placed.column));
-    let width = cells.iter().map(|placed| placed.column as usize + 1).max().unwrap_or(0);
-    let groups = || cells.chunk_by(|one, other| one.row == other.row);
-    let is_padded = groups().count().saturating_mul(width) <= CELLS_MAX;
-    let width_of = |group: &[PlacedCell]| match group.last() {
-        Some(last) if !is_padded => last.column as usize + 1,
-        _ => width,
-    };
-    if groups().map(width_of).sum::<usize>() > CELLS_MAX {
-        return Err(too_many_cells());
-    }
-
-    let rows = groups().map(|group| {
-        let mut row = vec![Cell::Text(String::new()); width_of(group)];
-        for placed in group {
-            row[placed.column as usize] = placed.cell.clone();
-        }
-        Row { line: group.first().map_or(0, |placed| placed.row as usize) + 1, cells: row }
-    });
-    Ok(rows.collect())
 }
 
 /// Returns whether a number `format` displays percent: the sign stands outside of quotes.

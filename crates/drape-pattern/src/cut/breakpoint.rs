@@ -73,8 +73,9 @@ pub(crate) struct ClosedLine {
     pub first_edge: usize,
     /// Distances along the line at which its edges start, and its length, in m.
     pub starts: Vec<f64>,
-    /// First breakpoint of the line; the breakpoints at the starts of its edges follow.
-    first: usize,
+    /// Breakpoints of the line, removed ones included: first those at the starts of its edges, in
+    /// their order.
+    pub points: Vec<usize>,
 }
 
 impl ClosedLine {
@@ -131,9 +132,9 @@ impl Breakpoints {
     /// Adds the closed line `edges` of the panel with the number `panel`, with the breakpoints at
     /// the starts of its edges. `first_edge` is the number of its first edge.
     fn add_line(&mut self, panel: usize, first_edge: usize, edges: &[Edge]) {
-        let (line, first) = (self.lines.len(), self.points.len());
+        let line = self.lines.len();
+        self.lines.push(ClosedLine { panel, first_edge, starts: vec![0.0], points: Vec::new() });
         let mut distance = 0.0;
-        let mut starts = vec![distance];
         for (index, edge) in edges.iter().enumerate() {
             let before = &edges[(index + edges.len() - 1) % edges.len()];
             let point = self.insert(line, distance);
@@ -141,18 +142,15 @@ impl Breakpoints {
                 turning_angle(before.tangents()[1], edge.tangents()[0]).abs();
             self.points[point].edge = Some(first_edge + index);
             distance += edge.length();
-            starts.push(distance);
+            self.lines[line].starts.push(distance);
         }
-        self.lines.push(ClosedLine { panel, first_edge, starts, first });
     }
 
     /// Returns the number of the closed line of the edge `id`, and the number of the edge there.
     fn line_and_edge(&self, id: EdgeId) -> [usize; 2] {
-        let line = self.lines.iter().position(|line| {
-            let edges = line.first_edge..line.first_edge + line.edge_count();
-            line.panel == id.panel && edges.contains(&id.edge)
-        });
-        let line = line.expect("its pattern has the edge");
+        // The lines are in the order of their panels and edges, and the pattern has the edge.
+        let begins = |line: &ClosedLine| (line.panel, line.first_edge) <= (id.panel, id.edge);
+        let line = self.lines.partition_point(begins).saturating_sub(1);
         [line, id.edge - self.lines[line].first_edge]
     }
 
@@ -165,6 +163,7 @@ impl Breakpoints {
     fn insert(&mut self, line: usize, distance: f64) -> usize {
         let class = self.points.len();
         self.classes.push(vec![class]);
+        self.lines[line].points.push(class);
         self.points.push(Breakpoint {
             line,
             distance,
@@ -181,8 +180,8 @@ impl Breakpoints {
     /// Returns the breakpoints of `line` that are not removed, in the order along it.
     pub fn ring(&self, line: usize) -> Vec<usize> {
         let points = &self.points;
-        let mut ring: Vec<usize> =
-            (0..points.len()).filter(|&p| points[p].line == line && !points[p].removed).collect();
+        let mut ring = self.lines[line].points.clone();
+        ring.retain(|&point| !points[point].removed);
         ring.sort_by(|&a, &b| points[a].distance.total_cmp(&points[b].distance).then(a.cmp(&b)));
         ring
     }
@@ -258,13 +257,14 @@ impl Breakpoints {
     fn ends_of(&self, edge: &SideEdge) -> [usize; 2] {
         let [line, number] = self.line_and_edge(edge.id);
         let line = &self.lines[line];
-        let ends = [number, (number + 1) % line.edge_count()].map(|number| line.first + number);
+        let ends = [number, (number + 1) % line.edge_count()].map(|number| line.points[number]);
         if edge.forward { ends } else { [ends[1], ends[0]] }
     }
 
     /// Adds a notch at `fraction` of the side with the edges `edges`, and returns it.
     fn notch(&mut self, edges: &[SideEdge], fraction: f64) -> usize {
-        let edge = edges.iter().find(|e| fraction < e.range[1]).unwrap_or(&edges[edges.len() - 1]);
+        let after = edges.partition_point(|edge| edge.range[1] <= fraction);
+        let edge = &edges[after.min(edges.len() - 1)];
         let [begin, end] = edge.range;
         let part = ((fraction - begin) / (end - begin)).clamp(0.0, 1.0);
         let [line, number] = self.line_and_edge(edge.id);

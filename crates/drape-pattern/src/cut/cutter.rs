@@ -76,11 +76,6 @@ impl Cutter {
         for (number, outline) in sampled.panels.into_iter().enumerate() {
             match self.cut_panel(&pattern.panels()[number], outline) {
                 Ok(cut) => {
-                    // A rectangle, which has no holes, numbers the nodes of its outline anew.
-                    let nodes = seams.iter_mut().flat_map(SeamNodes::nodes_mut);
-                    for id in nodes.filter(|id| id.panel == number && cut.holes.is_empty()) {
-                        id.node = cut.outline[id.node as usize];
-                    }
                     notes.extend(cut.thin_part(spacing));
                     panels.push(cut);
                 }
@@ -89,6 +84,14 @@ impl Cutter {
         }
         if !mistakes.is_empty() {
             return Err(Error::Pattern(mistakes));
+        }
+
+        // A rectangle, which has no holes, numbers the nodes of its outline anew.
+        for id in seams.iter_mut().flat_map(SeamNodes::nodes_mut) {
+            let cut = &panels[id.panel];
+            if cut.holes.is_empty() {
+                id.node = cut.outline[id.node as usize];
+            }
         }
         Ok(CutPattern { spacing, panels, seams, notes })
     }

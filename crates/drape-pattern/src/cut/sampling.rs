@@ -3,6 +3,7 @@
 //! `cutter` calls [`SampledPattern::new`], which finds the breakpoints, simplifies the outlines,
 //! counts the arcs and places the nodes. Each [`SampledPanel`] becomes a cut panel.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::breakpoint::{Breakpoints, SeamPiece};
@@ -183,10 +184,15 @@ impl<'a> Sampler<'a> {
         for piece in self.breakpoints.pieces.iter().filter(|p| !p.removed) {
             self.sew(piece, &mut seams[piece.seam]);
         }
+        // Pairs of the seams that have merges.
+        let mut known: BTreeMap<usize, BTreeSet<[NodeId; 2]>> = BTreeMap::new();
         for merge in &self.breakpoints.merges {
+            let seam = &mut seams[merge.seam];
+            let pairs = known.entry(merge.seam);
+            let pairs = pairs.or_insert_with(|| seam.pairs.iter().copied().collect());
             let pair = merge.points.map(|point| self.node(point, 0));
-            if !seams[merge.seam].pairs.contains(&pair) {
-                seams[merge.seam].begin_piece(pair);
+            if pairs.insert(pair) {
+                seam.begin_piece(pair);
             }
         }
         seams
@@ -300,10 +306,14 @@ impl Counter<'_> {
         let points = &self.breakpoints.points;
         let lines = &self.breakpoints.lines;
         // A panel with holes has a rim.
-        let mut on_panel = (0..lines.len()).filter(|&line| lines[line].panel == number);
-        let (Some(outline), None) = (on_panel.next(), on_panel.next()) else { return None };
+        let outline = lines.partition_point(|line| line.panel < number);
+        let line_after = lines.get(outline + 1);
+        if line_after.is_some_and(|line| line.panel == number) {
+            return None;
+        }
 
-        let first = (0..points.len()).find(|&p| points[p].line == outline && !points[p].removed)?;
+        let on_outline = lines[outline].points.iter().copied();
+        let first = on_outline.filter(|&point| !points[point].removed).min()?;
         let mut corners = [first; 4];
         for k in 1..4 {
             corners[k] = points[corners[k - 1]].neighbours[1];

@@ -107,6 +107,8 @@ pub(crate) fn seams(
     keys: &BTreeMap<String, SeamKeys>,
     known: &KnownPanels<'_>,
 ) -> Result<Vec<Seam>, Vec<Diagnostic>> {
+    let numbers: BTreeMap<&str, usize> =
+        known.iter().enumerate().map(|(number, (name, _))| (*name, number)).collect();
     let mut mistakes = Vec::new();
     let mut seams = Vec::new();
     for (name, seam) in keys {
@@ -115,7 +117,7 @@ pub(crate) fn seams(
             let mut ids = Vec::new();
             for (number, word) in seam.sides[side].iter().enumerate() {
                 let key = format!("{key}.sides[{side}][{number}]");
-                match named_edges(word, known) {
+                match named_edges(word, known, &numbers) {
                     Ok(parts) => ids.extend(in_seam_order(parts, side, seam.reversed)),
                     Err(UnknownEdge { message, help, meant }) => {
                         let edit =
@@ -159,14 +161,17 @@ struct UnknownEdge {
 }
 
 /// Returns the edges that `word` names, such as `front.side`: one edge, or the parts of an edge
-/// that darts divide, or none if the panel has mistakes.
-fn named_edges(word: &str, known: &KnownPanels<'_>) -> Result<Vec<EdgeId>, UnknownEdge> {
+/// that darts divide, or none if the panel has mistakes. `numbers` holds the numbers of the panels
+/// in `known`, by their names.
+fn named_edges(
+    word: &str,
+    known: &KnownPanels<'_>,
+    numbers: &BTreeMap<&str, usize>,
+) -> Result<Vec<EdgeId>, UnknownEdge> {
     // Names of panels and edges may have dots: the longest panel counts that the word begins with.
-    let panels = known.iter().enumerate().filter_map(|(k, (name, _))| {
-        let edge = word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'))?;
-        Some((k, *name, edge))
-    });
-    let Some((panel, name, edge)) = panels.max_by_key(|(_, name, _)| name.len()) else {
+    let mut parts = word.rmatch_indices('.').map(|(dot, _)| (&word[..dot], &word[dot + 1..]));
+    let found = parts.find_map(|(name, edge)| Some((*numbers.get(name)?, name, edge)));
+    let Some((panel, name, edge)) = found else {
         let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
         let similar = closest(panel, names.iter().copied()).filter(|similar| *similar != panel);
@@ -197,11 +202,19 @@ fn named_edges(word: &str, known: &KnownPanels<'_>) -> Result<Vec<EdgeId>, Unkno
 
 /// Returns `base` with the seams `added`. An added seam replaces a seam with its name.
 pub(crate) fn merged(base: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
+    let mut numbers: BTreeMap<String, usize> = BTreeMap::new();
+    for (number, seam) in base.iter().enumerate() {
+        numbers.entry(seam.name.clone()).or_insert(number);
+    }
+
     let mut merged = base;
     for seam in added {
-        match merged.iter_mut().find(|existing| existing.name == seam.name) {
-            Some(existing) => *existing = seam,
-            None => merged.push(seam),
+        match numbers.get(&seam.name) {
+            Some(&number) => merged[number] = seam,
+            None => {
+                numbers.insert(seam.name.clone(), merged.len());
+                merged.push(seam);
+            }
         }
     }
     merged

@@ -18,6 +18,7 @@ mod style;
 use drape_input::{Advice, Diagnostic, Diagnostics, Document, Remedy, Subject};
 
 use self::folds::{FoldMark, fold_marks};
+use self::geometry::segment_count;
 use self::scale::scale;
 use self::shapes::{Role, Shape, collect};
 use self::style::Styles;
@@ -43,6 +44,9 @@ const MOST_NODES: u32 = 1_000_000;
 
 /// Largest number of edges of an outline. A shape with more is a picture that was traced.
 const MOST_EDGES: usize = 20_000;
+
+/// Largest number of segments of all lines of a drawing. More are a picture, and take gigabytes.
+const MOST_SEGMENTS: usize = 1_000_000;
 
 /// Largest distance of a fold from the line or the text that marks it, in m. FreeSewing draws the
 /// line 15 mm inside.
@@ -75,6 +79,12 @@ pub(crate) fn read(
     if let Some(page) = root.attribute("data-page") {
         let message = format!("this is page {page} of a print, not the whole drawing");
         return Err(fail(&message, "read the *.toml or the drawing that was printed"));
+    }
+
+    let segments: usize = tree.descendants().map(segment_count).sum();
+    if segments > MOST_SEGMENTS {
+        let message = format!("its lines have {segments} segments, more than {MOST_SEGMENTS}");
+        return Err(fail(&message, "delete what is no part of the pattern, such as a picture"));
     }
 
     let styles = Styles::new(&tree);

@@ -25,7 +25,7 @@ mod darts;
 pub(crate) mod keys;
 mod panels;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use drape_input::{
     Diagnostic, Diagnostics, Document, Faults, closest, excerpt, similar_file, toml_key,
@@ -111,10 +111,10 @@ impl PatternFile<'_> {
     /// no longer has, and seams of such edges. Returns the names of these seams.
     pub(crate) fn remove_unknown(&mut self, pattern: &Pattern) -> Vec<String> {
         let panels = pattern.panels();
+        let named: BTreeMap<&str, &Panel> =
+            panels.iter().map(|panel| (panel.name(), panel)).collect();
         self.keys.panel.retain(|name, keys| {
-            let Some(panel) = panels.iter().find(|panel| panel.name() == name) else {
-                return false;
-            };
+            let Some(panel) = named.get(name.as_str()) else { return false };
             keys.hems.retain(|edge, _| panel.outline().iter().any(|known| known.name == *edge));
             true
         });
@@ -180,12 +180,8 @@ struct Entry<'a> {
 fn entries<'a>(keys: &'a PatternKeys, base: Option<&'a Pattern>) -> Vec<Entry<'a>> {
     let mut names: Vec<&str> =
         base.map_or(&[][..], Pattern::panels).iter().map(Panel::name).collect();
-    let base_count = names.len();
-    for name in keys.panel.keys() {
-        if !names[..base_count].contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
+    let of_base: BTreeSet<&str> = names.iter().copied().collect();
+    names.extend(keys.panel.keys().map(String::as_str).filter(|name| !of_base.contains(name)));
     names.into_iter().map(|name| Entry { name, keys: keys.panel.get(name) }).collect()
 }
 

@@ -8,7 +8,7 @@ mod placed_panel;
 mod seam_order;
 pub(crate) mod sewing;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
 
@@ -26,6 +26,7 @@ use crate::scene::seam::{Seam, SeamPairs};
 use crate::spec::file_or::FileOr;
 use crate::spec::garment::GarmentSpec;
 
+use self::allowances::allowances;
 use self::layer::check_layer;
 use self::placed_panel::{Piece, placed_panel};
 use self::seam_order::{PlacedSeam, SeamHome};
@@ -94,8 +95,9 @@ pub(crate) fn garments(
     }
     let seams = garments.iter().flat_map(|garment| &garment.seams);
     let known: Vec<&str> = seams.map(|seam| seam.name.as_str()).collect();
+    let names: BTreeSet<&str> = known.iter().copied().collect();
     for (index, name) in spec.sew.twisted.iter().enumerate() {
-        if !known.contains(&name.as_str()) {
+        if !names.contains(name.as_str()) {
             let unknown = UnknownName { name, known: &known, kind: "seams" };
             let key = format!("sew.twisted[{index}]");
             checker.unknown(&key, format!("there is no seam \"{name}\""), unknown);
@@ -181,7 +183,8 @@ fn cut(
 ) -> Option<CutGarment> {
     let UncutPattern { pattern, first, grading } = uncut;
     let known: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
-    for name in entry.panel.keys().filter(|name| !known.contains(&name.as_str())) {
+    let names: BTreeSet<&str> = known.iter().copied().collect();
+    for name in entry.panel.keys().filter(|name| !names.contains(name.as_str())) {
         let message = format!("the pattern has no panel \"{}\"", excerpt(name));
         let unknown = UnknownName { name, known: &known, kind: "panels of the pattern" };
         checker.unknown(&format!("{key}.panel.{}", toml_key(name)), message, unknown);
@@ -197,9 +200,12 @@ fn cut(
     let cut = pieces(checker, (key, &spacing_key), Cutter::new(spacing).cut(pattern))?;
     let layer = check_layer(checker, &format!("{key}.layer"), entry.layer);
     let mut noise = entry.noise.as_ref().map(Noise::new);
+    let allowances = allowances(pattern, &cut);
     let (mut pieces, mut next) = (Vec::new(), first);
     for (index, panel) in cut.panels.iter().enumerate() {
-        let piece = Piece { key, entry, pattern, cut: &cut, index, first: next, grading };
+        let allowances = &allowances[index];
+        let piece =
+            Piece { key, entry, pattern, cut: &cut, allowances, index, first: next, grading };
         let placed = placed_panel(checker, &piece, layer, &mut noise);
         next += placed
             .as_ref()
@@ -262,7 +268,7 @@ fn check_seam_order(
     pattern: &Pattern,
     places: impl Fn(EdgeId) -> Vec<[f64; 3]>,
 ) {
-    let meant = &checker.spec.sew.twisted;
+    let meant: BTreeSet<&String> = checker.spec.sew.twisted.iter().collect();
     let twisted = pattern.seams().iter().filter(|seam| !meant.contains(&seam.name));
     let file = entry.pattern.file().map(|name| checker.folder.join(name)).map(|path| {
         let given = checker.given(&path).cloned();

@@ -168,9 +168,11 @@ fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact,
 /// Checks that no panel of `scene` starts inside a body. The surfaces of `contact` do not cross, so
 /// the first particle of a panel stands for all of its particles.
 fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, scene: &Scene) {
-    for panel in &scene.panels {
-        let inspection = contact.inspect(&scene.start.positions);
-        if inspection.is_ok_and(|inspection| inspection.is_inside_body(panel.first) == Ok(true)) {
+    let firsts: Vec<usize> = scene.panels.iter().map(|panel| panel.first).collect();
+    let inspection = contact.inspect(&scene.start.positions);
+    let inside = inspection.and_then(|inspection| inspection.are_inside_bodies(&firsts));
+    for (panel, is_inside) in scene.panels.iter().zip(inside.unwrap_or_default()) {
+        if is_inside {
             let message = format!("all of \"{}\" starts inside a body", panel.name);
             let help = "move or turn the panel so that it starts outside";
             let key = place_key(checker, scene, panel);

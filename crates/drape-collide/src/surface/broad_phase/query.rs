@@ -21,7 +21,10 @@ pub(crate) enum PairLimit<'a> {
         sweep: Sweep<'a>,
     },
     /// Twice the activation distance, within a group.
-    Rest,
+    Rest {
+        /// Displacement of the boxes of each group, in m, by which boxes of two groups are apart.
+        offsets: &'a [Vector],
+    },
 }
 
 /// Search for pairs of a surface at given positions.
@@ -44,7 +47,10 @@ impl PairQuery<'_> {
         let points = vertices.map(|vertex| at(self.positions, vertex as usize));
         // Each of the two boxes is widened by half of the limit.
         match self.limit {
-            PairLimit::Rest => Bounds::around(points, 2.0 * distances.activation_distance),
+            PairLimit::Rest { offsets } => {
+                let points = points.map(|point| add(point, offsets[group as usize]));
+                Bounds::around(points, 2.0 * distances.activation_distance)
+            }
             PairLimit::Margin { margin, sweep } => {
                 let around = distances.activation_distance + 0.5 * margin;
                 let Some(displacements) = sweep.displacements() else {
@@ -76,8 +82,8 @@ impl PairQuery<'_> {
         let distance = distance(&closest(kind, points));
         let approach = match self.limit {
             PairLimit::Margin { sweep, .. } => sweep.largest_approach(kind, vertices),
-            PairLimit::Rest if same_group => 0.0,
-            PairLimit::Rest => return None,
+            PairLimit::Rest { .. } if same_group => 0.0,
+            PairLimit::Rest { .. } => return None,
         };
 
         // Most pairs are too far apart even for the distances of their groups.
@@ -132,7 +138,7 @@ impl PairQuery<'_> {
             PairLimit::Margin { margin, .. } => {
                 distance < distances.activation_distance + margin + approach
             }
-            PairLimit::Rest => distance < 2.0 * distances.activation_distance,
+            PairLimit::Rest { .. } => distance < 2.0 * distances.activation_distance,
         }
     }
 

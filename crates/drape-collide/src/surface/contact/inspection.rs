@@ -58,13 +58,27 @@ impl<'a> SurfaceInspection<'a> {
     /// # Errors
     /// `vertex` is not a free vertex.
     pub fn is_inside_body(self, vertex: usize) -> Result<bool, Error> {
+        Ok(self.are_inside_bodies(&[vertex])?[0])
+    }
+
+    /// Returns for each of the free `vertices` whether it is inside a body.
+    ///
+    /// # Errors
+    /// One of `vertices` is not a free vertex.
+    pub fn are_inside_bodies(self, vertices: &[usize]) -> Result<Vec<bool>, Error> {
         let surface = &self.contact.surface;
-        check_index("free vertex", vertex, surface.free_count())?;
+        for &vertex in vertices {
+            check_index("free vertex", vertex, surface.free_count())?;
+        }
+
         let all = self.placed();
         let bodies = surface.free_count()..surface.vertex_count();
         let mut groups: Vec<u32> = bodies.map(|v| surface.primitives().group(v as u32)).collect();
         groups.dedup();
-        Ok(groups.iter().any(|&group| encloses(surface, group, at(&all, vertex), &all)))
+        let is_inside = |&vertex: &usize| {
+            groups.iter().any(|&group| encloses(surface, group, at(&all, vertex), &all))
+        };
+        Ok(vertices.iter().map(is_inside).collect())
     }
 
     /// Returns the intersections between the two sides of seams that contact takes for closed. A

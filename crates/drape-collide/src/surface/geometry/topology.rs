@@ -109,7 +109,7 @@ pub fn equivalence_classes(vertex_count: usize, pairs: &[[u32; 2]]) -> Result<Ve
 pub(crate) fn classes(vertex_count: usize, pairs: &[[u32; 2]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertex_count as u32).collect();
     for &[a, b] in pairs {
-        let (a, b) = (root(&parent, a), root(&parent, b));
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
         parent[a.max(b) as usize] = a.min(b);
     }
     // A parent is never larger than its child, so it has its root already.
@@ -119,9 +119,11 @@ pub(crate) fn classes(vertex_count: usize, pairs: &[[u32; 2]]) -> Vec<u32> {
     parent
 }
 
-/// Returns the root of `vertex` in the forest `parent`, in which a root is its own parent.
-fn root(parent: &[u32], mut vertex: u32) -> u32 {
+/// Returns the root of `vertex` in the forest `parent`, in which a root is its own parent. Halves
+/// the way to the root, so that a long chain is followed once.
+fn root(parent: &mut [u32], mut vertex: u32) -> u32 {
     while parent[vertex as usize] != vertex {
+        parent[vertex as usize] = parent[parent[vertex as usize] as usize];
         vertex = parent[vertex as usize];
     }
     vertex

@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use kurbo::{Affine, Point};
 use roxmltree::Node;
+use svgtypes::PathParser;
 
 use crate::edge::{Curve, Edge};
 use crate::read::svg_path::{Subpath, subpaths};
@@ -22,6 +23,11 @@ pub(crate) fn lines(node: Node<'_, '_>) -> Option<Vec<Subpath>> {
         part
     });
     Some(transformed.collect())
+}
+
+/// Returns the number of segments of the lines of the element `node`.
+pub(crate) fn segment_count(node: Node<'_, '_>) -> usize {
+    data(node).map_or(0, |data| PathParser::from(data.as_str()).count())
 }
 
 /// Returns the number that the attribute `key` of `node` states, in the unit of the drawing; 0 if

@@ -21,24 +21,27 @@ impl AllowanceLine {
     }
 }
 
-/// Returns the allowances of the seams that are sewn to a panel of a cut pattern, and of its hems.
-pub(crate) fn allowances(pattern: &Pattern, cut: &CutPattern, panel: usize) -> Vec<AllowanceLine> {
-    let mut lines = Vec::new();
+/// Returns for each panel of a cut pattern the allowances of the seams that are sewn to the panel,
+/// and of its hems.
+pub(crate) fn allowances(pattern: &Pattern, cut: &CutPattern) -> Vec<Vec<AllowanceLine>> {
+    let mut lines: Vec<Vec<AllowanceLine>> = Vec::new();
+    lines.resize_with(cut.panels.len(), Vec::new);
     for (seam, nodes) in pattern.seams().iter().zip(&cut.seams) {
         for side in 0..2 {
             let nodes: Vec<NodeId> = nodes.side(side).collect();
             // A side goes on from one panel to another.
             for run in nodes.chunk_by(|one, next| one.panel == next.panel) {
-                if run[0].panel == panel {
-                    let nodes = run.iter().map(|id| id.node).collect();
-                    lines.push(AllowanceLine { nodes, width: seam.allowance });
-                }
+                let nodes = run.iter().map(|id| id.node).collect();
+                lines[run[0].panel].push(AllowanceLine { nodes, width: seam.allowance });
             }
         }
     }
-    let edges = pattern.panels()[panel].edges().zip(&cut.panels[panel].edges);
-    lines
-        .extend(edges.map(|(edge, nodes)| AllowanceLine { nodes: nodes.clone(), width: edge.hem }));
+    for ((panel, cut), lines) in pattern.panels().iter().zip(&cut.panels).zip(&mut lines) {
+        let hems = panel.edges().zip(&cut.edges);
+        lines.extend(
+            hems.map(|(edge, nodes)| AllowanceLine { nodes: nodes.clone(), width: edge.hem }),
+        );
+    }
     lines
 }
 

@@ -6,7 +6,7 @@ use drape_pattern::{CutPattern, Pattern, Placement};
 
 use crate::check::checker::Checker;
 use crate::check::fabrics::material_index;
-use crate::check::garment::allowances::allowances;
+use crate::check::garment::allowances::AllowanceLine;
 use crate::check::garment::layer::{check_layer, worn_at};
 use crate::check::panel::PlacedPanel;
 use crate::check::panel::cut_lattice::{cut_lattice, node_numbers};
@@ -24,6 +24,8 @@ pub(crate) struct Piece<'a> {
     pub(crate) entry: &'a GarmentSpec,
     pub(crate) pattern: &'a Pattern,
     pub(crate) cut: &'a CutPattern,
+    /// Allowances of the panel.
+    pub(crate) allowances: &'a [AllowanceLine],
     /// Index of the panel.
     pub(crate) index: usize,
     /// Number of its first particle in the scene.
@@ -137,13 +139,11 @@ struct NumberedLattice {
 
 /// Makes the lattice of a panel, which has a name in the scene.
 fn lattice(checker: &mut Checker<'_>, piece: &Piece<'_>, name: &str) -> Option<NumberedLattice> {
-    let &Piece { key, pattern, cut, index, grading, .. } = piece;
+    let &Piece { key, cut, allowances, index, grading, .. } = piece;
     let panel = piece.panel();
     let numbers = node_numbers(&cut.panels[index]);
-    let allowances: Vec<_> = allowances(pattern, cut, index)
-        .iter()
-        .map(|allowance| allowance.numbered(&numbers))
-        .collect();
+    let allowances: Vec<_> =
+        allowances.iter().map(|allowance| allowance.numbered(&numbers)).collect();
     let grain = Grain::from_degrees(panel.grain().to_degrees());
     let lattice = cut_lattice(&cut.panels[index], &numbers, grain);
     let lattice =

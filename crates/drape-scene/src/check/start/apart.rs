@@ -202,11 +202,8 @@ fn is_clear(points: &[[f64; 3]], solids: &Solids<'_>, shift: [f64; 3]) -> bool {
 
 /// Returns the corners of the triangles of a panel at the start, in m.
 fn triangles_of(scene: &Scene, panel: usize) -> impl Iterator<Item = [[f64; 3]; 3]> {
-    let particles = scene.panels[panel].particles();
-    let triangles = scene.cloth.triangles().iter();
-    triangles
-        .filter(move |triangle| particles.contains(&(triangle[0] as usize)))
-        .map(|corners| corners.map(|corner| place(scene, corner as usize)))
+    let triangles = scene.triangles_of(&scene.panels[panel]).iter();
+    triangles.map(|corners| corners.map(|corner| place(scene, corner as usize)))
 }
 
 /// Returns the unit normal of a flat panel, or `None` if the panel is not flat.

@@ -3,6 +3,7 @@
 //!
 //! Cloth then slides round the body or the panel, or is caught behind it.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use drape_collide::segment_meets_triangle;
@@ -28,6 +29,9 @@ const FEWEST: usize = 3;
 
 /// Number of points of a stitch that are looked at.
 const POINTS: u32 = 9;
+
+/// Number of triangles of a panel in one box.
+const BLOCK: usize = 8;
 
 /// Part of a stitch at either end that may touch a panel beside it, as the pieces of a sleeve do.
 const END: f64 = 0.05;
@@ -81,33 +85,82 @@ struct Sheet<'a> {
     particles: Range<usize>,
     /// Corners of its triangles, in m.
     triangles: Vec<[[f64; 3]; 3]>,
+    /// Boxes around its triangles: around each [`BLOCK`] of them, then around each two boxes of the
+    /// level before, and at last around all. Triangles that follow each other lie together.
+    boxes: Vec<Vec<Extent>>,
+}
+
+/// Box along the axes, in m.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
     low: [f64; 3],
     high: [f64; 3],
 }
 
+impl Extent {
+    /// Returns the box around `points`.
+    fn around<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> Self {
+        let nothing = Self { low: [f64::MAX; 3], high: [f64::MIN; 3] };
+        points.fold(nothing, |Self { low, high }, point| Self {
+            low: [0, 1, 2].map(|k| low[k].min(point[k])),
+            high: [0, 1, 2].map(|k| high[k].max(point[k])),
+        })
+    }
+
+    /// Returns whether this box and `other` have a point in common.
+    fn meets(&self, other: &Self) -> bool {
+        (0..3).all(|k| self.low[k] <= other.high[k] && self.high[k] >= other.low[k])
+    }
+}
+
 impl<'a> Sheet<'a> {
     fn new(scene: &Scene, panel: &'a Panel) -> Self {
-        let particles = panel.particles();
-        let triangles = scene.cloth.triangles().iter();
-        let triangles = triangles.filter(|triangle| particles.contains(&(triangle[0] as usize)));
+        let triangles = scene.triangles_of(panel).iter();
         let triangles: Vec<_> =
             triangles.map(|corners| corners.map(|corner| place(scene, corner))).collect();
-        let bound = |start: f64, pick: fn(f64, f64) -> f64| {
-            [0, 1, 2].map(|k| triangles.iter().flatten().map(|point| point[k]).fold(start, pick))
-        };
-        let (low, high) = (bound(f64::MAX, f64::min), bound(f64::MIN, f64::max));
-        Self { name: &panel.name, particles, triangles, low, high }
+        let boxes = boxes(&triangles);
+        Self { name: &panel.name, particles: panel.particles(), triangles, boxes }
+    }
+
+    /// Returns the box around the whole panel, or `None` if it has no triangles.
+    fn extent(&self) -> Option<&Extent> {
+        self.boxes.last()?.first()
     }
 
     /// Returns whether a straight line between two points leads through the panel.
     fn is_crossed(&self, ends: [[f64; 3]; 2]) -> bool {
-        let misses = |k: usize| {
-            let [a, b] = ends.map(|end| end[k]);
-            a.max(b) < self.low[k] || a.min(b) > self.high[k]
-        };
-        !(0..3).any(misses)
-            && self.triangles.iter().any(|corners| segment_meets_triangle(ends, *corners))
+        let line = Extent::around(ends.iter());
+        // Boxes to look into, as their level and their number there.
+        let mut waiting = vec![(self.boxes.len() - 1, 0)];
+        while let Some((level, number)) = waiting.pop() {
+            let extent = self.boxes[level].get(number);
+            if !extent.is_some_and(|extent| extent.meets(&line)) {
+                continue;
+            }
+            if level > 0 {
+                waiting.extend([(level - 1, 2 * number), (level - 1, 2 * number + 1)]);
+                continue;
+            }
+            let block = self.triangles.chunks(BLOCK).nth(number).unwrap_or_default();
+            if block.iter().any(|corners| segment_meets_triangle(ends, *corners)) {
+                return true;
+            }
+        }
+        false
     }
+}
+
+/// Returns the boxes of [`Sheet::boxes`] around `triangles`.
+fn boxes(triangles: &[[[f64; 3]; 3]]) -> Vec<Vec<Extent>> {
+    let blocks = triangles.chunks(BLOCK).map(|block| Extent::around(block.iter().flatten()));
+    let mut boxes: Vec<Vec<Extent>> = vec![blocks.collect()];
+    while let Some(level) = boxes.last().filter(|level| level.len() > 1) {
+        let around = |two: &[Extent]| {
+            Extent::around(two.iter().flat_map(|extent| [&extent.low, &extent.high]))
+        };
+        boxes.push(level.chunks(2).map(around).collect());
+    }
+    boxes
 }
 
 /// Returns the place of a particle at the start, in m.
@@ -118,10 +171,18 @@ fn place(scene: &Scene, particle: u32) -> [f64; 3] {
 /// Returns a note on a seam of which many stitches lead through a panel.
 fn through_panel(scene: &Scene, sheets: &[Sheet<'_>], seam: &Seam) -> Option<Advice> {
     let all = &seam.pairs.pairs;
-    let sewn = |sheet: &&Sheet<'_>| {
-        all.iter().flatten().any(|&particle| sheet.particles.contains(&(particle as usize)))
-    };
-    let crossed = sheets.iter().filter(|sheet| !sewn(sheet)).map(|sheet| {
+    let ends: Vec<[f64; 3]> = all.iter().flatten().map(|&end| place(scene, end)).collect();
+    let around = Extent::around(ends.iter());
+    let sewn: BTreeSet<usize> = all
+        .iter()
+        .flatten()
+        .map(|&end| sheets.partition_point(|sheet| sheet.particles.end <= end as usize))
+        .collect();
+
+    let near = sheets.iter().enumerate().filter(|(number, sheet)| {
+        !sewn.contains(number) && sheet.extent().is_some_and(|extent| extent.meets(&around))
+    });
+    let crossed = near.map(|(_, sheet)| {
         let stitches = all.iter().map(|pair| pair.map(|particle| place(scene, particle)));
         let shortened = stitches.map(|[from, to]| {
             [END, 1.0 - END].map(|part| [0, 1, 2].map(|k| from[k] + part * (to[k] - from[k])))
@@ -145,4 +206,41 @@ fn through_panel(scene: &Scene, sheets: &[Sheet<'_>], seam: &Seam) -> Option<Adv
         sheet.name,
     );
     Some(Advice::from(note).with(Remedy::ShowStart { scene: scene.source.file.clone() }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_meets_a_sheet_where_it_meets_one_of_its_triangles() {
+        // A wavy strip of 2 × 150 triangles, a number that fills no level of boxes.
+        let point = |column: usize, row: usize| {
+            let x = 0.01 * column as f64;
+            [x, 0.02 * row as f64, 0.02 * (3.0 * x).sin()]
+        };
+        let cell = |k: usize| {
+            let [a, b, c, d] = [point(k, 0), point(k + 1, 0), point(k + 1, 1), point(k, 1)];
+            [[a, b, c], [a, c, d]]
+        };
+        let triangles: Vec<[[f64; 3]; 3]> = (0..150).flat_map(cell).collect();
+        let sheet = Sheet { boxes: boxes(&triangles), name: "strip", particles: 0..302, triangles };
+
+        let mut crossed = 0;
+        for k in 0..400 {
+            let x = -0.1 + 0.0043 * f64::from(k);
+            let y = 0.03 * (1.0 + (0.7 * f64::from(k)).sin()) - 0.01;
+            for top in [-0.03, 0.005, 0.03] {
+                let ends = [[x, y, -0.03], [x + 0.02, y, top]];
+                let meets = |corners: &[[f64; 3]; 3]| segment_meets_triangle(ends, *corners);
+                let expected = sheet.triangles.iter().any(meets);
+                assert_eq!(sheet.is_crossed(ends), expected, "{ends:?}");
+                crossed += usize::from(expected);
+            }
+        }
+        assert!(crossed > 100, "{crossed} lines meet the strip");
+
+        let none = Sheet { name: "", particles: 0..0, boxes: boxes(&[]), triangles: Vec::new() };
+        assert!(!none.is_crossed([[0.0; 3], [1.0; 3]]) && none.extent().is_none());
+    }
 }
