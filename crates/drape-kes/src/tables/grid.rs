@@ -4,8 +4,8 @@ use crate::tables::number::scattered::scattered;
 use crate::tables::number::{self, Decimal, Evidence};
 use drape_input::is_unit;
 
-/// Largest number of cells of a table, or of all sheets of a spreadsheet, the empty ones to the left
-/// of others included. Larger tables are no results of a laboratory.
+/// Largest number of cells of a table, or of all sheets of a spreadsheet, the empty ones to the
+/// left of others included. Larger tables are no results of a laboratory.
 pub(crate) const CELLS_MAX: usize = 4_000_000;
 
 /// Cell of a table.

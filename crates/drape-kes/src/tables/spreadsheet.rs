@@ -8,7 +8,7 @@ mod placed_cells;
 use std::path::Path;
 
 #[cfg(feature = "spreadsheets")]
-use self::placed_cells::{PlacedCell, PlacedCells};
+use self::placed_cells::{PlacedCell, PlacedCells, UNPACKED_MAX};
 use crate::tables::grid::Grid;
 
 /// Endings of the names of spreadsheets.
@@ -25,15 +25,11 @@ pub(crate) fn is_spreadsheet(path: &Path, bytes: &[u8]) -> bool {
     zip || compound || (named && !ending.eq_ignore_ascii_case("xls"))
 }
 
-/// Largest size of a spreadsheet once it is unpacked, in bytes.
-#[cfg(feature = "spreadsheets")]
-const UNPACKED_MAX: u64 = 500_000_000;
-
 /// Reads the sheets of a spreadsheet from its `bytes`. `Err` holds the reason why the spreadsheet
 /// cannot be read.
 ///
-/// Only `.xlsx` and `.ods` files tell which numbers are displayed in percent. A date is read as a text,
-/// because it is no number of a test.
+/// Only `.xlsx` and `.ods` files tell which numbers are displayed in percent. A date is read as a
+/// text, because it is no number of a test.
 #[cfg(feature = "spreadsheets")]
 pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Grid>, String> {
     use calamine::{Reader, SheetType};

@@ -9,8 +9,7 @@ use quick_xml::XmlVersion;
 use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesStart, Event};
 
-use super::UNPACKED_MAX;
-use super::placed_cells::{PlacedCell, PlacedCells};
+use super::placed_cells::{PlacedCell, PlacedCells, UNPACKED_MAX};
 use crate::tables::grid::Cell;
 use drape_input::excerpt;
 

@@ -2,6 +2,9 @@
 
 use crate::tables::grid::{CELLS_MAX, Cell, Row};
 
+/// Largest size of a spreadsheet once it is unpacked, in bytes.
+pub(super) const UNPACKED_MAX: u64 = 500_000_000;
+
 /// Largest size of the texts of all cells, in bytes. Cells may share a text that is stored once.
 const TEXTS_MAX: usize = 100_000_000;
 
@@ -25,7 +28,7 @@ pub(super) struct PlacedCells {
 
 impl PlacedCells {
     /// Appends `placed` to `cells`, the cells of a sheet, if it is not empty. `Err` holds the
-    /// reason why a spreadsheet with so many cells is refused.
+    /// reason why a spreadsheet with too many cells is refused.
     pub(super) fn place(
         &mut self,
         cells: &mut Vec<PlacedCell>,
