@@ -317,3 +317,12 @@ fn columns_whose_units_are_not_known_cost_nothing_else() {
         }
     }
 }
+
+#[test]
+fn a_text_of_more_cells_than_a_spreadsheet_has_is_refused() {
+    for text in ["1,".repeat(4_000_001), "1 ".repeat(4_000_001)] {
+        let error = SheetDraft::from_bytes("line.csv", text.as_bytes()).expect_err("too many");
+        let error = error.to_string();
+        assert!(error.contains("it has more than 4000000 cells"), "{error}");
+    }
+}

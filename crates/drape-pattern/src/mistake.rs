@@ -299,6 +299,16 @@ pub enum Mistake {
         /// The spacing, in m.
         spacing: f64,
     },
+    /// An outline has too many edges: simplify it.
+    #[error("panel {panel}: its outline has {edges} edges, more than {most}")]
+    TooManyEdges {
+        /// The panel.
+        panel: String,
+        /// Number of edges.
+        edges: usize,
+        /// Largest number of edges of an outline.
+        most: usize,
+    },
     /// The rim could not be triangulated, a fault of the cutter: report the pattern.
     #[error("panel {panel}: the rim could not be triangulated at a spacing of {}", Millimetres(*spacing))]
     Rim {
@@ -373,6 +383,7 @@ impl Mistake {
                 format!("use a spacing under {}", Millimetres(0.5 * spacing))
             }
             Self::TooMany { .. } => "use a larger spacing; or is the unit right?".into(),
+            Self::TooManyEdges { .. } => "simplify the outline: a curve is one edge".into(),
             Self::Rim { .. } => "use another spacing, and report the pattern".into(),
         }
     }
@@ -404,6 +415,7 @@ impl Mistake {
             | Self::Wrap { panel, .. }
             | Self::Narrow { panel, .. }
             | Self::TooMany { panel, .. }
+            | Self::TooManyEdges { panel, .. }
             | Self::Rim { panel, .. } => Subject::Panel(panel.clone()),
             Self::NoEdge { seam, .. }
             | Self::EmptySide { seam }

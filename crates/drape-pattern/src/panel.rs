@@ -20,6 +20,10 @@ pub(crate) const FARTHEST: f64 = 1000.0;
 /// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
 pub(crate) const GAP: f64 = 1e-5;
 
+/// Largest number of edges of an outline. An outline with more is a picture that was traced, and the
+/// search for its crossings would take long.
+const MOST_EDGES: usize = 20_000;
+
 /// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in
 /// m.
 const SHORTEST: f64 = 1e-6;
@@ -75,6 +79,10 @@ impl Panel {
     pub fn new(name: impl Into<String>, outline: Vec<Edge>) -> Result<Self, Vec<Mistake>> {
         let name = name.into();
         let mut outline = outline;
+        if outline.len() > MOST_EDGES {
+            let (panel, edges, most) = (name, outline.len(), MOST_EDGES);
+            return Err(vec![Mistake::TooManyEdges { panel, edges, most }]);
+        }
         let mut mistakes = edge_mistakes(&name, &outline);
         if !mistakes.is_empty() {
             return Err(mistakes);

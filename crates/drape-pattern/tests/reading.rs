@@ -1,7 +1,7 @@
 //! Mistakes in pattern files are named with their place, value and remedy, all of a file together.
 
 use drape_input::Document;
-use drape_pattern::{Curve, Cutter, Panel, Pattern, PatternNote};
+use drape_pattern::{Curve, Cutter, Mistake, Panel, Pattern, PatternNote};
 use proptest::prelude::*;
 
 /// The mistakes of a text, as they are shown.
@@ -552,4 +552,22 @@ proptest! {
     fn any_path_is_answered(data in "[MLHVCSQTAZmlhvcsqtaz0-9 .,e-]{0,60}", unit in prop::num::f64::ANY) {
         let _ = Panel::from_path("p", &data, unit);
     }
+}
+
+#[test]
+fn traced_pictures_are_refused_before_their_lines_are_compared() {
+    let path = format!("M0 0{}H0z", "h.05v.05".repeat(10_000));
+    let mistakes = Panel::from_path("p", &path, 1e-3).expect_err("too many edges");
+    let [Mistake::TooManyEdges { edges: 20_002, most: 20_000, .. }] = mistakes[..] else {
+        panic!("{mistakes:?}")
+    };
+
+    let drawing = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\" height=\"100mm\" viewBox=\"0 0 100 100\">\
+         <path d=\"M0 0{}z\"/></svg>",
+        "h1v1".repeat(500_000)
+    );
+    let mistakes = Pattern::parse(&Document::new("traced.svg", drawing)).expect_err("a picture");
+    let text = mistakes.to_string();
+    assert!(text.contains("its lines have 1000002 segments, more than 1000000"), "{text}");
 }
