@@ -20,8 +20,8 @@ pub(crate) const FARTHEST: f64 = 1000.0;
 /// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
 pub(crate) const GAP: f64 = 1e-5;
 
-/// Largest number of edges of an outline. An outline with more is a picture that was traced, and the
-/// search for its crossings would take long.
+/// Largest number of edges of an outline. An outline with more is a picture that was traced, and
+/// the search for its crossings would take long.
 const MOST_EDGES: usize = 20_000;
 
 /// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in
