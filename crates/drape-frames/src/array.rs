@@ -7,6 +7,7 @@ use npyz::half::f16;
 use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order};
 
 use crate::error::Error;
+use crate::frame_hash;
 use crate::text::open;
 
 /// Longest header that is read, in bytes. A run writes a header of 128 bytes.
@@ -14,6 +15,12 @@ const HEADER_MAX: usize = 1024;
 
 /// Largest magnitude of a coordinate, in m.
 pub(crate) const COORDINATE_MAX: f64 = 1e6;
+
+/// Rows of an array, with the hash of its file.
+pub(crate) struct HashedRows<T> {
+    pub(crate) rows: Vec<T>,
+    pub(crate) hash: [u8; 32],
+}
 
 /// File and expected content of an array.
 struct ExpectedArray<'a> {
@@ -107,7 +114,7 @@ impl ExpectedArray<'_> {
     ///
     /// # Errors
     /// The file cannot be read, or is not an array of `row_count` rows of `N` numbers.
-    fn read<T: Deserialize + Copy, const N: usize>(&self) -> Result<Vec<[T; N]>, Error> {
+    fn read<T: Deserialize + Copy, const N: usize>(&self) -> Result<HashedRows<[T; N]>, Error> {
         let number_bytes = self.row_count * N * size_of::<T>();
         let content = self.read_bytes(number_bytes)?;
         let (header, start) = self.header::<N>(&content)?;
@@ -122,7 +129,8 @@ impl ExpectedArray<'_> {
         let numbers = NpyFile::with_header(header, encoded)
             .into_vec::<T>()
             .map_err(|error| self.malformed(error.to_string()))?;
-        Ok(numbers.as_chunks::<N>().0.to_vec())
+        let rows = numbers.as_chunks::<N>().0.to_vec();
+        Ok(HashedRows { rows, hash: frame_hash::hash(&content) })
     }
 
     /// Returns `numbers` if all are pressures, which are finite and not below 0.
@@ -137,27 +145,18 @@ impl ExpectedArray<'_> {
     }
 }
 
-/// Reads the bytes of the file `path`, which was read as an array before.
-pub(crate) fn content(path: &Path) -> Result<Vec<u8>, Error> {
-    let mut content = Vec::new();
-    open(path)
-        .and_then(|mut file| file.read_to_end(&mut content))
-        .map_err(|error| Error::unreadable(path, &error))?;
-    Ok(content)
-}
-
 /// Reads `row_count` rows of `N` finite coordinates, in m, from the file `path`. `what` is a word
 /// for the rows.
 pub(crate) fn coordinates<const N: usize>(
     path: &Path,
     what: &'static str,
     row_count: usize,
-) -> Result<Vec<[f64; N]>, Error> {
+) -> Result<HashedRows<[f64; N]>, Error> {
     let expected = ExpectedArray { path, what, row_count, number_type: "<f8" };
-    let rows = expected.read::<f64, N>()?;
+    let HashedRows { rows, hash } = expected.read::<f64, N>()?;
     // The comparison is written so that NaN fails.
     match rows.iter().position(|row| !row.iter().all(|value| value.abs() <= COORDINATE_MAX)) {
-        None => Ok(rows),
+        None => Ok(HashedRows { rows, hash }),
         Some(row) => Err(expected.malformed(format!(
             "row {row} (from 0) is {:?}, and coordinates are at most {COORDINATE_MAX} m",
             rows[row]
@@ -167,17 +166,18 @@ pub(crate) fn coordinates<const N: usize>(
 
 /// Reads the pressures of `vertex_count` vertices, in Pa, which the file `path` has in half
 /// precision.
-pub(crate) fn pressures(path: &Path, vertex_count: usize) -> Result<Vec<f64>, Error> {
+pub(crate) fn pressures(path: &Path, vertex_count: usize) -> Result<HashedRows<f64>, Error> {
     let expected = vertex_array(path, vertex_count, "<f2");
-    let rows = expected.read::<f16, 1>()?;
-    expected.check_pressures(rows.into_iter().flatten().map(f64::from).collect())
+    let HashedRows { rows, hash } = expected.read::<f16, 1>()?;
+    let rows = expected.check_pressures(rows.into_iter().flatten().map(f64::from).collect())?;
+    Ok(HashedRows { rows, hash })
 }
 
 /// Reads the pressures of `vertex_count` vertices, in Pa, which the file `path` has in double
 /// precision.
 pub(crate) fn exact_pressures(path: &Path, vertex_count: usize) -> Result<Vec<f64>, Error> {
     let expected = vertex_array(path, vertex_count, "<f8");
-    let rows = expected.read::<f64, 1>()?;
+    let HashedRows { rows, .. } = expected.read::<f64, 1>()?;
     expected.check_pressures(rows.into_iter().flatten().collect())
 }
 
@@ -194,5 +194,6 @@ fn vertex_array<'a>(
 /// with the number of vertices.
 pub(crate) fn corners(path: &Path, triangle_count: usize) -> Result<Vec<[u32; 3]>, Error> {
     let (what, row_count) = ("triangles", triangle_count);
-    ExpectedArray { path, what, row_count, number_type: "<u4" }.read()
+    let array = ExpectedArray { path, what, row_count, number_type: "<u4" }.read()?;
+    Ok(array.rows)
 }
