@@ -95,10 +95,7 @@ impl Store {
     fn write_file(&self, checkpoint: &Checkpoint, temporary: &Path, path: &Path) -> io::Result<()> {
         // An incomplete file is removed and created anew: if a link has its name, the file to which
         // the link leads stays as it is.
-        match fs::remove_file(temporary) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
+        remove_if_there(temporary)?;
         let mut writer = BufWriter::new(File::create_new(temporary)?);
         checkpoint.encode(&mut writer)?;
         writer.into_inner().map_err(|error| error.into_error())?.sync_all()?;
@@ -140,12 +137,7 @@ impl Store {
     pub fn clear(&self) -> Result<(), Error> {
         let files = self.files()?.into_iter().map(|file| file.path);
         for path in files.chain([self.folder.join(TEMPORARY)]) {
-            match fs::remove_file(&path) {
-                Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
-                    return Err(Error::Write { path, reason });
-                }
-                _ => {}
-            }
+            remove_if_there(&path).map_err(|reason| Error::Write { path, reason })?;
         }
         Ok(())
     }
@@ -190,6 +182,14 @@ fn checkpoint_number(path: &Path) -> Option<u32> {
     let digits = name.strip_prefix("checkpoint-")?.strip_suffix(".bin")?;
     let is_number = digits.len() >= 8 && digits.bytes().all(|digit| digit.is_ascii_digit());
     is_number.then(|| digits.parse().ok())?
+}
+
+/// Removes the file `path`, if there is one.
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// Makes the names of the files in `folder` outlast a loss of power.
