@@ -35,7 +35,7 @@ pub(crate) struct Scene {
     particles: usize,
     panels: Vec<(String, usize, usize)>,
     notes: Vec<String>,
-    /// Keys that it was made of; a text has none.
+    /// Keys of the specification that the scene was made of; a scene from a text has none.
     keys: Option<SceneKeys>,
     /// Working folder when it was made.
     working_folder: PathBuf,

@@ -393,7 +393,7 @@ fn two_bodies_of_one_name_are_refused() {
         read(&format!("{LEAST}{}{}{floor}", ball(name), ball(other).replace("-1, 0", "-2, 0")))
     };
     assert_eq!(scene("a", "b").unwrap().bodies.len(), 3);
-    // The second name is that of a body without one.
+    // A body that states no name is named by its kind and its number.
     for (name, other, two) in [("a", "a", "a"), ("a", "plane 1", "plane 1")] {
         let told = scene(name, other).unwrap_err().to_string();
         assert!(told.contains(&format!("there are two bodies \"{two}\"")), "{told}");

@@ -261,7 +261,7 @@ class Simulation:
     while it changes. An array that was given out never changes, and is read-only.
 
     One thread uses a simulation at a time; another one gets a `UsageError`. In a child of a fork it
-    goes on from where it was, apart from that of the parent. It cannot be pickled: its scene can.
+    goes on from where it was, apart from the parent's. A simulation cannot be pickled: its scene can.
     """
 
     def __init__(self, scene: Scene, *, threads: int | None = None) -> None:
